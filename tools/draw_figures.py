@@ -20,9 +20,8 @@ import packwork as pw
 from packwork.losses.image import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_posed
-from packwork.solve.ensemble import Ensemble
 from packwork.solve.options import SolveOptions
+from packwork.solve.outlines import Ensemble, seen_posed
 from packwork.solve.schedule import weights_at
 
 OUT = Path(__file__).parents[1] / "docs" / "pictures" / "figures"

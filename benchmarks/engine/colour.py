@@ -27,8 +27,7 @@ from packwork.raster.coverage import Rasteriser
 from packwork.scene.contrast import channels_of
 from packwork.scene.item import FlatArt
 from packwork.scene.swatch import mean_lights
-from packwork.solve.detail import seen_at
-from packwork.solve.ensemble import Ensemble
+from packwork.solve.outlines import Ensemble, seen_at
 
 COUNTS = (10, 100, 1_000)
 RESOLUTIONS = (200, 600, 1_200)

@@ -30,8 +30,8 @@ from packwork.arrays import FloatArray
 from packwork.losses.image import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
+from packwork.solve.outlines import seen_at
 
 WEIGHTS = {"containment": 5.0, "overlap": 5.0, "filling": 1.0, "evenness": 2.0}
 RESOLUTIONS = (50, 200, 600, 1_200, 2_400)

@@ -28,8 +28,8 @@ from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
+from packwork.solve.outlines import seen_at
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import solve
 from packwork.start.angles_and_sizes import nominal_scales, start_angles, yielding_scales

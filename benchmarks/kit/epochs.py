@@ -13,10 +13,10 @@ from benchmarks.kit.measuring import Timing, running_sum, timed
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
+from packwork.solve.outlines import seen_at
 from packwork.start.angles_and_sizes import nominal_scales
 from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions

@@ -24,11 +24,16 @@ import numpy as np
 
 from packwork import compiled, threads
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.kernels import distances, interior_point, outer_simplify, steps
-from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
+from packwork.compaction.kernels import (
+    broad_phase,
+    interior_point,
+    outer_simplify,
+    steps,
+)
+from packwork.compaction.kernels.contacts import rows_of
 from packwork.compaction.kernels.steps import Objective
-from packwork.compaction.kernels.trials import Rounds, Trial, attempt
-from packwork.fields.distance_transform import distance_to, parts_of
+from packwork.compaction.kernels.trials import Rounds, Trial, attempt, disjoint, room_for
+from packwork.fields.distance_transform import distance_to, label_components
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline, joined
@@ -48,16 +53,16 @@ KERNELS = 32
 """Kernels that all parts compile; a test counts them."""
 
 MODULES = (
+    "packwork.compaction.kernels.broad_phase",
+    "packwork.compaction.kernels.contacts",
     "packwork.compaction.kernels.distances",
     "packwork.compaction.kernels.interior_point",
-    "packwork.compaction.kernels.neighbourhoods",
     "packwork.compaction.kernels.outer_simplify",
     "packwork.compaction.kernels.steps",
     "packwork.compaction.kernels.trials",
     "packwork.fields._kernels",
     "packwork.geometry._kernels",
     "packwork.losses._kernels",
-    "packwork.raster.kernels.bounds",
     "packwork.raster.kernels.coverage",
     "packwork.raster.kernels.membership",
     "packwork.solve._kernels",
@@ -241,7 +246,7 @@ def pairs() -> None:
     """Pairs of near items, simpler outlines."""
     near = _arrangement()
     near.pairs(1.0)
-    distances.pairs_of(near.board.boxes, np.arange(1), 1.0)
+    broad_phase.pairs_of(near.board.boxes, np.arange(1), 1.0)
     steps.step_of(near.board, np.arange(1), np.zeros(4), 0.1)
     outer_simplify.simplify_outward(_square(1.0).rings[0], 0.01)
 
@@ -254,13 +259,13 @@ def images() -> None:
     find_unplaced(layout)
     covered = centre_count(*joined(layout.outlines), (8, 8)) > 0
     distance_to(covered)
-    parts_of(covered)
+    label_components(covered)
 
 
 def contacts() -> None:
     """Contacts, which keep items apart."""
     near = _arrangement()
-    steps.rows_of(near.board, np.arange(1), near.pairs(1.0), 0.1, 0.0, 0.01)
+    rows_of(near.board, np.arange(1), near.pairs(1.0), 0.1, 0.0, 0.01)
 
 
 def programmes() -> None:
@@ -292,7 +297,7 @@ def trials() -> None:
 def neighbourhoods() -> None:
     """Neighbourhoods: trials that may be made at once."""
     near = _arrangement()
-    distances.nearby(near.board.boxes, np.arange(1), 1.0)
+    broad_phase.nearby(near.board.boxes, np.arange(1), 1.0)
     moved, places = np.array([[0, -1]]), np.zeros((1, 2, 4))
     disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, room_for(1, 6, 1))
 

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 from typer.testing import Result
 
-from packwork.compaction.blocks import blocks
+from packwork.compaction.compact import blocks
 from packwork.threads import at_once, using
 
 Command = Callable[..., Result]

@@ -11,15 +11,12 @@ from hypothesis import given, settings
 from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.blocks import blocks
-from packwork.compaction.compact import compact
-from packwork.compaction.detail import Detail
+from packwork.compaction.arrangement import Arrangement, Detail
+from packwork.compaction.compact import blocks, compact
 from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH, RETURN_WEIGHT, Objective
 from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
 from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
-from packwork.compaction.relocate_stuck import relocate
-from packwork.compaction.separate import separate, separate_evenly
+from packwork.compaction.separate import relocate, separate, separate_evenly
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import union
 from packwork.readers.container import read_container
@@ -206,7 +203,7 @@ def test_an_item_without_a_void_stays() -> None:
     assert arrangement.places[1].tolist() == [2.0, 2.0, 0.5, 0.1]
 
 
-def worth(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
+def objective_value(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
     """Worth of items, less for those out of their bounds, as kernels count it."""
     growth = arrangement.places[items, 3]
     value = objective.weights[items] * np.exp(objective.power * growth)
@@ -229,11 +226,13 @@ def test_a_round_never_leaves_a_conflict_nor_loses_area(rng: np.random.Generator
     objective = free(arrangement, np.array([o.area for o in outlines])).objective(places[:, 3], 0.1)
     everyone = np.arange(count)
     for trust in (2.0, 0.5, 0.1):
-        before = worth(arrangement, objective, everyone)
+        before = objective_value(arrangement, objective, everyone)
         moved = compact(arrangement, objective, everyone, trust, GAP, HAIR)
         assert is_clean(arrangement)
         # What is cut to come clear is far less than what a step gains.
-        assert worth(arrangement, objective, everyone) > before - 0.05 * count or not moved
+        assert (
+            objective_value(arrangement, objective, everyone) > before - 0.05 * count or not moved
+        )
 
 
 def test_a_lone_square_fills_its_box() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.arrays import FloatArray
-from packwork.compaction.covers import Covers
+from packwork.compaction.outer_simplify import Covers
 from packwork.geometry.outline import Outline
 
 TOLERANCE = 0.02

@@ -6,7 +6,7 @@ import shapely
 from hypothesis import given, settings
 
 from packwork.compaction.arrangement import LEAST_STRIDE, Arrangement
-from packwork.compaction.kernels.distances import pairs_of
+from packwork.compaction.kernels.broad_phase import pairs_of
 from packwork.geometry.outline import Outline
 from scenes import box
 from strategies import SEEDS, generators

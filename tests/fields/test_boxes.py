@@ -7,7 +7,7 @@ import pytest
 
 from packwork.arrays import Image
 from packwork.errors import ShapeError
-from packwork.fields.boxes import box_mean
+from packwork.fields.filters import box_mean
 
 
 def slow_box_mean(image: Image, size: int) -> Image:

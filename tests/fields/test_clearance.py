@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.fields.clearance import Clearance, distance_inside
+from packwork.fields.distance_transform import distance_inside
+from packwork.fields.voids import Clearance
 from strategies import generators
 
 masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))

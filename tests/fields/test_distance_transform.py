@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as arrays
 from scipy import ndimage
 
 from packwork.arrays import BoolArray
-from packwork.fields.distance_transform import distance_to, nearest_to, parts_of
+from packwork.fields.distance_transform import distance_to, label_components, nearest_to
 from packwork.fields.morphology import eroded
 
 masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 14), st.integers(1, 14)))
@@ -44,7 +44,7 @@ def test_a_mask_may_lie_in_memory_as_it_likes() -> None:
 
 @given(mask=masks)
 def test_parts_are_those_of_scipy(mask: BoolArray) -> None:
-    labels, count = parts_of(mask)
+    labels, count = label_components(mask)
     np.testing.assert_array_equal(labels, ndimage.label(mask)[0])
     assert count == labels.max()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.fields.geodesic import lengthwise
+from packwork.fields.distance_transform import lengthwise
 
 
 def test_it_rises_along_a_bent_corridor() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork.fields.saliency import spectral_residual
+from packwork.fields.filters import spectral_residual
 
 
 def textured(shape: tuple[int, int] = (48, 64)) -> np.ndarray:

@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as arrays
 from scipy import ndimage
 
 from packwork.arrays import BoolArray
-from packwork.fields.skeleton import medial_axis
+from packwork.fields.morphology import medial_axis
 
 masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 14), st.integers(1, 14)))
 EIGHT = np.ones((3, 3))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.fields.clearance import Clearance
-from packwork.fields.voids import largest_voids
+from packwork.fields.voids import Clearance, largest_voids
 
 
 def _room(side: int = 40) -> Clearance:

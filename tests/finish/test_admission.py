@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.arrangement import find_conflicts
 from packwork.compaction.options import HAIR
-from packwork.finish.admission import admitted
+from packwork.finish.shrink import admitted
 from packwork.scene.pose import Poses
 from scenes import disc, poses, square, square_container, star
 

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from packwork.compaction.options import HAIR
-from packwork.finish.finish import finish
-from packwork.finish.finished import Finished
+from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import ExactMetrics, exact_metrics

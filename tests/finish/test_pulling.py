@@ -7,8 +7,8 @@ import pytest
 
 from packwork.compaction.objective import FreeSizes, SharedSize
 from packwork.finish.finish import finish
+from packwork.finish.objective import YIELDING, pulling_of
 from packwork.finish.options import FinishOptions
-from packwork.finish.pulling import YIELDING, pulling_of
 from packwork.forces.bonds import Alignment
 from packwork.forces.forces import NO_FORCES, BondForce, Forces
 from scenes import disc, poses, square, square_container, star

@@ -10,9 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray
-from packwork.fit.arcs import arc_fits, resampled
-from packwork.fit.knots import best_chain, closed_path
-from packwork.fit.shares import FEWEST, shared_curves
+from packwork.fit.fitted import FEWEST, shared_curves
+from packwork.fit.knots import arc_fits, best_chain, closed_path, resampled
 from strategies import generators
 
 

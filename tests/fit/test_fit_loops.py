@@ -7,8 +7,7 @@ import pytest
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.fit.chains import flattened, straight_chain
-from packwork.fit.loops import crossings, without_loops
+from packwork.fit.chains import crossings, flattened, straight_chain, without_loops
 
 SQUARE = straight_chain(np.array([[0, 0], [8, 0], [8, 8], [0, 8.0]]))
 

@@ -7,8 +7,7 @@ import pytest
 import shapely
 
 from numerics import assert_gradient
-from packwork.fit.descent import drawn_to
-from packwork.fit.mismatch import Mismatch
+from packwork.fit.descent import Mismatch, drawn_to
 from packwork.geometry.outline import Outline
 
 STAR = Outline.from_region(

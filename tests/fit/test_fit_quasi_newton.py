@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from packwork.arrays import FloatArray
-from packwork.fit.quasi_newton import lowest
+from packwork.fit.descent import lowest
 from strategies import generators
 
 

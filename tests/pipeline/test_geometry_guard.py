@@ -9,7 +9,7 @@ import pytest
 from shapely.errors import GEOSException
 
 import packwork as pw
-from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.arrangement import find_conflicts
 from packwork.compaction.outer_simplify import inner_simplified
 from packwork.errors import ReadError
 from packwork.geometry.outline import Outline

@@ -16,7 +16,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.polygon import signed_area
 from packwork.raster.colour import MAX_CHANNELS, ColourImage
 from packwork.raster.coverage import BANDS, Rasteriser
-from packwork.solve.ensemble import Ensemble
+from packwork.solve.outlines import Ensemble
 from raster_reference import colour_image
 from scenes import disc, poses, star
 from strategies import POLYGONS, SHAPES, generators, joined, lattice_rings, ring_sets

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from numerics import box_mean
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.raster.coverage import Rasteriser
-from packwork.raster.pyramid import image_shape, region_image
+from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from strategies import star_rings
 
 

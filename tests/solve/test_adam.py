@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork.solve.adam import STILLNESS, Adam
+from packwork.solve.motion import STILLNESS, Adam
 
 
 def test_first_step_is_as_long_as_the_rate_whatever_the_gradient() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.outline import Outline
-from packwork.solve.detail import CLEFT_PX, DETAIL_PX, MARGIN_RUNGS, seen_at
+from packwork.solve.outlines import CLEFT_PX, DETAIL_PX, MARGIN_RUNGS, seen_at
 from scenes import box, disc, square
 
 

@@ -8,7 +8,7 @@ import pytest
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.solve.ensemble import Ensemble
+from packwork.solve.outlines import Ensemble
 from scenes import as_array, box, disc, from_array, placed, poses, square, star
 
 PX_PER_CU = 0.75

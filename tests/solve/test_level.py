@@ -17,13 +17,12 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.losses.image import containment, evenness, filling, overlap
 from packwork.losses.term import ImageLoss, Term
-from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
-from packwork.raster.pyramid import region_image
+from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback, region_image
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits, Zone
 from packwork.scene.pose import Poses
-from packwork.solve.ensemble import Ensemble
 from packwork.solve.level import Level
+from packwork.solve.outlines import Ensemble
 from scenes import (
     as_array,
     disc,

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.solve import pace as module
+from packwork.solve import schedule as module
 from packwork.solve.options import SolveOptions
-from packwork.solve.pace import EpochPace, TimePace, pace_of
+from packwork.solve.schedule import EpochPace, TimePace, pace_of
 
 
 @given(per_level=st.lists(st.integers(0, 9), min_size=1, max_size=5).filter(any))

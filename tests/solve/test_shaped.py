@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.affine import stretched
-from packwork.solve.detail import DETAIL_PX, seen_at, seen_posed
+from packwork.solve.outlines import DETAIL_PX, seen_at, seen_posed
 from scenes import disc, placed, poses, square, star
 
 

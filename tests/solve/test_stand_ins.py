@@ -6,8 +6,8 @@ import pytest
 
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull
-from packwork.solve import stand_ins as module
-from packwork.solve.stand_ins import stand_ins
+from packwork.solve import outlines as module
+from packwork.solve.outlines import stand_ins
 from scenes import disc, square, star
 
 

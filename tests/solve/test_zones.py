@@ -12,11 +12,11 @@ import shapely
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.scene.limits import Limits, Zone
+from packwork.solve.free_space import ZonePull
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions
 from packwork.solve.relocate_trapped import relocate_trapped, violation_shares
 from packwork.solve.solver import solve
-from packwork.solve.zones import ZonePull
 from scenes import (
     as_array,
     box,

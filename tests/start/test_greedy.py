@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.fields.clearance import Clearance
+from packwork.fields.voids import Clearance
 from packwork.start.places import JITTER, place_discs
 
 

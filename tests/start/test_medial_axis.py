@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.arrays import FloatArray
-from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_inside
 from packwork.start.places import medial_axis
 
 

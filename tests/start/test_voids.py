@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.start.voids import SECTORS, copies_for_voids, fitted, free_rays, void_centres

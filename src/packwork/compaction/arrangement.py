@@ -1,20 +1,31 @@
-"""Polygons in place: items and container in one array of points, and where the items are now."""
+"""Polygons in place: items and container in one array of points, and where the items are now.
+
+Rounds work on outlines that are simplified to a tolerance (:class:`Detail`); conflicts of a layout
+are found by the true ones.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.kernels import distances
+from packwork.compaction.kernels import broad_phase, distances
+from packwork.compaction.outer_simplify import Covers, inner_simplified
+from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, intersection, part_about
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
 
 LEAST_STRIDE = 32
 """Successive edges of the container that share a box, at least; of many, their square root, so that
 there are as many boxes as edges in each. Larger looks at more edges, smaller at more boxes.
 Tried."""
+
 
 PAIRS_PER_ITEM = 16
 """Room for near pairs at first; more are counted and then looked for again."""
@@ -79,14 +90,14 @@ class Arrangement:
         distances.put(self.board, items, np.ascontiguousarray(places))
 
     def pairs(self, reach: float) -> IntArray:
-        """``(k, 2)`` solids whose boxes are within ``reach``; each item with the container."""
+        """``(k, 2)`` polygons whose boxes are within ``reach``; each item with the container."""
         boxes = self.board.boxes[:-1]
         order = np.argsort(boxes[:, 0], kind="stable")
         found = np.empty((PAIRS_PER_ITEM * (self.count + 1), 2), dtype=np.int64)
-        count = distances.near_pairs(boxes, order, reach, found)
+        count = broad_phase.near_pairs(boxes, order, reach, found)
         if count > len(found):
             found = np.empty((count, 2), dtype=np.int64)
-            distances.near_pairs(boxes, order, reach, found)
+            broad_phase.near_pairs(boxes, order, reach, found)
         wall = np.column_stack([np.arange(self.count), np.full(self.count, self.count)])
         return np.concatenate([found[:count], wall])
 
@@ -133,3 +144,142 @@ def _neighbours(outlines: Sequence[Outline]) -> tuple[IntArray, IntArray]:
     before = np.arange(-1, starts[-1] - 1)
     before[starts[:-1]] = starts[1:] - 1
     return after, before
+
+
+COARSE, FINE = 4e-3, 3e-4
+"""Tolerance of the outlines that rounds work on, shares of an item's extent: first and
+last. Larger is faster and wastes room (the fine one 0.1 % of the coverage). Tried."""
+
+
+FINE_OF_GAP, COARSE_OF_GAP, ROUGHEST = 0.003, 0.015, 0.1
+"""Tolerances of outlines as shares of the gap, where items are so small beside it that this is
+more than they have anyway: every edge of theirs is then near every other. And the largest share
+of an item's extent. Larger wastes room, smaller takes minutes where the padding is as wide as the
+items. Tried."""
+
+
+class Detail:
+    """Covers of the outlines at one tolerance, finer ones inside coarser ones.
+
+    Parameters
+    ----------
+    outlines
+        One per item, item units; copies are simplified once.
+    container
+        In canvas units.
+    poses
+        First poses: their scales, angles and stretches are taken in.
+    """
+
+    def __init__(self, outlines: Sequence[Outline], container: Outline, poses: Poses) -> None:
+        self._outlines, self._container, self._poses = outlines, container, poses
+
+    def tolerance(self, least: float, distance_cu: float) -> float:
+        """A distance in shares of the usual item's extent; no less than ``least``.
+
+        Examples
+        --------
+        >>> one = np.ones(1)
+        >>> tile = Outline.from_rings([np.array([[0.0, 0], [9, 0], [9, 9], [0, 9]])])
+        >>> detail = Detail([tile], tile, Poses(one, one, one, 2 * one))
+        >>> detail.tolerance(1e-3, 0.9), detail.tolerance(1e-3, 1e-3)
+        (0.05, 0.001)
+        """
+        extents = [outline.extent for outline in self._outlines] * self._poses.scale
+        return float(np.clip(distance_cu / np.median(extents), least, max(least, ROUGHEST)))
+
+    def covers(self, tolerance: float, stop: Callable[[], bool] = bool) -> Detail:
+        """The same with fewer vertices: ``tolerance`` in shares of each item's extent.
+
+        Itself once ``stop``, asked before each, says so: hundreds of words take seconds.
+        """
+        known: dict[Outline, Outline] = {}
+        covers = Covers()
+        for outline in self._outlines:
+            if outline not in known:
+                if stop():
+                    return self
+                known[outline] = covers.cover_of_shape(outline, tolerance)
+        outlines = [known[outline] for outline in self._outlines]
+        sizes = [outline.extent for outline in self._outlines] * self._poses.scale
+        slack = tolerance * float(np.median(sizes))
+        container = Outline.from_region(inner_simplified(self._container.region, slack))
+        return Detail(outlines, container, self._poses)
+
+    def subset(self, items: IntArray, poses: Poses) -> Detail:
+        """The same of items ``(m,)``, by their indices: of the same sizes, in other poses."""
+        return Detail([self._outlines[int(k)] for k in items], self._container, poses.subset(items))
+
+    def arrangement(self, places: FloatArray) -> Arrangement:
+        """Outlines in place: ``(n, 4)`` x, y, turn and growth against the first poses."""
+        own = []
+        for k, outline in enumerate(self._outlines):
+            matrix = self._poses.matrix(k).copy()
+            matrix[:, 2] = 0.0
+            own.append(outline.mapped(matrix))
+        return Arrangement(own, self._container, places)
+
+
+ROUNDING = 1e-9
+"""Share of the gap that rounding may take. Derived: coordinates are good to 1e-16 of the
+canvas, the smallest gap is 1e-5 of it."""
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """An item in conflict with another one, or with the container if ``other`` is None.
+
+    Parameters
+    ----------
+    overlap_cu2
+        Area that they share, or that lies outside the container.
+    gap_cu
+        Their distance if they share none.
+    """
+
+    item: int
+    other: int | None
+    overlap_cu2: float
+    gap_cu: float
+
+    def numbered(self, items: IntArray) -> Conflict:
+        """The same where items are called by the numbers ``(n,)`` given."""
+        other = None if self.other is None else int(items[self.other])
+        return replace(self, item=int(items[self.item]), other=other)
+
+
+def find_conflicts(
+    container: Container, outlines: Sequence[Outline], poses: Poses, gap: float
+) -> tuple[Conflict, ...]:
+    """Pairs nearer than ``gap``, and items nearer to the container's edge or beyond it.
+
+    Examples
+    --------
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]]))
+    >>> poses = Poses(np.array([4.0, 5.5]), np.full(2, 5.0), np.zeros(2), np.ones(2))
+    >>> found = find_conflicts(Container("", "", wall, 10, 10), [box] * 2, poses, 0.1)
+    >>> [(o.item, o.other, o.overlap_cu2) for o in found]
+    [(0, 1, 1.0)]
+    """
+    if len(outlines) == 0:
+        return ()
+    zero = np.zeros(len(poses))
+    places = np.column_stack([poses.x, poses.y, zero, zero])
+    arrangement = Detail(outlines, container.outline, poses).arrangement(places)
+    bad = arrangement.conflicts(arrangement.pairs(gap), gap * (1 - ROUNDING))
+    return tuple(_conflict(container, outlines, poses, int(i), int(j), gap) for i, j in bad)
+
+
+def _conflict(
+    container: Container, outlines: Sequence[Outline], poses: Poses, i: int, j: int, gap: float
+) -> Conflict:
+    first = outlines[i].mapped(poses.matrix(i)).region
+    if j == len(outlines):
+        # What is nearer than asked lies within that gap.
+        near = part_about(container.outline.region, first, gap)
+        outside = float(difference(first, near).area)
+        return Conflict(i, None, outside, 0.0 if outside > 0 else distance(near.boundary, first))
+    second = outlines[j].mapped(poses.matrix(j)).region
+    shared = float(intersection(first, second).area)
+    return Conflict(i, j, shared, distance(first, second))

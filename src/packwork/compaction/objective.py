@@ -29,7 +29,7 @@ MOST_URGENT = 4.0
 """Bound of that logarithm, about the median item. Chosen."""
 
 MOST_EXPONENT = 300.0
-"""Largest exponent that worths may have: float64 ends at 709. Derived."""
+"""Largest exponent that weights may have: float64 ends at 709. Derived."""
 
 OVERSHOOT = 1e-4
 """Logarithm of size by which items may exceed a fixed size, so that they reach it. Far
@@ -95,9 +95,9 @@ class FreeSizes(Sizing):
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
         """Objective at growths ``(n,)``, logarithms: the same in all rounds."""
-        worths = AREA_POWER * self.areas
+        weights = AREA_POWER * self.areas
         still = np.zeros((len(growth), 2))
-        return Objective(self.smallest, self.largest, *self.turns, worths, AREA_POWER, still)
+        return Objective(self.smallest, self.largest, *self.turns, weights, AREA_POWER, still)
 
     def laggards(self, growth: FloatArray) -> IntArray:
         """Indices of items whose growths ``(n,)`` are below their smallest size."""
@@ -122,8 +122,8 @@ class CommonSize(Sizing):
         behind = power * (growth - np.median(growth))
         value = np.exp(np.clip(behind, -MOST_URGENT, MOST_URGENT))
         smallest = np.full_like(growth, LEAST_GROWTH)
-        worths, still = value * np.exp(-power * growth), np.zeros((len(growth), 2))
-        return Objective(smallest, largest, *self.turns, worths, power, still)
+        weights, still = value * np.exp(-power * growth), np.zeros((len(growth), 2))
+        return Objective(smallest, largest, *self.turns, weights, power, still)
 
 
 @final

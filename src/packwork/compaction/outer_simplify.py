@@ -2,7 +2,7 @@
 
 Vertices go one by one, the cheapest first, as in M. Visvalingam and J. Whyatt, "Line
 generalisation by repeated elimination of points", The Cartographic Journal 30 (1993), 46-51. Ours
-drops only vertices of bays, and edges by prolonging their neighbours, so that the solid grows and
+drops only vertices of bays, and edges by prolonging their neighbours, so that the polygon grows and
 never shrinks; the cost is a distance, not an area. A plain simplification (D. Douglas and
 T. Peucker, "Algorithms for the reduction of the number of points required to represent a
 digitized line or its caricature", Cartographica 10 (1973), 112-122) with a margin comes first.
@@ -10,11 +10,16 @@ digitized line or its caricature", Cartographica 10 (1973), 112-122) with a marg
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from typing import TypeAlias
 
+import numpy as np
 import shapely
 
+from packwork.arrays import FloatArray
 from packwork.compaction.kernels.outer_simplify import simplify_outward
+from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import (
     Region,
@@ -31,25 +36,31 @@ MARGIN = 0.1
 that makes up for it. Larger gives fewer vertices to the second step and more excess.
 Tried."""
 
+
 MITRE_LIMIT = 4.0
 """How far a sharp corner of that margin may stand out, in margins. Larger keeps needles
 sharp but longer; smaller cuts them with an edge more. Chosen."""
+
 
 MANY_VERTICES = 50_000
 """Vertices of a container above which it is simplified plainly and shrunk by as much: 1 s in place
 of 5 s, and a quarter of a percent less room, for a spiral of 270,000. Tried."""
 
+
 FINER = 0.01
 """Tolerance, as a share of the mean edge, below which such a container stays as it is: hardly a
 vertex would go. Larger leaves vertices, smaller looks for them for nothing. Chosen."""
+
 
 MANY_PARTS = 500
 """Parts of a container above which those of few vertices stay as they are, and the others are
 simplified one by one: 5,000 hairs take a hundredth of a second in place of ten. Chosen."""
 
+
 PLAIN = 8
 """Coordinates of a ring, the first once more, up to which it has no vertex to spare. Larger leaves
 more vertices, smaller looks at more rings for nothing. Chosen."""
+
 
 MARGINS = (1.0, 1.5, 2.25)
 """Margins tried in turn, simplification's tolerances: GEOS may drop the vertex at which a
@@ -133,3 +144,96 @@ def _each_inner_simplified(parts: Sequence[Region], tolerance: float) -> Region:
         is_plain = shapely.get_num_coordinates(part) <= PLAIN
         kept += polygon_parts(part if is_plain else inner_simplified(part, tolerance))
     return shapely.MultiPolygon(kept)
+
+
+ALIKE = 1e-6
+"""Difference of coordinates, in tolerances, up to which two rings are one shape. Smaller takes for
+two what rounding has moved; larger would be seen in the gaps. Chosen."""
+
+
+STEPS = 2
+"""Tolerances of parts for each factor of 2, rounded down to them. More keep nearer to what was
+asked and find less that recurs. Chosen."""
+
+
+_Shape: TypeAlias = tuple[bytes, bytes]
+"""Starts and points of an outline of extent 1, in parts of the tolerance."""
+
+
+_Key: TypeAlias = tuple[int | bytes, ...]
+"""Number of a tolerance, and the rings of a part about its first vertex."""
+
+
+class Covers:
+    """Outer simplifications that remember parts.
+
+    Examples
+    --------
+    >>> tile = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.01], [0, 4]])
+    >>> covers = Covers()
+    >>> two = covers.cover(Outline.from_rings([tile, tile + (9, 0)]), 0.1)
+    >>> len(covers.known), len(two.rings), bool(two.region.covers(shapely.Polygon(tile)))
+    (1, 2, True)
+    """
+
+    def __init__(self) -> None:
+        self.known: dict[_Key, list[FloatArray]] = {}
+        """Rings of the covers of parts, about the part's first vertex."""
+        self._scaled: dict[_Shape, tuple[float, Outline]] = {}
+
+    def cover_of_shape(self, outline: Outline, tolerance: float) -> Outline:
+        """Cover of an outline, ``tolerance`` in its extents; what differs in size is made once.
+
+        Always called with one tolerance.
+
+        Examples
+        --------
+        >>> tile = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.01], [0, 4]])
+        >>> one, two = (Outline.from_rings([size * tile]) for size in (1, 3))
+        >>> covers = Covers()
+        >>> small, large = covers.cover_of_shape(one, 0.02), covers.cover_of_shape(two, 0.02)
+        >>> bool(np.allclose(3 * small.points, large.points)), large.region.covers(two.region)
+        (True, True)
+        """
+        extent = outline.extent
+        if tolerance <= 0:
+            return self.cover(outline, tolerance)
+        shape = np.rint(outline.points / (ALIKE * tolerance * extent)).astype(np.int64)
+        key = outline.starts.tobytes(), shape.tobytes()
+        if key not in self._scaled:
+            self._scaled[key] = extent, self.cover(outline, tolerance * extent)
+        first, cover = self._scaled[key]
+        # There and back would move vertices by a rounding.
+        return cover if extent == first else cover.mapped(similarity(0.0, 0.0, 0.0, extent / first))
+
+    def cover(self, outline: Outline, tolerance: float) -> Outline:
+        """Outline with fewer vertices that holds all of ``outline``; as ``outer_simplified``."""
+        if len(outline.rings) > 1 and tolerance > 0:
+            parts = [self._part(rings, tolerance) for rings in outline.parts]
+            if _are_apart(parts):
+                return Outline.from_rings([ring for part in parts for ring in part])
+        return Outline.from_region(outer_simplified(outline.region, tolerance))
+
+    def _part(self, rings: Sequence[FloatArray], tolerance: float) -> list[FloatArray]:
+        """Rings of the cover of one part: its own ring, then those of its holes."""
+        level = math.floor(STEPS * math.log2(tolerance))
+        tolerance = 2.0 ** (level / STEPS)
+        first = rings[0][0]
+        about = [ring - first for ring in rings]
+        alike = (np.rint(ring / (ALIKE * tolerance)).astype(np.int64).tobytes() for ring in about)
+        key = level, *alike
+        if key not in self.known:
+            cover = outer_simplified(shapely.Polygon(about[0], about[1:]), tolerance)
+            self.known[key] = Outline.from_region(cover).rings
+        return [one + first for one in self.known[key]]
+
+
+def _are_apart(parts: list[list[FloatArray]]) -> bool:
+    """Whether parts do not meet."""
+    low = np.array([part[0].min(axis=0) for part in parts])
+    high = np.array([part[0].max(axis=0) for part in parts])
+    meets = ((low[:, None] <= high) & (low <= high[:, None])).all(axis=2)
+    if np.count_nonzero(meets) == len(parts):
+        return True
+    polygons = [shapely.Polygon(part[0], part[1:]) for part in parts]
+    return bool(shapely.MultiPolygon(polygons).is_valid)

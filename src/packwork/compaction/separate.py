@@ -2,7 +2,10 @@
 
 Z. Li and V. Milenkovic (1995, see :mod:`packwork.compaction`) separate overlapping polygons of
 fixed sizes by the least motion. Ours shrinks items in conflict a little at a time, so that none
-has to move, and relocates those that would become too small; compaction lets them grow again.
+has to move, and relocates those that would become too small to the largest voids; compaction lets
+them grow again. The centre of a void is that of the largest empty circle (G. Toussaint, "Computing
+largest empty circles with location constraints", International Journal of Computer and Information
+Sciences 12 (1983), 347-358), read from a distance transform and not from a Voronoi diagram.
 """
 
 from __future__ import annotations
@@ -11,37 +14,45 @@ from collections.abc import Callable
 
 import numpy as np
 
-from packwork.arrays import BoolArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import LEAST_GROWTH
 from packwork.compaction.options import HOPELESS
-from packwork.compaction.relocate_stuck import relocate
+from packwork.fields.voids import Clearance, largest_voids
+from packwork.raster.coverage import coverage
 
 CUT = 0.004
 """Logarithm of size that an item in conflict loses at a time. Larger gives room away,
 smaller needs more checks. Tried."""
 
+
 HURRIED_CUT, HURRY = 0.05, 2.0
 """The same once a run is to stop, and by how much it grows with each check from then on: checks of
 hundreds of words in a coast take a second each. Chosen."""
+
 
 PATIENT, HASTE = 150, 1.03
 """Checks after which that loss grows with each check, and by how much, so that even hopeless
 layouts come to an end. Chosen."""
 
+
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""
 
+
 RESCUES = 2
 """Times that items which are still in conflict then are moved to voids. Chosen."""
+
 
 HOPELESS_SHARE = 0.1
 """Share of the items that may be in conflict all the same and the finish go on: single ones may
 lie where nothing fits. Larger goes on without hope, smaller gives up too early. Chosen."""
 
+
 EVENINGS = 6
 """Times that all come down to the smallest: an item that is smaller is in no new conflict but where
 its origin lies off its outline. Tried: more gain nothing."""
+
 
 EVEN = 1e-6
 """Logarithm of size within which all are alike. Chosen."""
@@ -167,3 +178,72 @@ def _smaller_of(bad: IntArray, worn: BoolArray, arrangement: Arrangement) -> Int
     bad = bad[worn[bad].any(axis=1)]
     smaller = np.where(radii[bad[:, 0]] <= radii[bad[:, 1]], bad[:, 0], bad[:, 1])
     return np.unique(smaller)
+
+
+PIXELS_PER_ITEM = 24.0
+"""Pixels of the image of voids along the side of an item's share of the container. More
+sees smaller voids and takes longer. Tried."""
+
+
+ACROSS = 4.0
+"""Pixels of that image across the container's mean thickness, at least: a spiral of thin lines has
+no room at all on a coarse one. Larger takes longer. Chosen."""
+
+
+LEAST_SIDE, MOST_SIDE = 128, 2_048
+"""Bounds of that image's longer side, px. Chosen."""
+
+
+SNUG = 0.9
+"""Radius of an item in a void over the void's. Larger may not fit, smaller has farther to
+grow. Chosen."""
+
+
+FAINT = 1e-3
+"""Coverage of a pixel that counts as none. Chosen."""
+
+
+SMALLEST_VOID = 0.5
+"""Radius of the smallest void that takes an item, px: below it the image is not to be
+believed. Chosen."""
+
+
+def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
+    """Move items ``(m,)``, the largest first, to the largest voids; smaller, never larger.
+
+    An item for which there is no room stays where it is.
+    """
+    others = np.setdiff1d(np.arange(arrangement.count), items)
+    room, px_per_cu, corner = free_room(arrangement, others)
+    order = items[np.argsort(-arrangement.radii[items], kind="stable")]
+
+    def fitting(radius: float) -> float:
+        return max(SNUG * radius / px_per_cu - gap, SNUG * SMALLEST_VOID / px_per_cu)
+
+    for k, x, y, radius in largest_voids(
+        room, order, lambda _, radius: fitting(radius) * px_per_cu, least_px=SMALLEST_VOID
+    ):
+        _, _, turn, growth = arrangement.places[k]
+        growth = min(growth, float(np.log(fitting(radius) / arrangement.board.arms[k])))
+        place = [corner[0] + x / px_per_cu, corner[1] + y / px_per_cu, turn, growth]
+        arrangement.put(np.array([k]), np.array([place]))
+
+
+def free_room(
+    arrangement: Arrangement, items: IntArray
+) -> tuple[Clearance, float, tuple[float, float]]:
+    """Free room beside ``items`` ``(m,)`` alone; px per canvas unit; the image's corner."""
+    left, top, right, bottom = arrangement.container.bounds
+    side = max(right - left, bottom - top)
+    thickness = 2 * arrangement.container.area / arrangement.container.region.length
+    wanted = max(PIXELS_PER_ITEM * np.sqrt(arrangement.count), ACROSS * side / thickness)
+    px_per_cu = float(np.clip(wanted, LEAST_SIDE, MOST_SIDE)) / side
+    shape = int((bottom - top) * px_per_cu) + 2, int((right - left) * px_per_cu) + 2
+    corner = np.array([left, top])
+
+    def image(points: FloatArray, starts: IntArray) -> Image:
+        return coverage((points - corner) * px_per_cu, starts, shape, np.float32)
+
+    inside = image(arrangement.container.points, arrangement.container.starts)
+    taken = image(*arrangement.rings(items)) if len(items) else np.zeros(shape)
+    return Clearance((inside > 1 - FAINT) & (taken < FAINT)), px_per_cu, (left, top)

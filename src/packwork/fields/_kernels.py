@@ -137,7 +137,7 @@ def _is_hidden(left, middle, right, away):
 
 
 @kernel
-def label_parts(mask, labels):
+def label_components(mask, labels):
     """Number the parts of a mask from 1 on, in ``labels``, all 0 before; pixels join by sides.
 
     Returns

@@ -1,8 +1,9 @@
-"""Relocation into voids: the largest empty circle for each item in turn, which the item takes.
+"""Voids: the largest empty circle about each pixel, and relocation of items into the largest.
 
-The one loop of everything that is put where there is most room: discs of a start, trapped items
-between levels, items that separation finds no place for, bottlenecks of a finish. (Fillers, which
-go into many voids at once at the turn that fits, look at all maxima: ``start/voids.py``.)
+From a Euclidean distance transform; after each disc only a window round it is updated. This is the
+one loop of everything that is put where there is most room: discs of a start, trapped items between
+levels, items that separation finds no place for, bottlenecks of a finish. (Fillers, which go into
+many voids at once at the turn that fits, look at all maxima: ``start/voids.py``.)
 """
 
 from __future__ import annotations
@@ -12,8 +13,74 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.arrays import IntArray
-from packwork.fields.clearance import Clearance
+from packwork.arrays import BoolArray, IntArray
+from packwork.fields.distance_transform import distance_inside
+
+
+class Clearance:
+    """Radius of the largest free disc about each pixel's centre.
+
+    Parameters
+    ----------
+    free
+        ``(rows, columns)``, True where there is room.
+
+    Examples
+    --------
+    >>> room = Clearance(np.ones((9, 9), dtype=bool))
+    >>> room.largest()
+    (4.5, 4.5, 4.5)
+    >>> room.occupy(4.5, 4.5, 3.0)
+    >>> room.largest()[2] < 4.5
+    True
+    """
+
+    def __init__(self, free: BoolArray) -> None:
+        self._free = free
+        self._radius = distance_inside(free)
+        self._radius[~free] = -np.inf
+        self._largest: tuple[float, float, float] | None = None
+
+    def largest(self) -> tuple[float, float, float]:
+        """Pixel coordinates ``(x, y)`` of the roomiest place and its radius (may be < 0)."""
+        if self._largest is None:
+            row, column = divmod(int(np.argmax(self._radius)), self._radius.shape[1])
+            self._largest = column + 0.5, row + 0.5, float(self._radius[row, column])
+        return self._largest
+
+    def largest_among(self, pixels: IntArray) -> tuple[float, float, float]:
+        """Like :meth:`largest`, of some pixels only.
+
+        Parameters
+        ----------
+        pixels
+            ``(n,)``, n > 0: ``row * columns + column`` of each.
+
+        Examples
+        --------
+        >>> Clearance(np.ones((3, 9), dtype=bool)).largest_among(np.array([9, 10]))
+        (1.5, 1.5, 1.5)
+        """
+        radii = self._radius.ravel()[pixels]
+        best = int(np.argmax(radii))
+        row, column = divmod(int(pixels[best]), self._radius.shape[1])
+        return column + 0.5, row + 0.5, float(radii[best])
+
+    def occupy(self, x: float, y: float, radius: float) -> None:
+        """Take a disc away; only the pixels it can concern are looked at."""
+        room = max(self.largest()[2], 0.0)
+        reach = radius + room + 1
+        rows, columns = self._radius.shape
+        top, bottom = max(int(y - reach), 0), min(int(y + reach) + 1, rows)
+        left, right = max(int(x - reach), 0), min(int(x + reach) + 1, columns)
+        if top >= bottom or left >= right:
+            return
+        away = np.hypot(
+            np.arange(left, right)[None, :] + 0.5 - x, np.arange(top, bottom)[:, None] + 0.5 - y
+        )
+        window = self._radius[top:bottom, left:right]
+        np.minimum(window, away - radius, out=window)
+        self._largest = None
 
 
 class Void(NamedTuple):

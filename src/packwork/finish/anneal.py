@@ -20,10 +20,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.compact import compact_all
-from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
 from packwork.compaction.kernels.steps import TRAVEL, Objective
-from packwork.compaction.kernels.trials import Rounds, Trial, attempt
+from packwork.compaction.kernels.trials import Rounds, Trial, attempt, disjoint, room_for
 from packwork.compaction.objective import AREA_POWER
+from packwork.finish.objective import Pulling
 from packwork.finish.proposals import (
     EXCHANGES,
     Proposal,
@@ -33,7 +33,6 @@ from packwork.finish.proposals import (
     pools_of,
     proposed,
 )
-from packwork.finish.pulling import Pulling
 from packwork.progress import Stop, never
 from packwork.threads import at_once
 

@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.kernels.trials import Rounds, Trial
-from packwork.compaction.relocate_stuck import free_room
+from packwork.compaction.separate import free_room
 from packwork.fields.voids import largest_voids
 from packwork.finish.anneal import ANGLE_TRUST, Lengths, made
 from packwork.finish.proposals import ANGLES, at_angles

@@ -4,27 +4,31 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.compaction.arrangement import (
+    COARSE,
+    COARSE_OF_GAP,
+    FINE,
+    FINE_OF_GAP,
+    Conflict,
+    Detail,
+    find_conflicts,
+)
 from packwork.compaction.compact import compact_all
-from packwork.compaction.conflicts import find_conflicts
-from packwork.compaction.detail import COARSE, COARSE_OF_GAP, FINE, FINE_OF_GAP, Detail
 from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
 from packwork.compaction.objective import SharedSize, turn_ranges
 from packwork.compaction.options import HAIR
-from packwork.compaction.relocate_stuck import relocate
-from packwork.compaction.separate import relocate_stuck, separate, separate_evenly
+from packwork.compaction.separate import relocate, relocate_stuck, separate, separate_evenly
 from packwork.finish import bottlenecks
 from packwork.finish.anneal import Lengths, anneal
-from packwork.finish.finished import Finished
+from packwork.finish.objective import pulling_of, sizing_of
 from packwork.finish.options import FinishOptions
 from packwork.finish.proposals import EXCHANGES
-from packwork.finish.pulling import pulling_of
-from packwork.finish.sizing import sizing_of
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import NOBODY, Observer, Step, Stop, never
@@ -36,56 +40,86 @@ FIRST_TRUST, LAST_TRUST = 0.08, 0.003
 the container. A larger first one lets items pass each other and fails more checks, a
 smaller last one gains what is not seen. Tried."""
 
+
 SPARSE = 16.0
 """Side of an item's share of the container, in radii of the usual item, above which steps go by
-the items: in a spiral of thin lines a share is a hundred turns wide. Larger looks at thousands of
-edges that no item comes near, smaller lets small items in a large container move little. Chosen:
-in fills it is 1 to 3."""
+the items. Larger looks at thousands of edges that no item comes near, smaller lets small items in
+a large container move little. Chosen: in fills it is 1 to 3."""
+
 
 REFINING_TRUST = 0.03
 """The same of the first round where a clean layout is refined. Larger moves what lies well,
 smaller gains less. Tried."""
 
+
 COMMON_COARSE = 1.5e-3
-"""The first tolerance where sizes are common: one growth for all does not get back what a
-coarse one takes. Tried: 0.3 % of the coverage in a fifth more time."""
+"""The first tolerance where sizes are common, of which a coarse one takes too much. Tried."""
+
 
 COARSE_SHARE = 0.6
 """Share of the rounds that work on coarse outlines. Tried."""
+
 
 ANNEAL_SPREAD = 0.03
 """Logarithm of size within which trials weigh the smaller items more, where sizes are
 common. Tried."""
 
+
 EASY_POINTS = 70.0
-"""Points of the mean outline up to which all trials are made; of richer ones fewer, as each
-takes longer. Larger spends more on words than they gain. Tried."""
+"""Points of the mean outline up to which all trials are made; of richer ones fewer. Tried."""
+
 
 COMMON_ROUNDS = 3
 """Times as many rounds where sizes are common and the layout is not clean yet: growth must get
-round from loose to tight places. Tried: of clean ones as much ink with 15 rounds as with 72."""
+round from loose to tight places. Tried."""
+
 
 LEVELLING_TRUST = (0.0006, 0.01)
 """Smallest and largest trust region, as above, of the last rounds where sizes are shared,
-in which all come down to the smallest. A larger one asks for more at a time than a full
-layout grants, and nothing moves. Tried."""
+in which all come down to the smallest. Larger than a full layout grants moves nothing. Tried."""
+
 
 LEVELLING_ROUNDS = 60
 """Such rounds at most; they end when they gain nothing. Chosen."""
+
 
 LEVELLING_ROOM = 1.5
 """Trust region of such a round over what the largest item has to come down. Larger lets
 items move about for nothing, smaller leaves them too large. Chosen."""
 
+
 RESCUES = 3
 """Times that items which stay behind are moved to voids. Chosen."""
+
 
 BACK = (0.0, 0.0, 1e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3)
 """Logarithms of size given back in turn until one common size has no conflict. Chosen."""
 
+
 TOLD = 10
-"""How often the trials are told of, for each trial of an item: what they turn and exchange is
-then seen on its way. More take longer to tell. Chosen."""
+"""How often observers are told of trials, for each trial of an item. More take longer. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Finished:
+    """Result of a finish.
+
+    Parameters
+    ----------
+    clean
+        Whether no two items, and no item and the edge, are nearer than was asked.
+    undersized
+        Items that found no room at the size that they should have at least.
+    rounds
+        Linear programmes for each item.
+    """
+
+    poses: Poses
+    clean: bool
+    conflicts: tuple[Conflict, ...]
+    undersized: tuple[int, ...]
+    rounds: int
+    seconds: float
 
 
 def finish(
@@ -98,20 +132,11 @@ def finish(
     is_enough: Stop = never,
     forces: Forces = NO_FORCES,
 ) -> Finished:
-    """Poses near the given ones at which nothing meets, grown into the room that is left.
+    """Poses near those of an almost clean layout at which nothing meets, grown into the room left.
 
-    Deterministic for one seed of the options.
-
-    Parameters
-    ----------
-    outlines
-        One per item, item units, origin where the poses have it.
-    poses
-        An almost clean layout.
-    is_enough
-        Asked before each trial; True ends the trials, so that the last rounds have time.
-    forces
-        What pulls items about, weighed against area as in the levels.
+    ``outlines``: one per item, item units, origin where the poses have it; ``is_enough``: asked
+    before each trial, True ends the trials, so that the last rounds have time; ``forces``: weighed
+    against area as in the levels. Deterministic for one seed of the options.
 
     Examples
     --------
@@ -262,7 +287,8 @@ class _Finish:
         """Turn and exchange items where that gains."""
         rng = np.random.default_rng(self._options.seed)
         objective_at = partial(self._objective, spread=ANNEAL_SPREAD)
-        trials = round(self._options.trials * min(1.0, EASY_POINTS / self._points_each()))
+        points_each = float(self.arrangement.board.starts[-2]) / self.arrangement.count
+        trials = round(self._options.trials * min(1.0, EASY_POINTS / points_each))
         every = max(self.arrangement.count // TOLD, 1)
 
         def tell(trial: int) -> None:
@@ -270,19 +296,9 @@ class _Finish:
                 self._tell(COARSE_SHARE)
 
         anneal(
-            self.arrangement,
-            objective_at,
-            trials,
-            self._lengths,
-            rng,
-            self._is_enough,
-            tell,
-            self._pulling,
-            EXCHANGES if self._options.exchanging else 0.0,
-        )
-
-    def _points_each(self) -> float:
-        return float(self.arrangement.board.starts[-2]) / self.arrangement.count
+            self.arrangement, objective_at, trials, self._lengths, rng, self._is_enough, tell,
+            self._pulling, EXCHANGES if self._options.exchanging else 0.0,
+        )  # fmt: skip
 
     def fine(self) -> None:
         """Grow into what the coarse outlines left."""
@@ -307,17 +323,15 @@ class _Finish:
 
     def _objective(self, places: FloatArray, spread: float) -> Objective:
         objective = self._sizing.objective(places[:, 3], spread)
-        return (
-            objective
-            if self._pulling is None
-            else self._pulling.pushed(objective, self.arrangement)
-        )
+        if self._pulling is None:
+            return objective
+        return self._pulling.pushed(objective, self.arrangement)
 
     def _blocks(self, objective: Objective, trust: float) -> None:
         compact_all(self.arrangement, objective, self.rounds, trust, self.gap, self.hair)
 
     def result(self) -> Poses:
-        """Poses as they are now; one common factor where that was asked."""
+        """Poses as they are now, at one common factor where that was asked for."""
         growth = self.arrangement.places[:, 3]
         if self._options.sizes == "fixed":
             growth = np.zeros(len(self._poses))

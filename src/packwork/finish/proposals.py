@@ -9,7 +9,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
-from packwork.finish.pulling import Pulling
+from packwork.finish.objective import Pulling
 
 ANGLES = 5
 """Angles of which the best is tried, by how far the moved items grow alone. More find

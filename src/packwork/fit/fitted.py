@@ -15,13 +15,11 @@ from functools import lru_cache
 import numpy as np
 import shapely
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError, ShapeError
-from packwork.fit.chains import flattened, straight_chain
+from packwork.fit.chains import flattened, straight_chain, without_loops
 from packwork.fit.descent import drawn_to
 from packwork.fit.knots import best_chain
-from packwork.fit.loops import without_loops
-from packwork.fit.shares import FEWEST, shared_curves
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import signed_area
@@ -30,16 +28,20 @@ from packwork.geometry.simplify import simplified
 MOST_CURVES = 100
 """Curves that may be asked for: more is no simpler than the outline itself. Chosen."""
 
+
 FLATNESS = 2e-4
 """Tolerance, as a share of the extent, to which the result is flattened. Chosen."""
+
 
 FALLBACK = 2e-3
 """Tolerance, as a share of the extent, of the simplification where no fit is simple.
 Larger needs fewer points, smaller is nearer. Chosen."""
 
+
 CURVES_LESS = 2
 """Curves left out in the one more try where every level's fit crosses itself: other cuts
 rarely fail at the same place. With one less, an icon failed twice. Tried."""
+
 
 REMEMBERED = 256
 """Results kept by the process: about 50 kB each. Chosen."""
@@ -223,3 +225,36 @@ def _result(
     shared = intersection(outline.region, found.region).area
     iou = shared / (outline.area + found.area - shared)
     return FittedOutline(tuple(chains), found, float(iou), ending, kept)
+
+
+FEWEST = 4
+"""Curves of one ring at least: with fewer, corners and ovals are out of reach. Chosen."""
+
+
+def shared_curves(rings: Sequence[FloatArray], curves: int) -> IntArray:
+    """Curves for each ring ``(n, 2)``: at least ``FEWEST``, the rest by length, zero for the tiny.
+
+    Where the curves do not suffice for all, the shortest rings get none.
+
+    Examples
+    --------
+    >>> square = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
+    >>> shared_curves([square, 3 * square], 20).tolist()
+    [7, 13]
+    >>> shared_curves([square, 3 * square], 6).tolist()
+    [0, 6]
+    """
+    lengths = np.array([_length(ring) for ring in rings])
+    served = np.argsort(-lengths, kind="stable")[: curves // FEWEST]
+    counts = np.zeros(len(rings), dtype=np.int64)
+    counts[served] = FEWEST
+    spare = curves - int(counts.sum())
+    wish = spare * lengths[served] / lengths[served].sum()
+    counts[served] += np.floor(wish).astype(np.int64)
+    left = curves - int(counts.sum())
+    counts[served[np.argsort(np.floor(wish) - wish, kind="stable")[:left]]] += 1
+    return counts
+
+
+def _length(ring: FloatArray) -> float:
+    return float(np.hypot(*(np.roll(ring, -1, axis=0) - ring).T).sum())

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from packwork.arrays import Image
-from packwork.fields.boxes import box_mean
+from packwork.fields.filters import box_mean
 from packwork.losses import _kernels
 from packwork.losses.term import Term
 

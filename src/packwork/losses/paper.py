@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import Image
-from packwork.fields.boxes import box_mean
+from packwork.fields.filters import box_mean
 from packwork.losses.term import Term
 
 OUTSIDE = 100.0

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
-from packwork.fields.distance_transform import distance_to, parts_of
+from packwork.fields.distance_transform import distance_to, label_components
 from packwork.fields.morphology import closed
 from packwork.geometry.outline import Outline, joined
+from packwork.raster.coverage import image_shape
 from packwork.raster.membership import centre_count
-from packwork.raster.pyramid import image_shape
 from packwork.scene.container import Container
 
 RESOLUTION = 1_200
@@ -169,7 +169,7 @@ def _images(outlines: Sequence[Outline], container: Outline) -> tuple[BoolArray,
 
 
 def _parts(inside: BoolArray, covered: BoolArray) -> tuple[int, int]:
-    labels, count = parts_of(inside)
+    labels, count = label_components(inside)
     sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
     held = np.bincount(labels[covered & inside], minlength=count + 1)[1:]
     counts = sizes >= SPECK * SHAPE_RESOLUTION**2

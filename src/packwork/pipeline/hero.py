@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_inside
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference

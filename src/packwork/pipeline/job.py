@@ -27,7 +27,7 @@ from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Zone
 from packwork.scene.target import TargetPicture
-from packwork.solve.stand_ins import stand_ins
+from packwork.solve.outlines import stand_ins
 
 if TYPE_CHECKING:
     from packwork.pipeline.run import RunStep

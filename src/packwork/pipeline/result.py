@@ -18,9 +18,9 @@ from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.pipeline.state import RunState
 from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
-from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions
+from packwork.solve.outlines import seen_posed
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import Ending
 

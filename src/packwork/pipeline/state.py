@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.conflicts import Conflict
+from packwork.compaction.arrangement import Conflict
 from packwork.forces.forces import Forces
 from packwork.metrics.certificate import Promise
 from packwork.metrics.measure import LayoutMetrics

@@ -8,6 +8,7 @@ knows polygons and images only.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,8 +16,9 @@ import numpy.typing as npt
 
 from packwork.arrays import FloatArray, Image, IntArray, as_image, as_points, as_starts
 from packwork.errors import ShapeError
+from packwork.geometry.outline import Outline
 from packwork.raster.kernels import coverage as kernels
-from packwork.raster.kernels.bounds import record_bounds
+from packwork.raster.kernels.coverage import record_bounds
 from packwork.threads import at_once
 
 _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
@@ -24,11 +26,14 @@ _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
 exact only while fewer than 2**(24 - bits) (float32) or 2**(53 - bits) items share a
 pixel; beyond that they are merely rounded. Derived."""
 
+
 _X_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 38}
 """The walk's x are multiples of 2**-bits pixel; it bounds the width of an image."""
 
+
 MAX_SIDE_PX = 8_192
 """Largest image side: beyond it the float64 walk would lose its exact sums."""
+
 
 CACHE_BYTES = 2**21
 """Images larger than this are swept from top to bottom: a second-level cache holds less.
@@ -39,9 +44,11 @@ BANDS = 4
 """Bands of rows whose rings are swept at once. More keep more cores busy and have more rings on
 their borders, which are swept after. Chosen."""
 
+
 PARTED = 200_000
 """Length of the record, at most, from which rings are swept so: 0.6 ms of one core. Smaller parts
 what is done before another thread has begun. Measured."""
+
 
 APART = 3
 """Rows between a ring swept with one band and the next: what a walk deposits beyond its cells.
@@ -318,3 +325,29 @@ def coverage_pullback(
     rasteriser = Rasteriser((image.shape[0], image.shape[1]), image.dtype)
     rasteriser.sweep(points, as_starts(starts, len(points)))
     return rasteriser.pullback(image, beyond).copy()
+
+
+def image_shape(width_cu: float, height_cu: float, resolution: int) -> tuple[int, int]:
+    """Rows and columns of the image whose longer side has ``resolution`` pixels.
+
+    Examples
+    --------
+    >>> image_shape(600, 300, 50)
+    (25, 50)
+    """
+    per_cu = resolution / max(width_cu, height_cu)
+    return max(math.ceil(height_cu * per_cu - 1e-9), 1), max(math.ceil(width_cu * per_cu - 1e-9), 1)
+
+
+def region_image(outline: Outline, rasteriser: Rasteriser, px_per_cu: float) -> Image:
+    """Coverage of a region given in canvas units, in the rasteriser's image.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> square = Outline.from_rings([np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]])])
+    >>> region_image(square, Rasteriser((1, 2), np.float64), 0.5).tolist()
+    [[1.0, 0.0]]
+    """
+    rasteriser.sweep(outline.points * px_per_cu, outline.starts)
+    return rasteriser.density()

@@ -10,7 +10,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError, ShapeError
-from packwork.fields.saliency import spectral_residual
+from packwork.fields.filters import spectral_residual
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference

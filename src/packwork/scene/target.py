@@ -8,7 +8,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
-from packwork.fields.boxes import box_mean
+from packwork.fields.filters import box_mean
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,8 +15,7 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.fields.clearance import distance_inside
-from packwork.fields.distance_transform import distance_to
+from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.progress import Stop, never
 from packwork.raster.coverage import coverage
 

@@ -11,9 +11,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.conflicts import find_conflicts
-from packwork.compaction.detail import FINE, Detail
+from packwork.compaction.arrangement import FINE, Arrangement, Detail, find_conflicts
 from packwork.compaction.objective import turn_ranges
 from packwork.compaction.options import HAIR, MoveOptions
 from packwork.forces.field import Distance

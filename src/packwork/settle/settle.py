@@ -13,8 +13,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.blocks import blocks
-from packwork.compaction.kernels import distances, interior_point, steps
+from packwork.compaction.compact import blocks
+from packwork.compaction.kernels import broad_phase, contacts, interior_point, steps
 from packwork.compaction.kernels.distances import Board
 from packwork.compaction.kernels.steps import TRAVEL
 from packwork.forces.forces import Forces, Pull
@@ -210,7 +210,7 @@ class Settling:
         slopes = slopes @ np.array([[cosine, sine], [-sine, cosine]])
         before = self.arrangement.places[items].copy()
         height = self._cost(now, items)
-        pairs = distances.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
+        pairs = broad_phase.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
         if self.centre is None:
             step = downward(board, slopes, self._turns, items, pairs, trust, self._gap, self._hair)
         else:
@@ -247,7 +247,7 @@ def downward(
     slope
         ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each item.
     """
-    rows = steps.rows_of(board, items, pairs, trust, gap, hair)
+    rows = contacts.rows_of(board, items, pairs, trust, gap, hair)
     gain, low, high = descent.gains_and_bounds(board, slope, *turns, items, trust)
     z = _maximised(rows, gain, low, high)
     return _step(board, items, z, low, high, trust)
@@ -259,7 +259,7 @@ def inward(
 ) -> FloatArray:  # fmt: skip
     """The same where a smaller circle about ``centre`` ``(2,)`` is worth ``weight`` a unit."""
     n = len(items)
-    rows = steps.rows_of(board, items, pairs, trust, gap, hair)
+    rows = contacts.rows_of(board, items, pairs, trust, gap, hair)
     circle = descent.circle_about(board, items, centre)
     rows = descent.with_circle(board, items, rows, centre, circle, trust)
     gain, low, high = np.zeros((3, 4 * n + 4))

@@ -71,7 +71,7 @@ def _order_apart(
     groups: IntArray,
     rng: np.random.Generator,
 ) -> IntArray:
-    """Order in which few items lie beside one of their kind; see ``assignment.conflicts``."""
+    """Order in which few items lie beside one of their kind; see ``assignment.orders``."""
     placed = [outline.mapped(poses.matrix(k)) for k, outline in enumerate(outlines)]
     return min_conflicts_order(kinds, side_by_side(placed, poses.x, poses.y), groups, rng)
 

@@ -22,14 +22,13 @@ from packwork.losses.term import (
     checked_term,
 )
 from packwork.progress import ObjectiveTerms
+from packwork.raster.colour import ColourImage
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
-from packwork.solve.coloured import ColouredLoss
-from packwork.solve.ensemble import Ensemble
-from packwork.solve.ground import Ground
-from packwork.solve.zones import ZonePull
+from packwork.solve.free_space import FreeSpace, ZonePull
+from packwork.solve.outlines import Ensemble
 
 
 class Level:
@@ -60,13 +59,13 @@ class Level:
         nominal: FloatArray | None = None,
         limits: Limits = NO_LIMITS,
         forces: Forces = NO_FORCES,
-        ground: Ground | None = None,
+        free_space: FreeSpace | None = None,
     ) -> None:
         self._forces = forces
         self.resolution = resolution
         self.px_per_cu = resolution / container.side
-        ground = ground or Ground.of(container, resolution)
-        self.container_image, self._recall = ground.room, ground.recall
+        free_space = free_space or FreeSpace.of(container, resolution)
+        self.container_image, self._recall = free_space.room, free_space.recall
         shape = self.container_image.shape
         self.rasteriser = Rasteriser(shape, np.float32)
         self.ensemble = Ensemble(outlines)
@@ -228,3 +227,33 @@ def _add(by_pose: FloatArray, term: PoseTerm, weight: float) -> None:
     by_pose[:, 1] += weight * term.y
     if term.log_scale is not None:
         by_pose[:, 3] += weight * term.log_scale
+
+
+class ColouredLoss:
+    """One loss of the colours of what a rasteriser has swept."""
+
+    def __init__(self, seen: SeenInColour, rasteriser: Rasteriser, ensemble: Ensemble) -> None:
+        self._seen = seen
+        self._image = ColourImage(rasteriser, seen.colours.shape[1])
+        self._colours = ensemble.per_ring(seen.colours)
+        self._adjoint: Image | None = None
+
+    def term(self, density: Image, container: Image) -> Term:
+        """Value and derivatives, of the sweep of this density, ``(rows, columns)``.
+
+        Raises
+        ------
+        RecipeError
+            If the loss fails, or returns no such term.
+        """
+        term = self._seen(
+            density, self._image.render(self._colours, self._seen.background), container
+        )
+        self._adjoint = term.colour_adjoint
+        return term
+
+    def add_pull(self, weight: float, by_points: FloatArray) -> None:
+        """Add what colours pull at points by the term read last, times ``weight``, ``(n, 2)``."""
+        if self._adjoint is not None:
+            pull = np.multiply(self._adjoint, weight, dtype=np.float32)
+            self._image.pullback(np.ascontiguousarray(pull), by_points)

@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
-from packwork.fields.clearance import Clearance
-from packwork.fields.voids import largest_voids
+from packwork.fields.voids import Clearance, largest_voids
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level

@@ -1,8 +1,13 @@
-"""Schedules of a run: steps shrink and penalties grow."""
+"""Schedules of a run, and its progress through them: steps shrink and penalties grow.
+
+Progress is counted in epochs, or in seconds where a time was given.
+"""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
@@ -12,8 +17,10 @@ STEADY = frozenset({"filling"})
 """Losses that do not harden. All others do: at a constant weight, evenness or a loss of
 one's own is drowned at the end, where it is needed. Tried."""
 
+
 REWARDS = frozenset({"filling", "evenness"})
 """Losses that draw items into contact, cut while a run settles."""
+
 
 FADING = 20.0
 """By how much forces fade over the run. They lead while items still pass through each other; what
@@ -82,3 +89,86 @@ def force_factor(progress: float) -> float:
     (1.0, True)
     """
     return float(FADING**-progress)
+
+
+class Pace(Protocol):
+    """Says when a level is over and how far the run is."""
+
+    def advance(self) -> None:
+        """Count one more epoch."""
+        ...
+
+    def progress(self) -> float:
+        """Progress of the run, 0 at its first epoch and 1 at its last."""
+        ...
+
+    def has_reached(self, level: int, share: float) -> bool:
+        """Whether that share of the level (by index) is done."""
+        ...
+
+
+class EpochPace:
+    """A given number of epochs: the same on any machine.
+
+    Examples
+    --------
+    >>> pace = EpochPace([1, 2])
+    >>> pace.advance()
+    >>> pace.has_reached(0, 1.0), pace.has_reached(1, 0.5), pace.progress()
+    (True, False, 0.5)
+    """
+
+    def __init__(self, per_level: Sequence[int]) -> None:
+        self._begins = [0, *(int(n) for n in np.cumsum(per_level))]
+        self._done = 0
+
+    def advance(self) -> None:
+        """Count one more epoch."""
+        self._done += 1
+
+    def progress(self) -> float:
+        """Epochs done over those between the first and the last."""
+        return min(self._done / max(self._begins[-1] - 1, 1), 1.0)
+
+    def has_reached(self, level: int, share: float) -> bool:
+        """Whether that share of the level's epochs, rounded down, is done."""
+        begin, end = self._begins[level : level + 2]
+        return self._done - begin >= int(share * (end - begin))
+
+
+class TimePace:
+    """As many epochs as a given time allows, shared among the levels like epochs.
+
+    Parameters
+    ----------
+    seconds
+        Time from now on; 0 allows no epoch.
+    """
+
+    def __init__(self, seconds: float, shares: Sequence[float]) -> None:
+        self._began = time.perf_counter()
+        self._seconds = max(seconds, 1e-9)
+        self._begins = np.concatenate([[0.0], np.cumsum(shares) / np.sum(shares)])
+
+    def advance(self) -> None:
+        """Nothing to count: the clock runs by itself."""
+
+    def progress(self) -> float:
+        """Share of the time that has passed, at most 1."""
+        return min(self._elapsed(), 1.0)
+
+    def has_reached(self, level: int, share: float) -> bool:
+        """Whether that share of the level's time has passed."""
+        begin, end = self._begins[level : level + 2]
+        return bool(self._elapsed() >= begin + share * (end - begin))
+
+    def _elapsed(self) -> float:
+        return (time.perf_counter() - self._began) / self._seconds
+
+
+def pace_of(options: SolveOptions) -> Pace:
+    """Pace that the options ask for: seconds where given, else epochs."""
+    shares = options.shares or [1.0] * len(options.levels)
+    if options.seconds is not None:
+        return TimePace(options.seconds, shares)
+    return EpochPace(epochs_per_level(options.epochs, shares))

@@ -22,14 +22,13 @@ from packwork.progress import NOBODY, ObjectiveTerms, Observer, Step, Stop, neve
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_posed
 from packwork.solve.exchange import exchange
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
-from packwork.solve.pace import pace_of
+from packwork.solve.outlines import seen_posed
 from packwork.solve.relocate_trapped import Relocation, relocate_trapped
-from packwork.solve.schedule import force_factor, growth, rate_factor, weights_at
+from packwork.solve.schedule import force_factor, growth, pace_of, rate_factor, weights_at
 
 EXCHANGES = (0.15, 0.3, 0.45)
 """When, as shares of the run, items leave the side of their kind, or a part of the container

@@ -9,8 +9,7 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.geometry.outline import Outline
-from packwork.raster.coverage import Rasteriser
-from packwork.raster.pyramid import region_image
+from packwork.raster.coverage import Rasteriser, region_image
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 

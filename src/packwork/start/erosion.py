@@ -15,7 +15,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, buffered, polygon_parts
 from packwork.raster.coverage import coverage

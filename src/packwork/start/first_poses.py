@@ -9,12 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, Image, IntArray
-from packwork.fields.clearance import Clearance
-from packwork.fields.voids import largest_voids
+from packwork.fields.voids import Clearance, largest_voids
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
-from packwork.raster.coverage import Rasteriser
-from packwork.raster.pyramid import image_shape, region_image
+from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses

@@ -12,9 +12,9 @@ import math
 import numpy as np
 
 from packwork.arrays import FloatArray, Image, IntArray
-from packwork.fields.clearance import Clearance, distance_inside
-from packwork.fields.skeleton import medial_axis as axis_of
-from packwork.fields.voids import largest_voids
+from packwork.fields.distance_transform import distance_inside
+from packwork.fields.morphology import medial_axis as axis_of
+from packwork.fields.voids import Clearance, largest_voids
 from packwork.start.allowed_pixels import AllowedPixels
 from packwork.start.options import Placing
 

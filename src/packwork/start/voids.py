@@ -14,10 +14,10 @@ import numpy as np
 import shapely
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.outline import Outline, joined
+from packwork.raster.coverage import image_shape
 from packwork.raster.membership import centre_count
-from packwork.raster.pyramid import image_shape
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 

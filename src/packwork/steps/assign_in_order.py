@@ -17,7 +17,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.quadratic import cheapest
 from packwork.errors import ReadError, RecipeError
-from packwork.fields.geodesic import lengthwise
+from packwork.fields.distance_transform import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep

@@ -12,10 +12,9 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.options import HAIR
 from packwork.errors import ShapeError
-from packwork.finish.finish import finish
-from packwork.finish.finished import Finished
+from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
-from packwork.finish.pinned import separate_pinned
+from packwork.finish.shrink import separate_pinned
 from packwork.forces.forces import NO_FORCES
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline

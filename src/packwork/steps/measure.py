@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.compaction.conflicts import Conflict
+from packwork.compaction.arrangement import Conflict
 from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import measure
 from packwork.metrics.violations import Violation, violations

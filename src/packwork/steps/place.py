@@ -28,8 +28,8 @@ from packwork.progress import Stop
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
+from packwork.solve.outlines import seen_posed
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.start.angles_and_sizes import (
     nominal_scales,

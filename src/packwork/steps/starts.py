@@ -16,10 +16,10 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, Image, IntArray
-from packwork.compaction.detail import FINE
+from packwork.compaction.arrangement import FINE
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
-from packwork.fields.boxes import box_mean
+from packwork.fields.filters import box_mean
 from packwork.finish.finish import COMMON_COARSE
 from packwork.forces.forces import PRESSURE, FieldForce
 from packwork.pipeline.job import Job

@@ -11,9 +11,9 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.finish.admission import admitted
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
+from packwork.finish.shrink import admitted
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Filling
 from packwork.pipeline.plan.copies import ItemRules
@@ -22,7 +22,7 @@ from packwork.pipeline.state import RunState
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.solve.stand_ins import stand_ins
+from packwork.solve.outlines import stand_ins
 from packwork.start.angles_and_sizes import nearest_allowed
 from packwork.start.voids import SECTORS, copies_for_voids
 from packwork.steps.finish import Closing, gap_with_bulge, scale_ranges, without

@@ -16,8 +16,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.options import HAIR
-from packwork.finish.finish import finish
-from packwork.finish.finished import Finished
+from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from packwork.errors import RecipeError
-from packwork.raster.pyramid import image_shape
+from packwork.raster.coverage import image_shape
 from packwork.scene.container import Container
 from packwork.units import convert
 

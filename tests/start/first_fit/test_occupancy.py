@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import BoolArray
-from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import TALLEST, Occupancy, Stencil, cut, stencil_of

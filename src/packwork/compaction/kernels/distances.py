@@ -1,8 +1,8 @@
-"""Distances of polygons in place, pair by pair, and the pairs that are near.
+"""Polygons in place, and the exact distances of pairs of them.
 
-All solids lie one after another in ``points``: first the items, last the container,
-whose rings run backwards, so that its solid is all that must not be entered. The outward
-normal of an edge ``d`` is ``(d_y, -d_x)``.
+All polygons lie one after another in ``points``: first the items, last the container, whose rings
+run backwards, so that its inside is all that must not be entered. The outward normal of an edge
+``d`` is ``(d_y, -d_x)``.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compaction.kernels.edges import least_squared
+from packwork.compaction.kernels.broad_phase import are_apart, sticks_out
 from packwork.compiled import helper, kernel, shared
 
 
 class Board(NamedTuple):
-    """Solids in place; arrays that the kernels write to.
+    """Polygons in place; arrays that the kernels write to.
 
-    ``own``: points of all solids about their own origins; ``starts``: first point of each
-    solid; ``after``, ``before``: neighbours of each point in its ring; ``points``: in
+    ``own``: points of all polygons about their own origins; ``starts``: first point of each
+    polygon; ``after``, ``before``: neighbours of each point in its ring; ``points``: in
     place; ``boxes``: left, top, right, bottom of each; ``spans``: the same of every
     ``stride`` successive edges of the container, which stands still; ``places``: x, y, turn,
     logarithm of growth of each item; ``arms``: farthest point of each item at growth 0.
@@ -67,132 +67,19 @@ def arm(board, i):
     return board.arms[i] * math.exp(board.places[i, 3])
 
 
-@kernel
-def near_pairs(boxes, order, reach, found):
-    """Write pairs of boxes within ``reach``, smaller index first; returns how many.
-
-    ``order`` sorts the boxes by their left side. Counts on past the end of ``found``.
-    """
-    count = 0
-    for a in range(order.shape[0]):
-        i = order[a]
-        limit = boxes[i, 2] + reach
-        for b in range(a + 1, order.shape[0]):
-            j = order[b]
-            if boxes[j, 0] > limit:
-                break
-            if boxes[j, 1] > boxes[i, 3] + reach or boxes[i, 1] > boxes[j, 3] + reach:
-                continue
-            if count < found.shape[0]:
-                found[count, 0] = min(i, j)
-                found[count, 1] = max(i, j)
-            count += 1
-    return count
-
-
 @helper
-def are_apart(boxes, i, j, reach):
-    """True if two of some boxes are farther apart than ``reach`` along an axis."""
-    # Number by number: a view of a row is counted by all threads together, which takes longer.
-    return (
-        boxes[j, 0] > boxes[i, 2] + reach
-        or boxes[i, 0] > boxes[j, 2] + reach
-        or boxes[j, 1] > boxes[i, 3] + reach
-        or boxes[i, 1] > boxes[j, 3] + reach
-    )
-
-
-@helper
-def _two_boxes(boxes, items):
-    """Boxes about those of ``items`` near the first of them, and about those far from it."""
-    middle = np.empty(2)
-    farthest, most = items[0], -1.0
-    for k in range(items.shape[0]):
-        away = 0.0
-        for c in range(2):
-            middle[c] = boxes[items[k], c] + boxes[items[k], c + 2]
-            away += (middle[c] - boxes[items[0], c] - boxes[items[0], c + 2]) ** 2
-        if away > most:
-            farthest, most = items[k], away
-    found = np.empty((2, 4))
-    for a in range(2):
-        found[a, 0] = found[a, 1] = np.inf
-        found[a, 2] = found[a, 3] = -np.inf
-    for k in range(items.shape[0]):
-        box = boxes[items[k]]
-        nearer = 0.0
-        for c in range(2):
-            here = box[c] + box[c + 2]
-            nearer += (here - boxes[items[0], c] - boxes[items[0], c + 2]) ** 2
-            nearer -= (here - boxes[farthest, c] - boxes[farthest, c + 2]) ** 2
-        one = found[int(nearer > 0.0)]
-        for c in range(2):
-            one[c], one[c + 2] = min(one[c], box[c]), max(one[c + 2], box[c + 2])
-    return found
-
-
-@kernel
-def nearby(boxes, items, reach):
-    """Items whose boxes may be within ``reach`` of one of ``items``, in their order."""
-    about = _two_boxes(boxes, items)
-    near = np.empty(boxes.shape[0] - 1, np.int64)
-    count = 0
-    for j in range(near.shape[0]):
-        for a in range(2):
-            if (
-                boxes[j, 0] <= about[a, 2] + reach
-                and about[a, 0] <= boxes[j, 2] + reach
-                and boxes[j, 1] <= about[a, 3] + reach
-                and about[a, 1] <= boxes[j, 3] + reach
-            ):
-                near[count] = j
-                count += 1
-                break
-    return near[:count]
-
-
-@helper
-def pairs_among(boxes, items, near, reach):
-    """Pairs of boxes within ``reach``, of each of ``items`` with those of ``near``.
-
-    Smaller index first; then each of the items with the last box, the container's.
-    """
-    last = boxes.shape[0] - 1
-    chosen = np.zeros(last, np.bool_)
-    for k in range(items.shape[0]):
-        chosen[items[k]] = True
-    found = np.empty((16 * items.shape[0] + 16, 2), np.int64)
-    count = 0
-    for k in range(items.shape[0]):
-        i = items[k]
-        for a in range(near.shape[0] + 1):
-            j = near[a] if a < near.shape[0] else last
-            if j == i or (j < i and chosen[j]):
-                continue
-            if j < last and are_apart(boxes, i, j, reach):
-                continue
-            if count == found.shape[0]:
-                longer = np.empty((2 * count, 2), np.int64)
-                for f in range(count):
-                    longer[f, 0], longer[f, 1] = found[f, 0], found[f, 1]
-                found = longer
-            found[count, 0], found[count, 1] = min(i, j), max(i, j)
-            count += 1
-    return found[:count]
-
-
-@kernel
-def pairs_of(boxes, items, reach):
-    """Pairs of boxes within ``reach`` of which one at least is among ``items``.
-
-    Smaller index first; then each of the items with the last box, the container's.
-    """
-    return pairs_among(boxes, items, nearby(boxes, items, reach), reach)
+def most_points(starts, pairs):
+    """Points of the polygon of some pairs that has most: room for its edges."""
+    most = 0
+    for p in range(pairs.shape[0]):
+        for i in pairs[p]:
+            most = max(most, starts[i + 1] - starts[i])
+    return most
 
 
 @helper
 def cull(board, i, boxes, j, reach, kept):
-    """Write the edges of a solid (by their first vertex) within ``reach`` of one of the boxes."""
+    """Write the edges of a polygon (by their first vertex) within ``reach`` of one of the boxes."""
     points = board.points
     left, top = boxes[j, 0] - reach, boxes[j, 1] - reach
     right, bottom = boxes[j, 2] + reach, boxes[j, 3] + reach
@@ -226,7 +113,7 @@ def cull(board, i, boxes, j, reach, kept):
 
 @helper
 def _winding(x, y, board, j):
-    """Winding number of the rings of a solid about a point."""
+    """Winding number of the rings of a polygon about a point."""
     points, turns = board.points, 0
     first, last = board.starts[j], board.starts[j + 1]
     is_container = j == board.starts.shape[0] - 2
@@ -252,7 +139,7 @@ def _winding(x, y, board, j):
 
 @helper
 def _is_in(board, v, j):
-    """True if a vertex lies in solid ``j``."""
+    """True if a vertex lies in polygon ``j``."""
     x, y = board.points[v, 0], board.points[v, 1]
     # The container's rings run backwards: round a point inside once, the wrong way.
     return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
@@ -260,7 +147,7 @@ def _is_in(board, v, j):
 
 @helper
 def _enters(board, kept, count, j):
-    """True if a ring has its first vertex in solid ``j``, of rings with edges near that."""
+    """True if a ring has its first vertex in polygon ``j``, of rings with edges near that."""
     is_container = j == board.starts.shape[0] - 2
     box = board.boxes[j]
     for k in range(count):
@@ -276,25 +163,107 @@ def _enters(board, kept, count, j):
     return False
 
 
-@helper
-def most_points(starts, pairs):
-    """Points of the solid of some pairs that has most: room for its edges."""
-    most = 0
-    for p in range(pairs.shape[0]):
-        for i in pairs[p]:
-            most = max(most, starts[i + 1] - starts[i])
-    return most
+RUN = 8
+"""Edges that share a box where two polygons have many near each other. Tried: 16 and 32 are slower,
+without the boxes outlines of hundreds of points take ten times as long."""
 
 
 @helper
-def sticks_out(inner, outer):
-    """True if a box is not within another one."""
-    return inner[0] < outer[0] or inner[1] < outer[1] or inner[2] > outer[2] or inner[3] > outer[3]
+def _to_edge_squared(x, y, points, v, w):
+    """Squared distance of a point from the edge between two vertices."""
+    dx, dy = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
+    ex, ey = x - points[v, 0], y - points[v, 1]
+    length = dx * dx + dy * dy
+    t = 0.0
+    if length > 0.0:
+        t = min(max((ex * dx + ey * dy) / length, 0.0), 1.0)
+    ex -= t * dx
+    ey -= t * dy
+    return ex * ex + ey * ey
+
+
+@helper
+def side(points, a, b, c):
+    """Twice the signed area of the triangle of three vertices."""
+    return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
+        points[b, 1] - points[a, 1]
+    ) * (points[c, 0] - points[a, 0])
+
+
+@helper
+def _edges_squared(points, v, w, s, t, least):
+    """Squared distance of two edges, 0 if they cross; ``least`` if it is not below that."""
+    gap_x = max(
+        min(points[v, 0], points[w, 0]) - max(points[s, 0], points[t, 0]),
+        min(points[s, 0], points[t, 0]) - max(points[v, 0], points[w, 0]),
+        0.0,
+    )
+    gap_y = max(
+        min(points[v, 1], points[w, 1]) - max(points[s, 1], points[t, 1]),
+        min(points[s, 1], points[t, 1]) - max(points[v, 1], points[w, 1]),
+        0.0,
+    )
+    if gap_x * gap_x + gap_y * gap_y >= least:
+        return least
+    if (
+        side(points, v, w, s) * side(points, v, w, t) < 0.0
+        and side(points, s, t, v) * side(points, s, t, w) < 0.0
+    ):
+        return 0.0
+    least = min(least, _to_edge_squared(points[v, 0], points[v, 1], points, s, t))
+    least = min(least, _to_edge_squared(points[w, 0], points[w, 1], points, s, t))
+    least = min(least, _to_edge_squared(points[s, 0], points[s, 1], points, v, w))
+    return min(least, _to_edge_squared(points[t, 0], points[t, 1], points, v, w))
+
+
+@helper
+def _boxes_of_runs(board, edges):
+    """``(r, 4)`` boxes about each :data:`RUN` edges (by their first vertex), one after another."""
+    points = board.points
+    found = np.empty(((edges.shape[0] + RUN - 1) // RUN, 4))
+    found[:, :2] = np.inf
+    found[:, 2:] = -np.inf
+    for e in range(edges.shape[0]):
+        box = found[e // RUN]
+        for v in (edges[e], board.after[edges[e]]):
+            for c in range(2):
+                box[c] = min(box[c], points[v, c])
+                box[c + 2] = max(box[c + 2], points[v, c])
+    return found
+
+
+@helper
+def _box_squared(box, points, v, w):
+    """Squared distance of a box from the box of an edge between two vertices."""
+    squared = 0.0
+    for c in range(2):
+        low, high = min(points[v, c], points[w, c]), max(points[v, c], points[w, c])
+        gap = max(box[c] - high, low - box[c + 2], 0.0)
+        squared += gap * gap
+    return squared
+
+
+@helper
+def least_squared(board, first, second, least):
+    """Squared distance of two sets of edges, 0 if any cross; ``least`` if it is not below that."""
+    points, after = board.points, board.after
+    boxes = _boxes_of_runs(board, second)
+    for a in range(first.shape[0]):
+        v = first[a]
+        w = after[v]
+        for r in range(boxes.shape[0]):
+            if _box_squared(boxes[r], points, v, w) >= least:
+                continue
+            for b in range(r * RUN, min((r + 1) * RUN, second.shape[0])):
+                least = _edges_squared(points, v, w, second[b], after[second[b]], least)
+            if least == 0.0:
+                return 0.0
+    return least
 
 
 @helper
 def distance(board, i, j, reach, room):
-    """Distance of two solids: 0 if they meet, ``reach`` if it is not below that.
+    """Distance of two polygons: 0 if they meet, ``reach`` if it is not below that.
 
     ``room``: two rows of :func:`most_points`.
     """
@@ -305,7 +274,7 @@ def distance(board, i, j, reach, room):
 
 @shared
 def _near_distance(board, i, j, reach, room):
-    """Distance of two solids whose boxes are within reach."""
+    """Distance of two polygons whose boxes are within reach."""
     first, second = room[0], room[1]
     count_j = cull(board, j, board.boxes, i, reach, second)
     if j == board.starts.shape[0] - 2:

@@ -26,7 +26,7 @@ STEP_BACK = 0.99
 """Share of the way to the nearest bound that one step may go. Usual."""
 
 FIRST_BARRIER, FIRST_SLACK = 0.1, 0.2
-"""First products of slack and price, and smallest first slack: trust regions. With slacks
+"""First products of slack and dual, and smallest first slack: trust regions. With slacks
 as small as those of items that touch, the first steps lead nowhere. Tried."""
 
 LEAST_WIDTH = 1e-6
@@ -54,16 +54,16 @@ class Rows(NamedTuple):
 
 
 class Iterate(NamedTuple):
-    """Unknowns, slacks of the rows and their prices, rooms to the bounds and their tolls.
+    """Unknowns, slacks of the rows and their dual variables, slacks of the bounds and their duals.
 
-    ``room``, ``toll``: ``(n, 2)``, to the lower bound and to the upper one.
+    ``bound_slack``, ``bound_dual``: ``(n, 2)``, to the lower bound and to the upper one.
     """
 
     z: np.ndarray
     slack: np.ndarray
-    price: np.ndarray
-    room: np.ndarray
-    toll: np.ndarray
+    dual: np.ndarray
+    bound_slack: np.ndarray
+    bound_dual: np.ndarray
 
 
 @helper(fastmath={"reassoc", "contract"})
@@ -180,23 +180,25 @@ def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centrin
     for r in range(n):
         right[r] = -off_cost[r]
     for k in range(m):
-        rest_rows[k] = centring - now.slack[k] * now.price[k] - step.slack[k] * step.price[k]
-        weight = -(rest_rows[k] + now.price[k] * off_rows[k]) / now.slack[k]
+        rest_rows[k] = centring - now.slack[k] * now.dual[k] - step.slack[k] * step.dual[k]
+        weight = -(rest_rows[k] + now.dual[k] * off_rows[k]) / now.slack[k]
         _add_row(rows, k, weight, right)
     for r in range(n):
         for s in range(2):
-            bent = step.room[r, s] * step.toll[r, s]
-            rest[r, s] = centring - now.room[r, s] * now.toll[r, s] - bent
-        right[r] += rest[r, 0] / now.room[r, 0] - rest[r, 1] / now.room[r, 1]
+            bent = step.bound_slack[r, s] * step.bound_dual[r, s]
+            rest[r, s] = centring - now.bound_slack[r, s] * now.bound_dual[r, s] - bent
+        right[r] += rest[r, 0] / now.bound_slack[r, 0] - rest[r, 1] / now.bound_slack[r, 1]
     substitute(band, begins, width, right)
     for r in range(n):
-        step.z[r] = step.room[r, 0] = right[r]
-        step.room[r, 1] = -right[r]
+        step.z[r] = step.bound_slack[r, 0] = right[r]
+        step.bound_slack[r, 1] = -right[r]
         for s in range(2):
-            step.toll[r, s] = (rest[r, s] - now.toll[r, s] * step.room[r, s]) / now.room[r, s]
+            step.bound_dual[r, s] = (
+                rest[r, s] - now.bound_dual[r, s] * step.bound_slack[r, s]
+            ) / now.bound_slack[r, s]
     for k in range(m):
         step.slack[k] = -off_rows[k] - _row(rows, step.z, k)
-        step.price[k] = (rest_rows[k] - now.price[k] * step.slack[k]) / now.slack[k]
+        step.dual[k] = (rest_rows[k] - now.dual[k] * step.slack[k]) / now.slack[k]
 
 
 @helper
@@ -207,41 +209,41 @@ def _length(value, change, most):
 
 @helper
 def _lengths(now, step):
-    """Step lengths of unknowns and of prices along a direction."""
-    primal = dual = 1.0 / STEP_BACK
+    """Step lengths of unknowns and of duals along a direction."""
+    primal_length = dual_length = 1.0 / STEP_BACK
     for k in range(now.slack.shape[0]):
-        primal = _length(now.slack[k], step.slack[k], primal)
-        dual = _length(now.price[k], step.price[k], dual)
+        primal_length = _length(now.slack[k], step.slack[k], primal_length)
+        dual_length = _length(now.dual[k], step.dual[k], dual_length)
     for r in range(now.z.shape[0]):
         for s in range(2):
-            primal = _length(now.room[r, s], step.room[r, s], primal)
-            dual = _length(now.toll[r, s], step.toll[r, s], dual)
-    return STEP_BACK * primal, STEP_BACK * dual
+            primal_length = _length(now.bound_slack[r, s], step.bound_slack[r, s], primal_length)
+            dual_length = _length(now.bound_dual[r, s], step.bound_dual[r, s], dual_length)
+    return STEP_BACK * primal_length, STEP_BACK * dual_length
 
 
 @helper
-def _advance(now, step, primal, dual):
+def _advance(now, step, primal_length, dual_length):
     for k in range(now.slack.shape[0]):
-        now.slack[k] += primal * step.slack[k]
-        now.price[k] += dual * step.price[k]
+        now.slack[k] += primal_length * step.slack[k]
+        now.dual[k] += dual_length * step.dual[k]
     for r in range(now.z.shape[0]):
-        now.z[r] += primal * step.z[r]
+        now.z[r] += primal_length * step.z[r]
         for s in range(2):
-            now.room[r, s] += primal * step.room[r, s]
-            now.toll[r, s] += dual * step.toll[r, s]
+            now.bound_slack[r, s] += primal_length * step.bound_slack[r, s]
+            now.bound_dual[r, s] += dual_length * step.bound_dual[r, s]
 
 
 @helper
-def _barrier(now, step, primal, dual):
-    """Mean product of rooms and prices after a step."""
+def _barrier(now, step, primal_length, dual_length):
+    """Mean product of slacks and duals (complementarity) after a step."""
     total = 0.0
     for k in range(now.slack.shape[0]):
-        slack = now.slack[k] + primal * step.slack[k]
-        total += slack * (now.price[k] + dual * step.price[k])
+        slack = now.slack[k] + primal_length * step.slack[k]
+        total += slack * (now.dual[k] + dual_length * step.dual[k])
     for r in range(now.z.shape[0]):
         for s in range(2):
-            room = now.room[r, s] + primal * step.room[r, s]
-            total += room * (now.toll[r, s] + dual * step.toll[r, s])
+            bound_slack = now.bound_slack[r, s] + primal_length * step.bound_slack[r, s]
+            total += bound_slack * (now.bound_dual[r, s] + dual_length * step.bound_dual[r, s])
     return total / (now.slack.shape[0] + 2 * now.z.shape[0])
 
 
@@ -256,12 +258,12 @@ def _begin(rows, low, high, now):
     for r in range(now.z.shape[0]):
         width = max(high[r] - low[r], 2 * LEAST_WIDTH)
         now.z[r] = min(max(0.0, low[r] + 0.1 * width), low[r] + 0.9 * width)
-        now.room[r, 0], now.room[r, 1] = now.z[r] - low[r], low[r] + width - now.z[r]
+        now.bound_slack[r, 0], now.bound_slack[r, 1] = now.z[r] - low[r], low[r] + width - now.z[r]
         for s in range(2):
-            now.toll[r, s] = FIRST_BARRIER / now.room[r, s]
+            now.bound_dual[r, s] = FIRST_BARRIER / now.bound_slack[r, s]
     for k in range(now.slack.shape[0]):
         now.slack[k] = max(rows.limits[k] - _row(rows, now.z, k), FIRST_SLACK)
-        now.price[k] = FIRST_BARRIER / now.slack[k]
+        now.dual[k] = FIRST_BARRIER / now.slack[k]
 
 
 @helper
@@ -269,7 +271,7 @@ def _clear(step):
     for k in range(step.slack.shape[0]):
         step.slack[k] = 0.0
     for r in range(step.z.shape[0]):
-        step.room[r, 0] = step.room[r, 1] = 0.0
+        step.bound_slack[r, 0] = step.bound_slack[r, 1] = 0.0
 
 
 @kernel
@@ -288,28 +290,31 @@ def maximise(rows, gain, low, high, accuracy):
         worst, value, heaviest = 0.0, 0.0, 0.0
         for r in range(n):
             value += gain[r] / scale * now.z[r]
-            off_cost[r] = -gain[r] / scale + now.toll[r, 1] - now.toll[r, 0]
+            off_cost[r] = -gain[r] / scale + now.bound_dual[r, 1] - now.bound_dual[r, 0]
         for k in range(m):
             off_rows[k] = _row(rows, now.z, k) + now.slack[k] - rows.limits[k]
             worst = max(worst, abs(off_rows[k]))
-            weights[k] = now.price[k] / now.slack[k]
+            weights[k] = now.dual[k] / now.slack[k]
             heaviest = max(heaviest, weights[k])
-            _add_row(rows, k, now.price[k], off_cost)
+            _add_row(rows, k, now.dual[k], off_cost)
         _clear(step)
         barrier = _barrier(now, step, nothing, nothing)
         if barrier * (m + 2 * n) < accuracy * (abs(value) + ROUNDING) and worst < FEASIBLE:
             break
         for r in range(n):
-            diagonal[r] = now.toll[r, 0] / now.room[r, 0] + now.toll[r, 1] / now.room[r, 1]
+            diagonal[r] = (
+                now.bound_dual[r, 0] / now.bound_slack[r, 0]
+                + now.bound_dual[r, 1] / now.bound_slack[r, 1]
+            )
             # A hair on the diagonal: far below what matters, far above rounding.
             diagonal[r] += ROUNDING * (1.0 + heaviest)
         _normal(rows, weights, diagonal, width, band)
         if not factorise(band, begins, width):
             break
         _direction(rows, now, step, band, begins, width, off_rows, off_cost, nothing)
-        primal, dual = _lengths(now, step)
-        centring = (_barrier(now, step, primal, dual) / barrier) ** 3 * barrier
+        primal_length, dual_length = _lengths(now, step)
+        centring = (_barrier(now, step, primal_length, dual_length) / barrier) ** 3 * barrier
         _direction(rows, now, step, band, begins, width, off_rows, off_cost, centring)
-        primal, dual = _lengths(now, step)
-        _advance(now, step, primal, dual)
+        primal_length, dual_length = _lengths(now, step)
+        _advance(now, step, primal_length, dual_length)
     return now.z

@@ -1,4 +1,4 @@
-"""Outer simplification: rings with fewer vertices, by changes that only ever add to the solid.
+"""Outer simplification: rings with fewer vertices, by changes that only ever add to the polygon.
 
 Sources: ``outer_simplify.py``.
 """
@@ -9,24 +9,24 @@ import math
 
 import numpy as np
 
-from packwork.compaction.kernels import edges
+from packwork.compaction.kernels import distances
 from packwork.compiled import helper, kernel
 
 
 @helper
 def _change(points, after, before, v, corner):
-    """Area that the solid gains if vertex ``v`` of a bay, or the edge after ``v``, goes.
+    """Area that the polygon gains if vertex ``v`` of a bay, or the edge after ``v``, goes.
 
     A vertex of a bay is left out; a convex edge goes by prolonging its neighbours until
     they meet in ``corner``. Infinite where neither can be.
     """
     u, w = before[v], after[v]
-    bend = edges.side(points, u, v, w)
+    bend = distances.side(points, u, v, w)
     if bend <= 0.0:
         length = math.hypot(points[w, 0] - points[u, 0], points[w, 1] - points[u, 1])
         return -bend / length if length > 0.0 else 0.0
     x = after[w]
-    if edges.side(points, v, w, x) <= 0.0:
+    if distances.side(points, v, w, x) <= 0.0:
         return np.inf
     ax, ay = points[v, 0] - points[u, 0], points[v, 1] - points[u, 1]
     bx, by = points[w, 0] - points[x, 0], points[w, 1] - points[x, 1]
@@ -62,9 +62,9 @@ def _rank(costs, best, v):
 
 @kernel
 def simplify_outward(points, tolerance):
-    """Vertices of a ring whose solid holds that of ``points``, the cheapest changes first.
+    """Vertices of a ring whose polygon holds that of ``points``, the cheapest changes first.
 
-    The solid lies where a positive ring has its inside. No change grows it by more than
+    The polygon lies where a positive ring has its inside. No change grows it by more than
     ``tolerance``; together they may by a third more, since they get larger and larger. Takes
     n log n steps: the cheapest is known from a tournament, not looked for among all.
     """
@@ -90,7 +90,7 @@ def simplify_outward(points, tolerance):
         v = best[1]
         if costs[v] > tolerance:
             break
-        if edges.side(points, before[v], v, after[v]) <= 0.0:
+        if distances.side(points, before[v], v, after[v]) <= 0.0:
             gone = v
         else:
             gone = after[v]

@@ -21,11 +21,11 @@ from packwork.live.neighbourhood.touching import Touching
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.solve.ensemble import Ensemble
-from packwork.solve.ground import Ground
+from packwork.solve.free_space import FreeSpace
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
+from packwork.solve.outlines import Ensemble
 
 RINGS = 3
 """Neighbours of neighbours that a gesture reaches. More share out what it takes and stir more
@@ -138,7 +138,7 @@ class Flow:
         everything = np.arange(len(self._outlines))
         for finer in (1.0, FINER):
             resolution = self._rung(finer)
-            self._sights.ground(self._region, resolution)
+            self._sights.free_space(self._region, resolution)
             self._seen_of(everything, resolution)
 
     @property
@@ -265,7 +265,7 @@ class Flow:
         some, side = self.poses.subset(active), document.container.side
         level = Level(
             document.container, self._seen_of(active, resolution), resolution,
-            forces=document.forces(active), ground=self._room(active, resolution),
+            forces=document.forces(active), free_space=self._room(active, resolution),
         )  # fmt: skip
         motion = Motion(some, some.scale, side, self._options(), self._limits(active))
         motion.pace = FADE ** self._ring[active].astype(np.float64)
@@ -283,19 +283,19 @@ class Flow:
         px_per_cu, margin = resolution / document.container.side, document.options.padding / 2
         return self._sights.outlines(outlines, self.poses.subset(items), px_per_cu, margin)
 
-    def _room(self, active: IntArray, resolution: int) -> Ground:
+    def _room(self, active: IntArray, resolution: int) -> FreeSpace:
         """Room that the items that stand still leave free."""
-        ground = self._sights.ground(self._region, resolution)
+        free_space = self._sights.free_space(self._region, resolution)
         still = np.setdiff1d(np.arange(len(self._outlines)), active)
         if len(still) == 0:
-            return ground
+            return free_space
         ensemble = Ensemble(self._seen_of(still, resolution))
-        rasteriser = Rasteriser(ground.room.shape)
+        rasteriser = Rasteriser(free_space.room.shape)
         points = ensemble.place(
             self.poses.subset(still), resolution / self._document.container.side
         )
         rasteriser.sweep(points, ensemble.ring_starts)
-        return ground.less(rasteriser.density())
+        return free_space.less(rasteriser.density())
 
     def _limits(self, active: IntArray) -> Limits:
         document, count, held = self._document, len(active), self._is_held

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from packwork.compaction.covers import Covers
-from packwork.compaction.detail import FINE
+from packwork.compaction.arrangement import FINE
+from packwork.compaction.outer_simplify import Covers
 from packwork.geometry.outline import Outline
 
 

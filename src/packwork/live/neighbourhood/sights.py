@@ -11,14 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from packwork.compaction.covers import Covers
+from packwork.compaction.outer_simplify import Covers
 from packwork.geometry.affine import stretched
 from packwork.geometry.outline import Outline
 from packwork.pipeline.plan.limits import padded
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.solve.detail import MARGIN_RUNGS, Seen, seen_posed
-from packwork.solve.ground import Ground
+from packwork.solve.free_space import FreeSpace
+from packwork.solve.outlines import MARGIN_RUNGS, Seen, seen_posed
 
 ROUGH = 0.03
 """Tolerance of the covers by which neighbours are found, shares of an item's extent. Larger is
@@ -45,7 +45,7 @@ class LevelCache:
         self._kept = set[Outline]()
         self._covers: tuple[Sequence[Outline], Sequence[float], list[Outline]] = ((), (), [])
         self._region: tuple[Container, float, Container] | None = None
-        self._grounds: dict[int, Ground] = {}
+        self._free_spaces: dict[int, FreeSpace] = {}
 
     def region(self, container: Container, padding: float) -> Container:
         """A container drawn in by half the padding."""
@@ -53,14 +53,14 @@ class LevelCache:
         if known is not None and known[0] is container and known[1] == padding:
             return known[2]
         region = padded(container, padding)
-        self._region, self._grounds = (container, padding, region), {}
+        self._region, self._free_spaces = (container, padding, region), {}
         return region
 
-    def ground(self, region: Container, resolution: int) -> Ground:
-        """Ground of what :meth:`region` has answered last."""
-        if resolution not in self._grounds:
-            self._grounds[resolution] = Ground.of(region, resolution)
-        return self._grounds[resolution]
+    def free_space(self, region: Container, resolution: int) -> FreeSpace:
+        """Free space of what :meth:`region` has answered last."""
+        if resolution not in self._free_spaces:
+            self._free_spaces[resolution] = FreeSpace.of(region, resolution)
+        return self._free_spaces[resolution]
 
     def covers(self, outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:
         """Outlines with few vertices that hold those given, stretched; those last asked for."""
@@ -73,7 +73,7 @@ class LevelCache:
     def outlines(
         self, outlines: Sequence[Outline], poses: Poses, px_per_cu: float, margin: float
     ) -> list[Outline]:
-        """Outlines at a level, see :func:`packwork.solve.detail.seen_posed`."""
+        """Outlines at a level, see :func:`packwork.solve.outlines.seen_posed`."""
         if len(self._kept) > MOST:
             self._seen, self._kept = {}, set()
         self._kept.update(outlines)

@@ -6,7 +6,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.kernels.distances import pairs_of
+from packwork.compaction.kernels.broad_phase import pairs_of
 from packwork.live.document import Document
 from packwork.live.neighbourhood.sights import LevelCache
 from packwork.scene.pose import Poses

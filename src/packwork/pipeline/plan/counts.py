@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 
 from packwork.errors import RecipeError
-from packwork.fields.clearance import distance_inside
-from packwork.fields.thickness import Thickness, thickness
+from packwork.fields.distance_transform import distance_inside
+from packwork.fields.morphology import Thickness, thickness
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import REACH
 from packwork.raster.membership import centre_count

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.compaction.conflicts import Conflict
+from packwork.compaction.arrangement import Conflict
 from packwork.errors import RecipeError
 from packwork.geometry.overlay import difference, intersection
 from packwork.geometry.polygon import Region

@@ -28,8 +28,7 @@ from packwork.losses.term import (
     checked_term,
 )
 from packwork.pipeline.plan.plan import Plan
-from packwork.raster.coverage import Rasteriser
-from packwork.raster.pyramid import image_shape, region_image
+from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from packwork.scene.colour import parse_colour
 from packwork.scene.container import Container
 from packwork.scene.item import Item

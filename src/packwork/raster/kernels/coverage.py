@@ -1,15 +1,11 @@
 """Compiled loops of the renderer: plain arithmetic on arrays that were checked outside.
 
-The signed area that a directed edge sweeps *downward* adds up, so all edges of all
-items go into one accumulation buffer and one running sum down the columns turns it into
-the density image. Rows are contiguous, so that running sum is a sum of whole rows.
-
-Every edge is walked once, cell by cell. The walk leaves its deposit in the buffer and
-writes down the cells and the parameters at which it left them; the pullback and the
-area integrals read that record and never walk again.
-
-Deposits are multiples of a small power of two: sums of them are then exact in the
-buffer's own precision, in any order, and a closed ring leaves exactly zero behind it.
+The signed area that a directed edge sweeps *downward* adds up, so all edges of all items go into
+one accumulation buffer, and one running sum down the columns turns it into the density image.
+Every edge is walked once, cell by cell. The walk leaves its deposit in the buffer and writes down
+the cells and the parameters at which it left them; the pullback and the area integrals read that
+record and never walk again. Deposits are multiples of a small power of two: sums of them are then
+exact in the buffer's own precision, in any order, and a closed ring leaves exactly zero behind it.
 """
 
 from __future__ import annotations
@@ -22,12 +18,15 @@ SPARE_ROWS = 3
 """Rows of the accumulation buffer beyond the image's: one for what falls off its lower
 edge, two for the steps in the wrong order that ``_walk`` speaks of. Derived."""
 
+
 ROWS_AHEAD = 8
 """Rows read before the ring that needs them comes. Larger evicts rows still in use, smaller
 is reached too early. Tried."""
 
+
 PIXELS_PER_LINE = 16
 """float32 pixels in a cache line of 64 bytes. Derived."""
+
 
 ABOVE = -2
 """Record of a piece above the canvas in column c: ``ABOVE - c``. Other pieces off the
@@ -373,3 +372,29 @@ def ring_integrals(points, starts, order, cells, leaves, first, image, prefix, t
                 u0 = u1
             edge += 1
         totals[order[visit]] = total
+
+
+@kernel
+def record_bounds(points, starts, height, width, rows, bounds):
+    """Write first and last rows of rings ``(rings, 2)``, and how long their records are at most.
+
+    A walk crosses a grid line once for each pixel it spans; eight cover cuts and rounding of an
+    edge. Returns the sum of the bounds.
+    """
+    total = 0.0
+    for ring in range(starts.shape[0] - 1):
+        begin, end = starts[ring], starts[ring + 1]
+        top, bottom, spanned = float(height), 0.0, 0.0
+        if end > begin:
+            last_x = min(max(points[end - 1, 0], 0.0), float(width))
+            last_y = min(max(points[end - 1, 1], 0.0), float(height))
+        for v in range(begin, end):
+            x = min(max(points[v, 0], 0.0), float(width))
+            y = min(max(points[v, 1], 0.0), float(height))
+            spanned += abs(x - last_x) + abs(y - last_y)
+            top, bottom = min(top, y), max(bottom, y)
+            last_x, last_y = x, y
+        rows[ring, 0], rows[ring, 1] = int(top), int(bottom)
+        bounds[ring] = int(spanned) + 8 * (end - begin) + 1
+        total += bounds[ring]
+    return total

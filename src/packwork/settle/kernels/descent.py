@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.compaction.kernels import distances, interior_point, steps
+from packwork.compaction.kernels import contacts, distances, interior_point, steps
 from packwork.compiled import helper, kernel
 
 ASIDE = 0.5
@@ -33,7 +33,7 @@ def gains_and_bounds(board, slope, backmost, foremost, items, trust):
     """Gains and bounds of the unknowns, lengths in units of ``trust``.
 
     ``slope``: ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each of
-    ``items``; ``backmost``, ``foremost``: bounds of the turn of every solid.
+    ``items``; ``backmost``, ``foremost``: bounds of the turn of every polygon.
     """
     n = items.shape[0]
     gain, low, high = np.zeros(4 * n), np.zeros(4 * n), np.zeros(4 * n)
@@ -95,7 +95,7 @@ def with_circle(board, items, rows, centre, circle, trust):
     room = 16 * n + 64
     while True:
         item_of, numbers = np.empty(room, np.int64), np.empty((room, 3))
-        count = _tops(board, items, centre, circle - steps.REACH * trust, item_of, numbers)
+        count = _tops(board, items, centre, circle - contacts.REACH * trust, item_of, numbers)
         if count <= room:
             break
         room = count

@@ -15,8 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.fields.clearance import distance_inside
-from packwork.fields.distance_transform import distance_to
+from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container

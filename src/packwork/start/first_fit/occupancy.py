@@ -9,8 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.fields.clearance import distance_inside
-from packwork.fields.distance_transform import distance_to
+from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.raster.coverage import Rasteriser

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.arrangement import find_conflicts
 from packwork.compaction.options import HAIR
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline

@@ -1,4 +1,4 @@
-"""Outlines as a level sees them: no finer than its pixels."""
+"""Outlines of the items as levels see them: stand-ins, no finer than pixels, in one array."""
 
 from __future__ import annotations
 
@@ -8,19 +8,50 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.affine import stretched
-from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import closed, grown, simplified
+from packwork.geometry.outline import Outline, joined
+from packwork.geometry.simplify import closed, grown, hull, simplified
 from packwork.scene.pose import Poses
+from packwork.solve import _kernels
+from packwork.solve.options import OutlineChoice
+
+
+def stand_ins(outlines: Sequence[Outline], choice: OutlineChoice) -> list[Outline]:
+    """Outlines for the stages to see, in the units and about the origin of the true ones.
+
+    Parameters
+    ----------
+    outlines
+        The true ones, one per item.
+    choice
+        ``exact`` gives them back, ``hull`` their convex hulls, one for all copies.
+
+    Examples
+    --------
+    >>> dart = Outline.from_rings([[[0.0, 0], [4, 2], [0, 4], [1, 2]]])
+    >>> first, second = stand_ins([dart, dart], "hull")
+    >>> len(first.points), first is second
+    (3, True)
+    """
+    if choice == "exact":
+        return list(outlines)
+    known: dict[Outline, Outline] = {}
+    for outline in outlines:
+        if outline not in known:
+            known[outline] = hull(outline)
+    return [known[outline] for outline in outlines]
+
 
 DETAIL_PX = 0.12
 """Outlines are simplified to this many pixels of the level: larger is faster and lets
 items overlap by as much, smaller costs edges that no pixel sees. Tried."""
 
+
 CLEFT_PX = 0.26
 """Clefts narrower than twice this many pixels of the level are closed. Larger keeps
 items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
+
 
 MARGIN_RUNGS = 8
 """Steps of size, to a factor of two, within which copies share one outline with its margin, that of
@@ -132,3 +163,62 @@ def _stretched_once(
             done[key] = outline if ratio == 1.0 else outline.mapped(stretched(ratio))
         result.append(done[key])
     return result
+
+
+class Ensemble:
+    """Points of all items, placed by poses, and gradients gathered back to poses.
+
+    Parameters
+    ----------
+    outlines
+        One per item, in item units, origin at the item's centroid; copies may repeat
+        one object.
+
+    Examples
+    --------
+    >>> square = Outline.from_rings([np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])])
+    >>> two = Ensemble([square, square])
+    >>> one = np.ones(2)
+    >>> two.place(Poses(np.array([1.0, 4.0]), one, 0 * one, one), 10.0)[[0, 4]].tolist()
+    [[0.0, 0.0], [30.0, 0.0]]
+    """
+
+    def __init__(self, outlines: Sequence[Outline]) -> None:
+        self._own, self.ring_starts = joined(outlines)
+        counts = [len(o.points) for o in outlines]
+        self._item_starts: IntArray = np.cumsum([0, *counts], dtype=np.int64)
+        self._rings_before: IntArray = np.cumsum([0] + [len(o.rings) for o in outlines])[:-1]
+        self._points = np.empty_like(self._own)
+        self._by_pose = np.zeros((len(outlines), 5))
+
+    def place(self, poses: Poses, px_per_cu: float) -> FloatArray:
+        """Points in pixels, ``(n, 2)``; a buffer that the next call reuses."""
+        _kernels.place(
+            self._own, self._item_starts, poses.x, poses.y, poses.angle, poses.scale,
+            poses.stretch, px_per_cu, self._points,
+        )  # fmt: skip
+        return self._points
+
+    def gather(self, gradient: FloatArray, poses: Poses, px_per_cu: float) -> FloatArray:
+        """Pose gradients from the gradients of the points last placed.
+
+        Returns
+        -------
+        FloatArray
+            ``(items, 5)``: by x and y (per canvas unit), angle (rad), log scale and log
+            stretch; a buffer that the next call reuses.
+        """
+        _kernels.gather(
+            self._points, gradient, self._item_starts, poses.x, poses.y, poses.angle,
+            px_per_cu, self._by_pose,
+        )  # fmt: skip
+        return self._by_pose
+
+    def per_item(self, per_ring: FloatArray) -> FloatArray:
+        """Sums ``(items,)`` of numbers ``(rings,)`` over each item's rings, in their unit."""
+        return np.asarray(np.add.reduceat(per_ring, self._rings_before))
+
+    def per_ring(self, per_item: FloatArray) -> FloatArray:
+        """Rows ``(rings, m)``, each ring's its item's, of ``(items, m)``."""
+        counts = np.diff(np.append(self._rings_before, len(self.ring_starts) - 1))
+        return np.repeat(per_item, counts, axis=0)

@@ -1,26 +1,67 @@
-"""Saliency of a picture by the spectral residual: where it draws the eye.
+"""Filters of images: box means by running sums, and saliency by the spectral residual.
 
-X. Hou and L. Zhang, "Saliency Detection: A Spectral Residual Approach", CVPR 2007,
-doi:10.1109/CVPR.2007.383267. Ours adds a margin of mirror image, or opposite edges that meet
-would stand out; sums the channels; and leaves blank pictures blank.
+M. McDonnell, "Box-filtering techniques", Computer Graphics and Image Processing 17 (1981), 65-70:
+any size for the same price. X. Hou and L. Zhang, "Saliency Detection: A Spectral Residual
+Approach", CVPR 2007, doi:10.1109/CVPR.2007.383267. Ours adds a margin of mirror image, or opposite
+edges that meet would stand out; sums the channels; and leaves blank pictures blank.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, Image
+from packwork.errors import ShapeError
+from packwork.fields import _kernels
+
+
+def box_mean(image: Image, size: int) -> Image:
+    """Mean over the square of ``size`` pixels centred on each pixel; zero off the image.
+
+    Linear and its own adjoint, so it also carries derivatives back.
+
+    Parameters
+    ----------
+    image
+        ``(rows, columns)``, float32 or float64, contiguous.
+    size
+        Odd, at least 1.
+
+    Raises
+    ------
+    ShapeError
+        If the size is even or below 1.
+
+    Examples
+    --------
+    >>> box_mean(np.array([[0.0, 9.0, 0.0]]), 3).tolist()
+    [[1.0, 1.0, 1.0]]
+    """
+    if size < 1 or size % 2 == 0:
+        raise ShapeError(f"a box must have an odd size of at least 1 px, not {size}")
+    across = np.empty_like(image)
+    result = np.empty_like(image)
+    _kernels.box_sum_across(image, size // 2, across)
+    _kernels.box_sum_down(across, size // 2, 1.0 / (size * size), result)
+    return result
+
 
 BLANK = 0.01
 """Standard deviation of a picture, of 1, below which nothing in it stands out: compression
 leaves about that much of a plain colour. Chosen."""
 
+
 MARGIN_PX = 12
 """Margin of mirror image. Without it corners stand out; a whole mirror image, four times the
 picture, puts all that stands out into the middle, whatever is there. Tried."""
 
+
 _NEIGHBOURS = 3
+
+
 _SPREAD = 2.5
+
+
 _FLOOR = 1e-6
 
 

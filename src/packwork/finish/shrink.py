@@ -1,4 +1,4 @@
-"""Separation of pinned items, which compaction may not move."""
+"""Shrinking of single items out of conflicts, where all others stay: fillers and pinned items."""
 
 from __future__ import annotations
 
@@ -9,23 +9,64 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.conflicts import Conflict, find_conflicts
+from packwork.compaction.arrangement import FINE, Conflict, Detail, find_conflicts
+from packwork.compaction.kernels import broad_phase, steps
+from packwork.compaction.options import HAIR
+from packwork.compaction.separate import CUT, MOST_CHECKS
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 
-CUT = 0.996
-"""Factor on the scale of an item in conflict, again and again. Larger takes longer,
-smaller gives room away. As in the finish."""
+FILLER_CUT, FILLER_CHECKS = 0.04, 20
+"""Logarithm of size that a filler in conflict loses at a time, and how often. A smaller
+cut wastes less of its void and takes more checks. Tried."""
 
-STEP = 0.004
-"""Move of an item in conflict that has a line to move on, as a share of its extent. As
-above."""
 
-MOST_ROUNDS = 400
-"""Times at most: by then items are a fifth of what they were. Chosen."""
+def admitted(
+    container: Container,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    fillers: int,
+    gap_cu: float,
+) -> tuple[IntArray, Poses]:
+    """``(m,)`` indices of the items that stay, and their poses: no two of them in conflict.
+
+    The last ``fillers`` items shrink until they are free of all others; those that do
+    not come free are left out. All others stay as they are.
+
+    Parameters
+    ----------
+    outlines
+        One per item, item units.
+    poses
+        Of all items; without the fillers they have no conflicts.
+    gap_cu
+        Gap between items and to the container's edge; a hair is added, as in the finish.
+
+    Examples
+    --------
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = Container("", "", box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]])), 10, 10)
+    >>> poses = Poses(
+    ...     np.array([3.0, 7.9, 3.2]), np.full(3, 5.0), np.zeros(3), np.array([2.8, 2.4, 0.1])
+    ... )
+    >>> kept, stay = admitted(wall, [box] * 3, poses, 2, 0.0)
+    >>> kept.tolist(), bool(2 < stay.scale[1] < 2.1)
+    ([0, 1], True)
+    """
+    gap = gap_cu + HAIR * container.side
+    covers = Detail(outlines, container.outline, poses).covers(FINE)
+    zero = np.zeros(len(poses))
+    arrangement = covers.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
+    last = np.arange(len(poses) - fillers, len(poses))
+    pairs = broad_phase.pairs_of(arrangement.board.boxes, last, gap)
+    steps.clear_by_shrinking(arrangement.board, last, pairs, gap, FILLER_CUT, FILLER_CHECKS)
+    stuck = np.unique(arrangement.conflicts(arrangement.pairs(gap), gap))
+    stay = np.setdiff1d(np.arange(len(poses)), np.intersect1d(stuck, last))
+    shrunk = replace(poses, scale=poses.scale * np.exp(arrangement.places[:, 3]))
+    return stay, shrunk.subset(stay)
 
 
 def separate_pinned(
@@ -63,7 +104,7 @@ def separate_pinned(
     extents = np.array([outline.extent for outline in own])
     some = poses.subset(items)
     held, smallest = limits.held[items], limits.smallest[items]
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MOST_CHECKS):
         found = find_conflicts(container, own, some, gap)
         bad = np.unique([k for one in found for k in (one.item, one.other) if k is not None])
         bad = bad.astype(np.int64)
@@ -71,9 +112,9 @@ def separate_pinned(
         away = _away(container, own, some, found) * ~held[:, :2]
         if len(shrinking) == 0 and not away.any():
             break
-        step = STEP * (extents * some.scale)[:, None] * away
+        step = CUT * (extents * some.scale)[:, None] * away
         scale = some.scale.copy()
-        scale[shrinking] = np.maximum(scale[shrinking] * CUT, smallest[shrinking])
+        scale[shrinking] = np.maximum(scale[shrinking] * (1 - CUT), smallest[shrinking])
         some = replace(some, x=some.x + step[:, 0], y=some.y + step[:, 1], scale=scale)
     return poses.with_some(items, some)
 

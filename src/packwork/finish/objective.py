@@ -1,4 +1,7 @@
-"""Forces in the objective of a finish: pushes of items, and a price on trials that undo them."""
+"""Objective of a finish: the size mode that is asked for, and the forces.
+
+Forces push items in the linear programmes, and set a price on trials that undo what they ask.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +12,23 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
-from packwork.compaction.objective import FreeSizes, Sizing
+from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize, Sizing, turn_ranges
+from packwork.finish.options import FinishOptions
 from packwork.forces.forces import Forces
+from packwork.scene.pose import Poses
+
+
+def sizing_of(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing:
+    """Size mode that the options ask for; ``areas``: ``(n,)`` of the items at these poses."""
+    turns = turn_ranges(poses.angle, options)
+    if options.sizes == "free":
+        smallest = poses.scale / 2 if options.smallest is None else np.array(options.smallest)
+        largest = poses.scale * 2 if options.largest is None else np.array(options.largest)
+        return FreeSizes(
+            areas, turns, np.log(smallest / poses.scale), np.log(largest / poses.scale)
+        )
+    return (FixedSize if options.sizes == "fixed" else SharedSize)(areas, turns)
+
 
 YIELDING = 0.2
 """Most that a push may be worth where sizes are common, over what growing is worth to the same
@@ -19,7 +37,7 @@ item's rim. Larger keeps forces' aims better and makes all items smaller. Tried.
 
 @dataclass(frozen=True, eq=False)
 class Pulling:
-    """Forces on the items of a finish, in the unit of its worths.
+    """Forces on the items of a finish, in the unit of its objective.
 
     Parameters
     ----------
@@ -39,7 +57,7 @@ class Pulling:
     gives_way: bool
 
     def cost(self, places: FloatArray) -> float:
-        """Cost of items at places ``(n, 4)``, in the unit of worths."""
+        """Cost of items at places ``(n, 4)``, in the unit of the objective."""
         return self.unit * self.forces.cost(places[:, :2], self.areas).value
 
     def pushed(self, objective: Objective, arrangement: Arrangement) -> Objective:
@@ -55,7 +73,7 @@ class Pulling:
     def gains(self, places: FloatArray, item: int, others: IntArray) -> FloatArray:
         """``(m,)`` gain, about, of an exchange of an item with each of others ``(m,)``.
 
-        In the unit of worths, at places ``(n, 4)``; 0 for copies of the same thing.
+        In the unit of the objective, at places ``(n, 4)``; 0 for copies of the same thing.
         """
         points = places[:, :2]
         there = self.forces.cost_changes(points, self.areas, points[others])[item]
@@ -65,7 +83,7 @@ class Pulling:
 
 
 def pulling_of(forces: Forces, sizing: Sizing) -> Pulling | None:
-    """Forces in the unit of a size mode's worths; None if there are none."""
+    """Forces in the unit of a size mode's objective; None if there are none."""
     if not forces.acts:
         return None
     # Growth is worth twice the area; where sizes are common, one for the typical item.
