@@ -36,7 +36,7 @@ from benchmarks.robustness.outputs import ICONS, outputs_table
 from benchmarks.robustness.wild import wild_files
 from packwork.errors import PackworkError
 from packwork.raster.drawing import drawn_png
-from packwork.readers.gate.door import admit, document
+from packwork.readers.gate.door import document, parse_untrusted
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.reading import reading_file
 from packwork.readers.regions import clean_union
@@ -99,7 +99,7 @@ def shows_anything(data: bytes) -> bool:
     """Whether resvg draws anything of a file; not if it, too, refuses."""
     try:
         with reading_file("file"):
-            picture = decode_picture(drawn_png(document(admit(data))), SIDE_PX)
+            picture = decode_picture(drawn_png(document(parse_untrusted(data))), SIDE_PX)
     except (PackworkError, ValueError):
         return False
     return bool(picture.pixels[:, :, 3].any())

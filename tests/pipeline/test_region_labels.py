@@ -11,7 +11,7 @@ import shapely
 
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.gate.door import named_parts
+from packwork.readers.svg.container import named_parts
 from packwork.scene.swatch import representative_colour
 
 QUICK = {"levels": "60", "epochs": 60, "effort": "draft", "seed": 0}

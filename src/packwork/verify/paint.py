@@ -17,8 +17,7 @@ import shapely
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import ReadError
 from packwork.raster.drawing import drawn_png
-from packwork.readers.gate.door import admit, document
-from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.gate.door import document, parse_untrusted, parse_xml
 from packwork.readers.layouts.strangers import group_named, tag
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.reading import UnfitError
@@ -168,7 +167,7 @@ def _opacity(sheet: ET.Element, columns: int, rows: int, *, is_own: bool) -> Flo
     sheet.attrib["preserveAspectRatio"] = "none"
     text = ET.tostring(sheet, encoding="unicode")
     if not is_own:
-        text = document(admit(text.encode()))
+        text = document(parse_untrusted(text.encode()))
     pixels = decode_picture(drawn_png(text), max(columns, rows)).pixels
     return np.asarray(pixels[:, :, 3], dtype=np.float64) / 255
 

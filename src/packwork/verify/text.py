@@ -18,7 +18,7 @@ from packwork.readers.layouts.agreement import differences, shapes_of_svg
 from packwork.readers.layouts.pdf import printed_page
 from packwork.readers.layouts.read import ENDINGS, read_content
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.scene.layout import Layout
 from packwork.units import convert

@@ -11,7 +11,7 @@ import shapely
 from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.readers import reading
-from packwork.readers.gate.door import admit
+from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.reading import TooRichError
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
@@ -78,7 +78,7 @@ def test_what_cannot_be_read_in_the_budget_is_refused_in_one_line(body):
 )
 def test_filters_beyond_what_drawings_need_are_left_out(filters, caplog):
     body = f'<filter id="f">{filters}</filter><rect width="500" height="500" filter="url(#f)"/>'
-    root = admit(data(body))
+    root = parse_untrusted(data(body))
     assert all("filter" not in element.attrib for element in root.iter())
     assert "filters were left out" in caplog.text
 
@@ -103,7 +103,7 @@ def test_plain_drawings_spend_little_of_their_budget():
 
 def test_every_pixel_that_a_line_crosses_is_touched_and_no_other():
     path = '<path d="M5 5H95V45M20 60h0M30 70l40 20M60 95z" fill="none" stroke="#000"/>'
-    root = admit(f'<svg viewBox="0 0 100 100">{path}</svg>'.encode())
+    root = parse_untrusted(f'<svg viewBox="0 0 100 100">{path}</svg>'.encode())
     found = touched(painted_shapes(root, None), (0.0, 0.0, 100.0, 100.0), (100, 100))
     expected = np.zeros((100, 100), dtype=bool)
     expected[5, 5:96] = expected[5:46, 95] = expected[60, 20] = True
@@ -118,7 +118,7 @@ def test_thousands_of_dots_are_looked_up_together(monkeypatch):
     """Per line of a path nothing is done but lists: one lookup for all of them."""
     dots = "".join(f"M{k % 200} {k // 200}h0" for k in range(3_000))
     path = f'<path d="{dots}" stroke-linecap="round" stroke="#000"/>'
-    root = admit(f'<svg viewBox="0 0 200 200">{path}</svg>'.encode())
+    root = parse_untrusted(f'<svg viewBox="0 0 200 200">{path}</svg>'.encode())
     placed = Mock(wraps=affine.apply)
     shapes = painted_shapes(root, None)
     monkeypatch.setattr(affine, "apply", placed)

@@ -13,7 +13,7 @@ from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import parse_declarations
 from packwork.readers.gate.css.selectors import Node, UnknownSelectorError, parse_selector
 from packwork.readers.gate.css.sheets import StyleSheet
-from packwork.readers.gate.door import admit
+from packwork.readers.gate.door import parse_untrusted
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
 TREE = ET.fromstring(  # noqa: S314 - ours
@@ -140,7 +140,7 @@ LEFT_OUT = {
 @pytest.mark.parametrize("body", LEFT_OUT)
 def test_what_is_left_out_is_said_in_one_line(body, caplog):
     with caplog.at_level(logging.WARNING, "packwork"):
-        admit(PAGE.format(body + '<g style="zoom:2"/>').encode())
+        parse_untrusted(PAGE.format(body + '<g style="zoom:2"/>').encode())
     (record,) = caplog.records
     assert LEFT_OUT[body] in record.getMessage()
     assert "zoom" in record.getMessage()
@@ -149,5 +149,5 @@ def test_what_is_left_out_is_said_in_one_line(body, caplog):
 def test_plain_drawings_say_nothing(caplog):
     body = '<title/><style>path{fill:red}</style><path d="M0 0h9v9z"/><metadata/><desc/>'
     with caplog.at_level(logging.WARNING, "packwork"):
-        admit(PAGE.format(body).encode())
+        parse_untrusted(PAGE.format(body).encode())
     assert not caplog.records

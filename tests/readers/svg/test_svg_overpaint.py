@@ -6,7 +6,7 @@ import logging
 
 import pytest
 
-from packwork.readers.budget.work import Work
+from packwork.readers.budget.rendering import Work
 from packwork.readers.builtin import builtin_item, icon_names
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.overpaint import paints_beyond, within_outline

@@ -15,7 +15,7 @@ from packwork.errors import RecipeError
 from packwork.geometry import affine
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.job import Job
-from packwork.readers.svg_syntax.transforms import parse_transform
+from packwork.readers.svg_syntax.coordinates import parse_transform
 from packwork.scene.item import Art, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import XLINK, tree_of

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.readers.reading import UnfitError, notice
-from packwork.readers.svg_syntax.lengths import MAX_COORDINATE, parse_length
+from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE, parse_length
 from packwork.readers.svg_syntax.references import elements_by_id, embedded_size, referenced_ids
 from packwork.readers.svg_syntax.shapes import flattened_all, shape_pieces
 from packwork.readers.svg_syntax.vocabulary import (
@@ -38,7 +38,7 @@ _WEIGHTS = {"width": 2, "height": 2, "r": 7, "rx": 7, "ry": 7, "x1": 1, "y1": 1,
 """What each measure of the other shapes adds to the length of their lines, at most."""
 
 
-def settle_dashes(root: ET.Element) -> bool:
+def bound_dashes(root: ET.Element) -> bool:
     """Draw lines solid whose dashes cannot be counted, in place; whether any are dashed.
 
     Those are the lines of text, and dashes in units of a font or a page.
@@ -46,7 +46,7 @@ def settle_dashes(root: ET.Element) -> bool:
     Examples
     --------
     >>> line = ET.Element("line", {"stroke-dasharray": "1e-9em"})
-    >>> settle_dashes(line), line.attrib
+    >>> bound_dashes(line), line.attrib
     (False, {'stroke-dasharray': 'none'})
     """
     dashed = [element for element in root.iter() if DASHES in element.attrib]
@@ -203,7 +203,7 @@ def bound_expansion(root: ET.Element) -> None:
     Traceback (most recent call last):
     packwork.readers.reading.UnfitError: refers to itself in a circle (at id 'a'); ...
     """
-    is_dashed = settle_dashes(root)
+    is_dashed = bound_dashes(root)
     size = _Counter(elements_by_id(root), is_dashed=is_dashed).measure(root, 0)
     count = size.count
     if count > MAX_EXPANDED:

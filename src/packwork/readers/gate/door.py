@@ -1,23 +1,148 @@
-"""Entrance of all SVG files and of their named parts: nothing else parses them."""
+"""Entrance of all SVG files and of their named parts: nothing else parses them.
+
+XML is parsed with limits on size, depth and entities.
+"""
 
 from __future__ import annotations
 
-import copy
-import re
 import xml.etree.ElementTree as ET
 import zlib
+from functools import partial
+from typing import Any
 
-from packwork.readers.budget.expansion import bound_expansion, check_size
-from packwork.readers.budget.filters import settle_filters
-from packwork.readers.gate.plain.cuts import settle_cuts, settle_stencils
-from packwork.readers.gate.plain.moves import settle_moves, settle_symbols
-from packwork.readers.gate.plain.units import settle_dash_units, settle_root, settle_units
+from defusedxml import DefusedXmlException
+from defusedxml.ElementTree import XMLParser
+
+from packwork.readers.budget.expansion import MAX_DEPTH, bound_expansion, check_size
+from packwork.readers.budget.rendering import drop_wild_filters
+from packwork.readers.gate.boxes import (
+    prune_clip_paths,
+    resolve_clip_shapes,
+    resolve_symbols,
+    resolve_transforms,
+)
+from packwork.readers.gate.lengths import resolve_dash_lengths, resolve_lengths, resolve_page_size
 from packwork.readers.gate.sanitise import sanitised
-from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.reading import UnfitError, one_budget
-from packwork.readers.svg_syntax.page import read_page
+from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.readers.svg_syntax.references import drop_dangling, prune_hidden, prune_unused
 from packwork.readers.svg_syntax.vocabulary import HREF
+
+MAX_ELEMENTS = 200_000
+"""Elements of any kind in one file, metadata included. Chosen."""
+
+MAX_NAMESPACE = 500
+"""Letters of a namespace's address: the parser repeats it in every name. Chosen."""
+
+
+_REMEDY = "save it as plain SVG without them"
+_DECLARES = f"declares XML entities or a document type of its own; {_REMEDY}"
+
+MAX_ENTITY = 300
+"""Letters of an entity, as some programs declare for the addresses of namespaces. Chosen."""
+
+MAX_ATTRIBUTES = 100
+"""Attributes that a document type declares. Chosen."""
+
+MAX_REPLACED = 2_000_000
+"""Letters that all entities of a document may come to. Chosen."""
+
+
+def parse_xml(data: bytes) -> ET.Element:
+    """Root of a document, without default attributes and all but the plainest entities.
+
+    A ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. Its own entities
+    pass if each is a short plain text, so that none can multiply, and a few lists of attributes,
+    whose defaults are not taken.
+
+    Raises
+    ------
+    UnfitError
+        If it is not well-formed, too deep, too large or declares other entities.
+
+    Examples
+    --------
+    >>> parse_xml(b"<svg><g/></svg>").tag
+    'svg'
+    """
+    parser = XMLParser(target=_BoundedBuilder(), forbid_entities=False)
+    references = data.count(b"&")
+    parser.parser.EntityDeclHandler = partial(_check_entity, references)
+    parser.parser.UnparsedEntityDeclHandler = _refuse_declaration
+    parser.parser.AttlistDeclHandler = _AttributeLists().declare
+    # What they give by default is not taken.
+    parser.parser.specified_attributes = True
+    try:
+        parser.feed(data)
+        root: ET.Element = parser.close()
+    except DefusedXmlException:
+        raise UnfitError(_DECLARES) from None
+    except ET.ParseError as error:
+        raise UnfitError(f"is not well-formed XML ({error}); save it again as SVG") from None
+    except (ValueError, LookupError) as error:
+        raise UnfitError(f"has an encoding that cannot be read ({error}); use UTF-8") from None
+    return root
+
+
+def _check_entity(
+    references: int, name: str, is_parameter: int, value: str | None, *_where: object
+) -> None:
+    """Refuse an entity that is no short plain text, or that may be repeated too often."""
+    is_plain = not is_parameter and value is not None and not set(value) & set("&<%")
+    if not is_plain or len(value or "") > MAX_ENTITY:
+        raise UnfitError(_DECLARES)
+    if references * len(value or "") > MAX_REPLACED:
+        raise UnfitError(f"repeats the XML entity {name[:20]!r} too often; {_REMEDY}")
+
+
+class _AttributeLists:
+    """Counts the attributes that a document type declares: a parser goes over them per element."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def declare(self, element: str, name: str, kind: str, default: str | None, _: bool) -> None:
+        """Refuse one that is too much."""
+        self._count += 1
+        if self._count > MAX_ATTRIBUTES or len(default or "") > MAX_ENTITY:
+            raise UnfitError(_DECLARES)
+
+
+def _refuse_declaration(*_what: object) -> None:
+    raise UnfitError(_DECLARES)
+
+
+class _BoundedBuilder:
+    """Tree builder that stops as soon as a limit is passed."""
+
+    def __init__(self) -> None:
+        self._builder = ET.TreeBuilder()
+        self._depth = 0
+        self._count = 0
+
+    def start_ns(self, prefix: str, uri: str) -> None:
+        if len(uri) > MAX_NAMESPACE:
+            raise UnfitError(f"has a namespace of {len(uri)} letters; {MAX_NAMESPACE} is the most")
+
+    def start(self, tag: str, attrs: dict[str, str]) -> Any:
+        self._depth += 1
+        self._count += 1
+        if self._depth > MAX_DEPTH:
+            raise UnfitError(f"nests its elements more than {MAX_DEPTH} deep; flatten its groups")
+        if self._count > MAX_ELEMENTS:
+            raise UnfitError(f"has more than {MAX_ELEMENTS:,} elements; simplify it")
+        return self._builder.start(tag, attrs)
+
+    def end(self, tag: str) -> Any:
+        self._depth -= 1
+        return self._builder.end(tag)
+
+    def data(self, text: str) -> None:
+        self._builder.data(text)
+
+    def close(self) -> ET.Element:
+        return self._builder.close()
+
 
 MAX_BYTES = 20_000_000
 """Size of an SVG file. Drawings for packing have kilobytes. Chosen."""
@@ -28,7 +153,7 @@ _NAMESPACES = 'xmlns="http://www.w3.org/2000/svg"'
 _LINKS = 'xmlns:xlink="http://www.w3.org/1999/xlink"'
 
 
-def admit(data: bytes) -> ET.Element:
+def parse_untrusted(data: bytes) -> ET.Element:
     """Clean root of an SVG file's bytes: tags and attributes without namespaces.
 
     Compressed ones (``.svgz``) are unpacked first. The tree holds only known elements, its
@@ -42,13 +167,30 @@ def admit(data: bytes) -> ET.Element:
 
     Examples
     --------
-    >>> root = admit(b'<svg><style>.a{fill:red}</style><path class="a" d="M0 0h9v9z"/></svg>')
+    >>> text = b'<svg><style>.a{fill:red}</style><path class="a" d="M0 0h9v9z"/></svg>'
+    >>> root = parse_untrusted(text)
     >>> root[0].attrib
     {'d': 'M0 0h9v9z', 'fill': 'red'}
     """
     data = unpacked(data)
     with one_budget():
-        return _admitted(data)
+        raw = parse_xml(data)
+        check_size(raw)
+        root = sanitised(raw)
+        resolve_page_size(root)
+        page = read_page(root)
+        resolve_lengths(root, page)
+        resolve_dash_lengths(root)
+        prune_clip_paths(root)
+        resolve_clip_shapes(root, page)
+        resolve_transforms(root, page)
+        resolve_symbols(root)
+        drop_dangling(root)
+        drop_wild_filters(root)
+        prune_hidden(root)
+        prune_unused(root)
+        bound_expansion(root)
+        return root
 
 
 def unpacked(data: bytes) -> bytes:
@@ -73,26 +215,6 @@ def unpacked(data: bytes) -> bytes:
             f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
         )
     return data
-
-
-def _admitted(data: bytes) -> ET.Element:
-    raw = parse_xml(data)
-    check_size(raw)
-    root = sanitised(raw)
-    settle_root(root)
-    page = read_page(root)
-    settle_units(root, page)
-    settle_dash_units(root)
-    settle_stencils(root)
-    settle_cuts(root, page)
-    settle_moves(root, page)
-    settle_symbols(root)
-    drop_dangling(root)
-    settle_filters(root)
-    prune_hidden(root)
-    prune_unused(root)
-    bound_expansion(root)
-    return root
 
 
 def _unpacked(data: bytes) -> bytes:
@@ -159,88 +281,3 @@ def link_declaration() -> tuple[str, str]:
     """
     name, _, value = _LINKS.partition("=")
     return name, value.strip('"')
-
-
-MOST_PARTS = 300
-"""Parts that are looked at; of more, none has room for a name. Chosen."""
-
-LONGEST = 60
-"""Letters of a name. Longer ones are remarks. Chosen."""
-
-_LAYER = "{http://www.inkscape.org/namespaces/inkscape}label"
-_NAMES = (_LAYER, "title", "name", "data-name", "aria-label")
-"""Attributes that hold names, before ids."""
-
-_GIVEN_BY_PROGRAMS = re.compile(
-    r"(path|g|group|rect|circle|ellipse|polygon|polyline|line|layer|ebene|calque|capa|svg|use|image"
-    r"|text|tspan|shape|vector|object|xmlid|svgid)?[-_ ]*[\d_-]*|.*\d{4,}.*",
-    re.IGNORECASE,
-)
-_SHAPES = frozenset({"g", "a", "path", "rect", "circle", "ellipse", "polygon", "polyline", "use"})
-_UNSEEN = frozenset({"defs", "style", "symbol", "clipPath", "mask", "linearGradient"})
-
-
-def named_parts(data: bytes) -> list[tuple[str, bytes]]:
-    """Names of the parts of an SVG, and documents that show nothing else.
-
-    They are the children of one element, the first inwards from the root that has two with
-    names: of a layer of Inkscape, a title, an attribute for names, or an id that no program made.
-
-    Raises
-    ------
-    UnfitError
-        If the bytes are no SVG or pass a limit.
-
-    Examples
-    --------
-    >>> data = b'<svg><g><path id="Peru" d="M0 0h9v9z"/><path id="Chile" d="M9 0h2v9z"/></g></svg>'
-    >>> [(name, len(document) < 90) for name, document in named_parts(data)]
-    [('Peru', True), ('Chile', True)]
-    """
-    root = parse_xml(unpacked(data))
-    way = [root]
-    while True:
-        children = [child for child in way[-1] if _tag(child) in _SHAPES]
-        found = [(name, child) for child in children if (name := _name(child))]
-        if len(found) > 1:
-            break
-        groups = [child for child in children if _tag(child) in {"g", "a"}]
-        if len(groups) != 1:
-            return []
-        way.append(groups[0])
-    return [(name, _alone(way, child)) for name, child in found[:MOST_PARTS]]
-
-
-def _alone(way: list[ET.Element], part: ET.Element) -> bytes:
-    """The document with one part of what is drawn."""
-    inner = part
-    for element in reversed(way):
-        outer = copy.copy(element)
-        for child in list(outer):
-            if _tag(child) not in _UNSEEN:
-                outer.remove(child)
-        outer.append(inner)
-        inner = outer
-    return ET.tostring(inner, encoding="unicode").encode()
-
-
-def _name(element: ET.Element) -> str:
-    titles = [child.text for child in element if _tag(child) == "title"]
-    said = [*titles, *(element.get(key) for key in _NAMES), _own(element.get("id", ""))]
-    plain = (" ".join((text or "").split()) for text in said)
-    return next((text for text in plain if 0 < len(text) <= LONGEST), "")
-
-
-def _own(name: str) -> str:
-    """An id as a name; empty for one that a program gave.
-
-    Examples
-    --------
-    >>> _own("New_Zealand"), _own("path4092"), _own("g")
-    ('New Zealand', '', '')
-    """
-    return "" if _GIVEN_BY_PROGRAMS.fullmatch(name) else name.replace("_", " ")
-
-
-def _tag(element: ET.Element) -> str:
-    return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

@@ -22,14 +22,14 @@ from io import BytesIO
 
 from PIL import Image, ImageOps
 
-from packwork.readers.budget.filters import FILTER
+from packwork.readers.budget.rendering import FILTER
 from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import filled_in, parse_declarations, with_variables
 from packwork.readers.gate.css.selectors import Node
 from packwork.readers.gate.css.sheets import Cascade, StyleSheet
 from packwork.readers.pictures.decode import eight_bit, opened
 from packwork.readers.reading import UnfitError, notice, spend
-from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
+from packwork.readers.svg_syntax.coordinates import parse_length, parse_numbers
 from packwork.readers.svg_syntax.references import embedded_bytes, embedded_size
 from packwork.readers.svg_syntax.vocabulary import (
     ATTRIBUTES,

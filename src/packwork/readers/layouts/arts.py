@@ -19,13 +19,13 @@ from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, silhouette
-from packwork.readers.gate.door import admit
+from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.layouts.assembly import sound_outline
 from packwork.readers.layouts.strangers import tag
 from packwork.readers.pictures.decode import opened
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal, kept_art, vector_art
-from packwork.readers.svg_syntax.transforms import parse_transform
+from packwork.readers.svg_syntax.coordinates import parse_transform
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, Label, PhotoArt, PictureArt, VectorArt
 
@@ -363,7 +363,7 @@ def _cleaned(element: ET.Element, matrix: FloatArray, *, is_traced: bool) -> Vec
     """An element that has been through the gate."""
     document = ET.Element(f"{_SPACE}svg")
     document.append(element)
-    root = admit(ET.tostring(document))
+    root = parse_untrusted(ET.tostring(document))
     art = vector_art(root, None, is_cut=False, place=matrix)
     return VectorArt(art.markup, matrix, is_traced)
 

@@ -23,7 +23,7 @@ from packwork.readers.layouts.assembly import (
     sound_weight,
 )
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
+from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.layout import Layout
 from packwork.units import Unit
 

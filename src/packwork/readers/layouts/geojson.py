@@ -20,7 +20,7 @@ from packwork.readers.files import read_text
 from packwork.readers.json_text import parsed
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import MAX_POINTS
-from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
+from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.item import Datum, FlatArt, Item, Label

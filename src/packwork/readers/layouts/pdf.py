@@ -19,8 +19,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import FillRule
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg_syntax.painted import Clip, Painted
-from packwork.readers.svg_syntax.painting import Painting, StrokeStyle
+from packwork.readers.svg_syntax.painted import Clip, Painted, Painting, StrokeStyle
 from packwork.readers.svg_syntax.path_data import PathBuilder, SubPath
 from packwork.units import convert
 

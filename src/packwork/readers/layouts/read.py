@@ -8,8 +8,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes, stem
-from packwork.readers.gate.door import MAX_BYTES
-from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.gate.door import MAX_BYTES, parse_xml
 from packwork.readers.layouts.dxf import layout_of_dxf
 from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
 from packwork.readers.layouts.strangers import group_named

@@ -18,8 +18,8 @@ from packwork.readers.layouts.arts import Arts
 from packwork.readers.layouts.strangers import group_named, tag
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal
+from packwork.readers.svg_syntax.coordinates import parse_transform
 from packwork.readers.svg_syntax.path_data import parse_path
-from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, PhotoArt

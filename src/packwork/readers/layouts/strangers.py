@@ -12,7 +12,7 @@ from collections.abc import Set
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.phrasing import number_of
-from packwork.readers.svg_syntax.transforms import parse_transform
+from packwork.readers.svg_syntax.coordinates import parse_transform
 
 PAINTED = frozenset(
     {"g", "a", "use", "path", "image", "text", "rect", "circle", "ellipse", "line", "polyline",

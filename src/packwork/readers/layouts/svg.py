@@ -25,7 +25,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, silhouette
 from packwork.phrasing import number_of
-from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.gate.door import parse_xml
 from packwork.readers.layouts.arts import LINK, Arts, labelled, place_and_art
 from packwork.readers.layouts.assembly import (
     FoundItem,
@@ -57,10 +57,8 @@ from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.kept import followed_once
-from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.svg_syntax.page import view_box
+from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform, view_box
 from packwork.readers.svg_syntax.shapes import points_of
-from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert

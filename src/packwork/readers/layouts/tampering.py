@@ -23,8 +23,7 @@ from packwork.readers.layouts.strangers import (
     tag,
     unmeasured,
 )
-from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.svg_syntax.page import view_box
+from packwork.readers.svg_syntax.coordinates import parse_length, view_box
 from packwork.readers.svg_syntax.vocabulary import ATTRIBUTES, ELEMENTS, PROPERTIES, RENAMED
 
 _COLOURING = frozenset({"fill", "fill-opacity", "color", "opacity", "display", "visibility"})

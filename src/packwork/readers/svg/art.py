@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.gate.door import admit, link_declaration, serialised, uses_links
-from packwork.readers.svg_syntax.page import Page
+from packwork.readers.gate.door import link_declaration, parse_untrusted, serialised, uses_links
+from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.references import elements_by_id, rename_references
 from packwork.readers.svg_syntax.vocabulary import GRADIENTS
 from packwork.scene.item import VectorArt
@@ -81,7 +81,9 @@ def kept_art(markup: str, place: FloatArray, *, is_traced: bool = False) -> Vect
     """
     name, value = link_declaration()
     links = f' {name}="{value}"'
-    root = admit(f'<svg xmlns="http://www.w3.org/2000/svg"{links}>{markup}</svg>'.encode())
+    root = parse_untrusted(
+        f'<svg xmlns="http://www.w3.org/2000/svg"{links}>{markup}</svg>'.encode()
+    )
     plain = markup.replace(links, "").replace(" />", "/>")
     if "".join(serialised(child) for child in root) == plain:
         return VectorArt(markup, place, is_traced)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import copy
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +15,7 @@ import shapely
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import difference, intersection, union
 from packwork.geometry.polygon import Region, silhouette
-from packwork.readers.gate.door import named_parts
+from packwork.readers.gate.door import parse_xml, unpacked
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
@@ -25,8 +27,7 @@ from packwork.readers.svg.region.follow import Follower
 from packwork.readers.svg.region.ink import Ink, TracedInk
 from packwork.readers.svg.region.sheet import LEAST_WHITE, WHOLE_PAGE, is_near_white
 from packwork.readers.svg.render.trace import TRACE_PX, page_picture
-from packwork.readers.svg_syntax.painted import Painted, drawing_box
-from packwork.readers.svg_syntax.painting import opacity
+from packwork.readers.svg_syntax.painted import Painted, drawing_box, opacity
 from packwork.scene.container import Container, placed_container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
 
@@ -268,3 +269,88 @@ def _dark_part(root: ET.Element, page: Page) -> Region:
     pixels = decode_picture(page_picture(root, page), TRACE_PX).pixels
     traced = mask_of_pixels(pixels)
     return shapely.transform(traced.region, lambda points: points * (page.width / traced.width))
+
+
+MOST_PARTS = 300
+"""Parts that are looked at; of more, none has room for a name. Chosen."""
+
+LONGEST = 60
+"""Letters of a name. Longer ones are remarks. Chosen."""
+
+_LAYER = "{http://www.inkscape.org/namespaces/inkscape}label"
+_NAMES = (_LAYER, "title", "name", "data-name", "aria-label")
+"""Attributes that hold names, before ids."""
+
+_GIVEN_BY_PROGRAMS = re.compile(
+    r"(path|g|group|rect|circle|ellipse|polygon|polyline|line|layer|ebene|calque|capa|svg|use|image"
+    r"|text|tspan|shape|vector|object|xmlid|svgid)?[-_ ]*[\d_-]*|.*\d{4,}.*",
+    re.IGNORECASE,
+)
+_SHAPES = frozenset({"g", "a", "path", "rect", "circle", "ellipse", "polygon", "polyline", "use"})
+_UNSEEN = frozenset({"defs", "style", "symbol", "clipPath", "mask", "linearGradient"})
+
+
+def named_parts(data: bytes) -> list[tuple[str, bytes]]:
+    """Names of the parts of an SVG, and documents that show nothing else.
+
+    They are the children of one element, the first inwards from the root that has two with
+    names: of a layer of Inkscape, a title, an attribute for names, or an id that no program made.
+
+    Raises
+    ------
+    UnfitError
+        If the bytes are no SVG or pass a limit.
+
+    Examples
+    --------
+    >>> data = b'<svg><g><path id="Peru" d="M0 0h9v9z"/><path id="Chile" d="M9 0h2v9z"/></g></svg>'
+    >>> [(name, len(document) < 90) for name, document in named_parts(data)]
+    [('Peru', True), ('Chile', True)]
+    """
+    root = parse_xml(unpacked(data))
+    way = [root]
+    while True:
+        children = [child for child in way[-1] if _tag(child) in _SHAPES]
+        found = [(name, child) for child in children if (name := _name(child))]
+        if len(found) > 1:
+            break
+        groups = [child for child in children if _tag(child) in {"g", "a"}]
+        if len(groups) != 1:
+            return []
+        way.append(groups[0])
+    return [(name, _alone(way, child)) for name, child in found[:MOST_PARTS]]
+
+
+def _alone(way: list[ET.Element], part: ET.Element) -> bytes:
+    """The document with one part of what is drawn."""
+    inner = part
+    for element in reversed(way):
+        outer = copy.copy(element)
+        for child in list(outer):
+            if _tag(child) not in _UNSEEN:
+                outer.remove(child)
+        outer.append(inner)
+        inner = outer
+    return ET.tostring(inner, encoding="unicode").encode()
+
+
+def _name(element: ET.Element) -> str:
+    titles = [child.text for child in element if _tag(child) == "title"]
+    said = [*titles, *(element.get(key) for key in _NAMES), _own(element.get("id", ""))]
+    plain = (" ".join((text or "").split()) for text in said)
+    return next((text for text in plain if 0 < len(text) <= LONGEST), "")
+
+
+def _own(name: str) -> str:
+    """An id as a name; empty for one that a program gave.
+
+    Examples
+    --------
+    >>> _own("New_Zealand"), _own("path4092"), _own("g")
+    ('New Zealand', '', '')
+    """
+    return "" if _GIVEN_BY_PROGRAMS.fullmatch(name) else name.replace("_", " ")
+
+
+def _tag(element: ET.Element) -> str:
+    return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

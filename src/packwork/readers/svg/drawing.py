@@ -11,14 +11,13 @@ from functools import cached_property
 from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
-from packwork.readers.budget.filters import check_tiles
-from packwork.readers.budget.work import Work, work_of
-from packwork.readers.gate.door import admit
+from packwork.readers.budget.rendering import Work, check_tiles, work_of
+from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
 from packwork.readers.reading import TooRichError, UnfitError, notice, one_budget
 from packwork.readers.svg.paint.solid import solid_twin
-from packwork.readers.svg.paint.walk import painted_shapes, settle_steady
+from packwork.readers.svg.paint.walk import painted_shapes, scale_steady_strokes
 from packwork.readers.svg.region.ink import Ink, painted_ink
 from packwork.readers.svg.region.sheet import drop_sheet
 from packwork.readers.svg.render.compare import LEAST_AGREEMENT, Comparison
@@ -32,7 +31,7 @@ from packwork.readers.svg.render.trace import (
     needs_tracing,
     traced_ink,
 )
-from packwork.readers.svg_syntax.page import Page, read_page
+from packwork.readers.svg_syntax.coordinates import Page, read_page
 from packwork.readers.svg_syntax.painted import Painted, drawing_box
 
 MAX_SHAPES = 8_000
@@ -106,9 +105,9 @@ def read_drawing(
     8.0
     """
     with one_budget(1.0 if is_compared else LARGESSE):
-        root = admit(data)
+        root = parse_untrusted(data)
         page = read_page(root)
-        settle_steady(root, page)
+        scale_steady_strokes(root, page)
         set_in_outlines(root, page)
         shapes = painted_shapes(root, page)
         sheet = PageFate.NONE

@@ -18,7 +18,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.budget.expansion import count_expanded
-from packwork.readers.budget.filters import FILTER, drop_filters
+from packwork.readers.budget.rendering import FILTER, drop_filters
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
@@ -32,7 +32,7 @@ from packwork.readers.svg.overpaint import FILTERED, whole_reach, within_outline
 from packwork.readers.svg.region.ink import TracedInk
 from packwork.readers.svg.region.sheet import WHOLE_PAGE
 from packwork.readers.svg.render.compare import SIDES_PX, excess, side_by_side
-from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.coordinates import parse_length
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import shape_pieces
 from packwork.scene.item import Item, VectorArt

@@ -19,8 +19,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
-from packwork.readers.budget.filters import FILTER
-from packwork.readers.budget.work import Work
+from packwork.readers.budget.rendering import FILTER, Work
 from packwork.readers.gate.door import link_declaration
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.reading import TooRichError, UnfitError, notice

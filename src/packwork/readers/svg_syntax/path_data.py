@@ -13,7 +13,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.reading import UnfitError, spend
-from packwork.readers.svg_syntax.lengths import (
+from packwork.readers.svg_syntax.coordinates import (
     MAX_COORDINATE,
     NUMBER,
     checked,

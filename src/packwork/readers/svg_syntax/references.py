@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 
 from packwork.readers.pictures.decode import picture_size
-from packwork.readers.svg_syntax.lengths import parse_numbers
+from packwork.readers.svg_syntax.coordinates import parse_numbers
 from packwork.readers.svg_syntax.vocabulary import (
     GRADIENTS,
     GROUPS,

@@ -11,11 +11,8 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry.bezier import MAX_STEPS
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
+from packwork.readers.svg_syntax.coordinates import Viewport, parse_length, parse_numbers
 from packwork.readers.svg_syntax.path_data import MAX_SEGMENTS, SubPath, circle_cubics, parse_path
-
-Viewport = tuple[float, float]
-"""Width and height that percentages refer to, in user units."""
 
 
 def diagonal(viewport: Viewport) -> float:

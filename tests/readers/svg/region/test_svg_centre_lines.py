@@ -13,7 +13,7 @@ from packwork.readers.svg.region.centre_lines import (
     piece_strokes,
     stroke_region,
 )
-from packwork.readers.svg_syntax.painting import StrokeStyle
+from packwork.readers.svg_syntax.painted import StrokeStyle
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened
 

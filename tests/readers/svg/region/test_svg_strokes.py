@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from packwork.readers.svg.region.centre_lines import stroke_region
-from packwork.readers.svg_syntax.painting import StrokeStyle
+from packwork.readers.svg_syntax.painted import StrokeStyle
 
 
 @pytest.mark.parametrize(

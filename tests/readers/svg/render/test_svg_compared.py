@@ -8,8 +8,8 @@ import pytest
 import shapely
 
 from packwork.errors import ReadError
-from packwork.readers.budget.work import LEAST_PX, Work, work_of
-from packwork.readers.gate.door import admit
+from packwork.readers.budget.rendering import LEAST_PX, Work, work_of
+from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.reading import TooRichError
 from packwork.readers.svg import drawing as drawing_module
 from packwork.readers.svg.drawing import read_drawing
@@ -17,7 +17,7 @@ from packwork.readers.svg.item import item_of_svg, read_svg
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import PaintedInk, TracedInk
 from packwork.readers.svg.render.compare import Comparison, excess, side_by_side
-from packwork.readers.svg_syntax.page import read_page
+from packwork.readers.svg_syntax.coordinates import read_page
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 CLEAR = '<linearGradient id="g"><stop stop-opacity="0"/></linearGradient>'
@@ -97,7 +97,7 @@ def test_masks_that_let_little_through_are_shapes():
 
 @pytest.mark.parametrize("share", [0.25, 0.5, 0.9])
 def test_agreement_is_the_share_of_areas(share):
-    root = admit(svg('<rect width="80" height="60"/>'))
+    root = parse_untrusted(svg('<rect width="80" height="60"/>'))
     page, whole = read_page(root), shapely.box(0, 0, 80, 60)
     comparison = Comparison(root, page, whole, work_of(root, [], page))
     assert comparison.agreement(shapely.box(0, 0, 80 * share, 60)) == pytest.approx(share, abs=0.01)
@@ -105,7 +105,7 @@ def test_agreement_is_the_share_of_areas(share):
 
 
 def test_excess_counts_what_lies_beyond():
-    root = admit(svg('<rect width="60" height="60"/>'))
+    root = parse_untrusted(svg('<rect width="60" height="60"/>'))
     page = read_page(root)
     whole, part = shapely.box(0, 0, 60, 60), shapely.box(0, 0, 40, 60)
     assert excess(*side_by_side(whole, root, page, 64)) == 0

@@ -24,7 +24,7 @@ from packwork.readers.gate.css.selectors import (
     split_outside,
 )
 from packwork.readers.reading import UnfitError, spend
-from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.coordinates import parse_length
 
 MAX_RULES = 20_000
 """Style rules of one drawing. Chosen."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import xml.etree.ElementTree as ET
 
-from packwork.readers.svg_syntax.painting import is_clear, opacity
+from packwork.readers.svg_syntax.painted import is_clear, opacity
 from packwork.readers.svg_syntax.references import elements_by_id, paint_server
 from packwork.readers.svg_syntax.vocabulary import GRADIENTS, HREF
 

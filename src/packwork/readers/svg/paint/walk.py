@@ -18,15 +18,20 @@ from packwork.geometry import affine
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, root_viewport, view_box
-from packwork.readers.svg_syntax.page import Page as Page
-from packwork.readers.svg_syntax.painted import Clip, Painted, PlacedText
-from packwork.readers.svg_syntax.painting import Painting, opacity
+from packwork.readers.svg_syntax.coordinates import (
+    PLAIN_VIEWPORT,
+    Viewport,
+    parse_length,
+    parse_transform,
+    root_viewport,
+    view_box,
+    view_matrix,
+)
+from packwork.readers.svg_syntax.coordinates import Page as Page
+from packwork.readers.svg_syntax.painted import Clip, Painted, Painting, PlacedText, opacity
 from packwork.readers.svg_syntax.path_data import MAX_SEGMENTS, SubPath
 from packwork.readers.svg_syntax.references import elements_by_id, paint_server
-from packwork.readers.svg_syntax.shapes import Viewport, diagonal, shape_pieces
-from packwork.readers.svg_syntax.transforms import parse_transform, view_matrix
+from packwork.readers.svg_syntax.shapes import diagonal, shape_pieces
 from packwork.readers.svg_syntax.vocabulary import HREF, NEVER_DRAWN, SHAPES
 
 
@@ -274,7 +279,7 @@ _EVEN = 1e-9
 """Difference of the two stretches of a map, as a share, from which its circles are ellipses."""
 
 
-def settle_steady(root: ET.Element, page: Page | None) -> None:
+def scale_steady_strokes(root: ET.Element, page: Page | None) -> None:
     """Draw lines of constant width as plain ones, in place.
 
     A shape that is used several times is as its first use has it.
@@ -284,7 +289,7 @@ def settle_steady(root: ET.Element, page: Page | None) -> None:
     >>> text = '<g transform="scale(4)"><path vector-effect="non-scaling-stroke" {}/></g>'
     >>> line = text.format('d="M0 0h9" stroke="red" stroke-width="2"')
     >>> root = ET.fromstring(f"<svg>{line}</svg>")
-    >>> settle_steady(root, None)
+    >>> scale_steady_strokes(root, None)
     >>> root[0][0].get("stroke-width"), root[0][0].get("vector-effect")
     ('0.5', None)
     """

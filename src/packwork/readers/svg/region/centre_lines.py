@@ -23,7 +23,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.overlay import buffered, simplify, union
 from packwork.geometry.polygon import Region
 from packwork.readers.budget.expansion import MAX_DASHES
-from packwork.readers.svg_syntax.painting import StrokeStyle
+from packwork.readers.svg_syntax.painted import StrokeStyle
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all, step_counts
 

@@ -27,8 +27,14 @@ from packwork.readers.budget.crossings import (
 )
 from packwork.readers.reading import spend
 from packwork.readers.svg.region.centre_lines import FinePoints, piece_strokes
-from packwork.readers.svg_syntax.painted import Clip, Painted, is_inside, stretch, whole_box
-from packwork.readers.svg_syntax.painting import StrokeStyle
+from packwork.readers.svg_syntax.painted import (
+    Clip,
+    Painted,
+    StrokeStyle,
+    is_inside,
+    stretch,
+    whole_box,
+)
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all
 

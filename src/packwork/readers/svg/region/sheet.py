@@ -11,7 +11,7 @@ from packwork.readers.pages import PageFate
 from packwork.readers.pictures.transparency import LEAST_WHITE as LEAST_WHITE
 from packwork.readers.reading import TooRichError
 from packwork.readers.svg.region.ink import painted_ink
-from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Box, Painted, drawing_box
 from packwork.scene.colour import css_colour
 
@@ -46,7 +46,7 @@ def drop_sheet(
 
     Examples
     --------
-    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> from packwork.readers.svg.paint.walk import painted_shapes
     >>> paper = '<rect width="9" height="9" fill="white"/>'
     >>> root = ET.fromstring(f'<svg viewBox="0 0 9 9">{paper}<circle r="3"/></svg>')

@@ -14,10 +14,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.readers.budget.work import Work
+from packwork.readers.budget.rendering import Work
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.render.resvg import TRACE_PX, View, coverage
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page
+from packwork.readers.svg_syntax.coordinates import PLAIN_VIEWPORT, Page
 
 LEAST_AGREEMENT = 0.98
 """Intersection over union below which a reading counts as wrong. Larger traces drawings
@@ -46,8 +46,8 @@ class Comparison:
     Examples
     --------
     >>> import shapely
-    >>> from packwork.readers.svg_syntax.page import read_page
-    >>> from packwork.readers.budget.work import work_of
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
+    >>> from packwork.readers.budget.rendering import work_of
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> page, half = read_page(root), shapely.box(0, 0, 10, 5)
     >>> round(Comparison(root, page, half, work_of(root, [], page)).agreement(half), 2)

@@ -22,8 +22,7 @@ from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.reading import left, notice, spend
 from packwork.readers.svg.paint.walk import placed_texts
 from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
-from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
-from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.coordinates import Page, parse_length, parse_numbers
 from packwork.readers.svg_syntax.painted import PlacedText
 from packwork.readers.svg_syntax.references import elements_by_id, referenced_ids
 from packwork.readers.svg_syntax.vocabulary import NEVER_DRAWN
@@ -147,7 +146,7 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
 
     Examples
     --------
-    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> root = ET.fromstring('<svg viewBox="0 0 9 9"><text y="8" fill="red">a</text></svg>')
     >>> set_in_outlines(root, read_page(root))
     >>> root[0].tag, root[0].get("fill"), root[0].get("d")[0]

@@ -13,7 +13,7 @@ from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import document
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.coordinates import Page
 
 TRACE_PX = 1_000
 """Longer side of the rendering that is traced: the outline is good to about 1/10,000 of
@@ -40,7 +40,7 @@ def coverage(root: ET.Element, page: Page, part: View, longest_px: int) -> Float
 
     Examples
     --------
-    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> float(coverage(root, read_page(root), (0.0, 0.0, 20.0, 20.0), 4).sum())
     4.0
@@ -84,7 +84,7 @@ def page_picture(
 
     Examples
     --------
-    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> root = ET.fromstring('<svg width="20" height="20"/>')
     >>> page_picture(root, read_page(root))[1:4]
     b'PNG'

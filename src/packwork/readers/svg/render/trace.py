@@ -17,14 +17,14 @@ from shapely.geometry import Polygon
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.readers.budget.work import LEAST_PX, Work
+from packwork.readers.budget.rendering import LEAST_PX, Work
 from packwork.readers.options import HALF
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import TracedInk
 from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
 from packwork.readers.svg.render.resvg import TRACE_PX as TRACE_PX
 from packwork.readers.svg.render.resvg import page_picture as page_picture
-from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.shapes import flattened_all
 from packwork.readers.svg_syntax.vocabulary import TEXTS, TRACED
@@ -148,8 +148,8 @@ def traced_ink(
 
     Examples
     --------
-    >>> from packwork.readers.svg_syntax.page import read_page
-    >>> from packwork.readers.budget.work import work_of
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
+    >>> from packwork.readers.budget.rendering import work_of
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> page = read_page(root)
     >>> part = (0.0, 0.0, 20.0, 20.0)
@@ -188,8 +188,8 @@ def inked_part(root: ET.Element, page: Page, work: Work) -> View | None:
 
     Examples
     --------
-    >>> from packwork.readers.svg_syntax.page import read_page
-    >>> from packwork.readers.budget.work import work_of
+    >>> from packwork.readers.svg_syntax.coordinates import read_page
+    >>> from packwork.readers.budget.rendering import work_of
     >>> root = ET.fromstring('<svg width="100" height="50"><rect width="10" height="9"/></svg>')
     >>> page = read_page(root)
     >>> [round(side, 1) for side in inked_part(root, page, work_of(root, [], page))]

@@ -12,21 +12,27 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from packwork.readers.budget.expansion import DASHES, curve_length
-from packwork.readers.svg_syntax.lengths import PX_PER_UNIT, parse_length
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, root_viewport, view_box
+from packwork.readers.svg_syntax.coordinates import (
+    PLAIN_VIEWPORT,
+    PX_PER_UNIT,
+    Page,
+    parse_length,
+    root_viewport,
+    view_box,
+)
 from packwork.readers.svg_syntax.vocabulary import SHAPES
 from packwork.units import NUMBER
 
 PATH_LENGTH, OFFSET = "pathLength", "stroke-dashoffset"
 
 
-def settle_dash_units(root: ET.Element) -> None:
+def resolve_dash_lengths(root: ET.Element) -> None:
     """Scale the dashes of shapes that state a ``pathLength``, in place.
 
     Examples
     --------
     >>> text = '<svg><path d="M0 0h8" pathLength="4" stroke-dasharray="1 .5"/></svg>'
-    >>> root = ET.fromstring(text); settle_dash_units(root)
+    >>> root = ET.fromstring(text); resolve_dash_lengths(root)
     >>> root[0].get("stroke-dasharray"), root[0].get("pathLength")
     ('2 1', None)
     """
@@ -110,13 +116,13 @@ class Context:
         return PX_PER_UNIT[unit]
 
 
-def settle_units(root: ET.Element, page: Page | None) -> None:
+def resolve_lengths(root: ET.Element, page: Page | None) -> None:
     """Turn lengths that need a font or a window into numbers, in place.
 
     Examples
     --------
     >>> root = ET.fromstring('<svg font-size="10"><g font-size="2em"><rect width="3em"/></g></svg>')
-    >>> settle_units(root, None)
+    >>> resolve_lengths(root, None)
     >>> root[0].attrib, root[0][0].attrib
     ({'font-size': '20'}, {'width': '60'})
     """
@@ -125,13 +131,13 @@ def settle_units(root: ET.Element, page: Page | None) -> None:
     _settle(root, Context(font, font, root_viewport(root, page), window), is_root=True)
 
 
-def settle_root(root: ET.Element) -> None:
+def resolve_page_size(root: ET.Element) -> None:
     """The same for the size of the page itself, in place; where it lies in a window is forgotten.
 
     Examples
     --------
     >>> root = ET.Element("svg", {"width": "2em", "height": "calc(1in + 4px)"})
-    >>> settle_root(root); root.attrib
+    >>> resolve_page_size(root); root.attrib
     {'width': '32', 'height': '100'}
     """
     plain = Context(PLAIN_FONT_PX, PLAIN_FONT_PX, (0.0, 0.0), (0.0, 0.0))

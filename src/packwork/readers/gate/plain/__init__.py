@@ -1,1 +1,0 @@
-"""CSS features rewritten as plain SVG attributes: units, transforms, clip shapes, dashes."""
