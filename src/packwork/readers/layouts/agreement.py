@@ -24,7 +24,7 @@ from packwork.readers.gate.door import parse_xml
 from packwork.readers.layouts.arts import LINK
 from packwork.readers.layouts.strangers import tag
 from packwork.readers.reading import UnfitError
-from packwork.readers.svg.paint.walk import painted_shapes
+from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.svg_syntax.coordinates import Page, read_page
 from packwork.readers.svg_syntax.painted import Box, Clip, Painted, is_inside
 from packwork.readers.svg_syntax.path_data import SubPath

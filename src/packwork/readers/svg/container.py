@@ -19,14 +19,13 @@ from packwork.readers.gate.door import parse_xml, unpacked
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
+from packwork.readers.pictures.transparency import LEAST_WHITE
 from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.regions import canvas_box, clean_union, tell_if_full
-from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
-from packwork.readers.svg.paint.walk import Page
-from packwork.readers.svg.region.follow import Follower
-from packwork.readers.svg.region.ink import Ink, TracedInk
-from packwork.readers.svg.region.sheet import LEAST_WHITE, WHOLE_PAGE, is_near_white
-from packwork.readers.svg.render.trace import TRACE_PX, page_picture
+from packwork.readers.svg.drawing import WHOLE_PAGE, PaintedDrawing, is_near_white, read_drawing
+from packwork.readers.svg.ink import Follower, Ink, TracedInk
+from packwork.readers.svg.render.resvg import TRACE_PX, page_picture
+from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted, drawing_box, opacity
 from packwork.scene.container import Container, placed_container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length

@@ -20,8 +20,8 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.regions import Holes, clean_union, without_holes
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
-from packwork.readers.svg.paint.walk import painted_shapes
-from packwork.readers.svg.region.ink import PaintedInk
+from packwork.readers.svg.ink import PaintedInk
+from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.svg_syntax.painted import drawing_box
 from packwork.scene.item import Item, VectorArt
 

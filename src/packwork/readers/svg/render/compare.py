@@ -15,8 +15,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.budget.rendering import Work
-from packwork.readers.svg.paint.solid import solid_twin
-from packwork.readers.svg.render.resvg import TRACE_PX, View, coverage
+from packwork.readers.svg.render.resvg import TRACE_PX, View, coverage, solid_twin
 from packwork.readers.svg_syntax.coordinates import PLAIN_VIEWPORT, Page
 
 LEAST_AGREEMENT = 0.98

@@ -19,11 +19,8 @@ from packwork.geometry import affine
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.budget.rendering import LEAST_PX, Work
 from packwork.readers.options import HALF
-from packwork.readers.svg.paint.solid import solid_twin
-from packwork.readers.svg.region.ink import TracedInk
-from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
-from packwork.readers.svg.render.resvg import TRACE_PX as TRACE_PX
-from packwork.readers.svg.render.resvg import page_picture as page_picture
+from packwork.readers.svg.ink import TracedInk
+from packwork.readers.svg.render.resvg import FIND_PX, TRACE_PX, View, coverage, inked, solid_twin
 from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.shapes import flattened_all

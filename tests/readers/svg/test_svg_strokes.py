@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from packwork.readers.svg.region.centre_lines import stroke_region
+from packwork.readers.svg.strokes import stroke_region
 from packwork.readers.svg_syntax.painted import StrokeStyle
 
 

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.region.centre_lines import (
+from packwork.readers.svg.strokes import (
     FinePoints,
     open_stroke,
     piece_strokes,

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from packwork.geometry.polygon import region
 from packwork.readers.budget.crossings import Allowance
 from packwork.readers.reading import TooRichError
+from packwork.readers.svg.ink import filled
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.region.centre_lines import dashed
-from packwork.readers.svg.region.follow import filled
+from packwork.readers.svg.strokes import dashed
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
 RING = '<circle cx="50" cy="50" r="40" fill="none" stroke="#000" stroke-width="4" {}/>'
@@ -106,7 +106,7 @@ def test_outlines_of_arcs_do_not_close_the_ring():
 
 
 def test_hidden_shapes_cost_nothing(monkeypatch):
-    from packwork.readers.svg.region.follow import Follower
+    from packwork.readers.svg.ink import Follower
 
     followed = []
     whole = Follower._whole_fill

@@ -20,6 +20,7 @@ from packwork.geometry.polygon import Region
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import (
     PLAIN_VIEWPORT,
+    Page,
     Viewport,
     parse_length,
     parse_transform,
@@ -27,7 +28,6 @@ from packwork.readers.svg_syntax.coordinates import (
     view_box,
     view_matrix,
 )
-from packwork.readers.svg_syntax.coordinates import Page as Page
 from packwork.readers.svg_syntax.painted import Clip, Painted, Painting, PlacedText, opacity
 from packwork.readers.svg_syntax.path_data import MAX_SEGMENTS, SubPath
 from packwork.readers.svg_syntax.references import elements_by_id, paint_server

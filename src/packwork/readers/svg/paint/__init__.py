@@ -1,1 +1,0 @@
-"""A clean drawing to its painted shapes, in painting order."""

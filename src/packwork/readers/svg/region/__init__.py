@@ -1,1 +1,0 @@
-"""Painted shapes to the regions that their fills and strokes cover."""
