@@ -12,8 +12,7 @@ from made_fonts import make_font_folders
 from packwork import compiled
 from packwork.display import bar
 from packwork.fonts import FOLDERS
-from packwork.readers.fonts import kept_glyphs
-from packwork.readers.svg import kept
+from packwork.readers import cache
 
 # Kernels compile on their first call, and run uncompiled under NUMBA_DISABLE_JIT=1, a hundred
 # times slower: no example may fail for being slow, and there a few do, for indices out of bounds
@@ -48,8 +47,8 @@ _DRAWINGS, _GLYPHS = _OfThisSession(), _OfThisSession()
 
 @pytest.fixture(autouse=True)
 def _no_drawings_of_other_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept, "STORE", _DRAWINGS)
-    monkeypatch.setattr(kept_glyphs, "STORE", _GLYPHS)
+    monkeypatch.setattr(cache, "DRAWINGS", _DRAWINGS)
+    monkeypatch.setattr(cache, "GLYPHS", _GLYPHS)
 
 
 @pytest.fixture

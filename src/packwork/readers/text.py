@@ -15,12 +15,11 @@ from shapely import affinity
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, region
-from packwork.readers.fonts.face import Segment, Shaped, Typeface
+from packwork.readers.cache import cached_by_identity
+from packwork.readers.fonts.face import Segment, Shaped, Typeface, check_glyph
 from packwork.readers.fonts.fallback import Fonts, is_font_file, open_fonts, typeface_of_file
 from packwork.readers.fonts.glyph_ink import rings_of
-from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import clusters, script_of, visual_order
-from packwork.readers.fonts.kept_glyphs import remembered_by_font
 from packwork.readers.fonts.lettering import TypeSetting, picture_of
 from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.reading import UnfitError, reading_file
@@ -144,7 +143,7 @@ def _is_seen(character: str) -> bool:
     return unicodedata.category(character)[0] in "LNPS" and character not in _BLANKS
 
 
-@remembered_by_font(MOST_KNOWN)
+@cached_by_identity(MOST_KNOWN)
 def _glyph_region(face: Typeface, number: int) -> Region:
     """Region of a glyph about its origin, in ems."""
     drawn = list(_unclosed(face.drawing(number)))

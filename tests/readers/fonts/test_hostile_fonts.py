@@ -21,9 +21,8 @@ from hypothesis import strategies as st
 import packwork.readers.fonts.face as face_module
 from made_fonts import doubled_font, nested_font, scribbled_font
 from packwork.errors import ReadError
-from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.face import MAX_FONT_BYTES, Typeface
 from packwork.readers.fonts.fallback import Fonts
-from packwork.readers.fonts.guard import MAX_FONT_BYTES
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.text import Letter, container_of_words, letters_of
 from packwork.readers.words.items import word_item

@@ -32,7 +32,7 @@ from packwork.live.file.records import (
     kept_text,
 )
 from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
-from packwork.readers.fonts.guard import checked_face
+from packwork.readers.fonts.face import checked_face
 from packwork.readers.json_text import check_size
 from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal

@@ -1,12 +1,15 @@
 """Font files as HarfBuzz sees them: words to glyphs in place, glyphs to curves.
 
-HarfBuzz checks what it is given, is tried against damaged fonts all the time, and draws
-variable fonts at any weight; it does all of the reading here.
+HarfBuzz checks all tables that it reads, is tried against damaged fonts all the time, and draws
+variable fonts at any weight; it does all of the reading here. It is silent, though: what it cannot
+read is empty to it. Here a font is refused for that, and glyphs are checked before they become
+regions.
 """
 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,10 +17,125 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from packwork.arrays import FloatArray
 from packwork.fonts import bundled_file
-from packwork.readers.fonts.guard import MAX_SEGMENTS, check_drawing, checked_face
-from packwork.readers.reading import UnfitError
+from packwork.readers.budget.crossings import Allowance
+from packwork.readers.reading import TooRichError, UnfitError
 from packwork.scene.item import FontFile
+
+MAX_FONT_BYTES = 50_000_000
+"""Largest font file. Collections for East Asian scripts have 20 MB. Chosen."""
+
+MAX_SEGMENTS = 20_000
+"""Lines and curves in one glyph, its components counted. Ornaments have thousands. Chosen."""
+
+MAX_REACH = 32.0
+"""How far from its origin a glyph may reach, in ems: more is damage. Chosen."""
+
+MAX_CROSSINGS = 2_000
+"""Places where the contours of one glyph may cross themselves and each other, by estimate: larger
+lets a scribble of 100 letters take minutes. Letters put together of strokes have tens. Chosen."""
+
+MAX_POINTS = 400_000
+"""Points of one glyph's flattened contours. An ornament has a tenth of it. Chosen."""
+
+Face: TypeAlias = Any
+"""A ``uharfbuzz.Face`` (which ships no types)."""
+
+_SIGNATURES = (b"\0\1\0\0", b"true", b"OTTO", b"ttcf")
+_COMPRESSED = (b"wOFF", b"wOF2")
+_TABLES = ("head", "maxp", "hhea", "hmtx", "cmap")
+_OUTLINES = ("glyf", "CFF ", "CFF2")
+_EM, _FORM = slice(18, 20), slice(50, 52)
+_EMS = range(16, 16_385)
+"""Units in an em that the format allows; HarfBuzz takes any other number for 1,000."""
+
+
+def checked_face(data: bytes, index: int = 0) -> Face:
+    """Face of a TTF's or OTF's bytes, or of a collection's.
+
+    >>> checked_face(b"nonsense")
+    Traceback (most recent call last):
+    packwork.readers.reading.UnfitError: is not a font; give a TTF, an OTF or a TTC
+    """
+    import uharfbuzz as hb
+
+    if data[:4] in _COMPRESSED:
+        # Their tables may unpack to a thousand times the file's size.
+        raise UnfitError("is a font packed for the web (WOFF); unpack it to a TTF or an OTF")
+    if data[:4] not in _SIGNATURES:
+        raise UnfitError("is not a font; give a TTF, an OTF or a TTC")
+    face = hb.Face(data, index)
+    missing = [tag for tag in _TABLES if not _has(face, tag)]
+    if missing:
+        raise UnfitError(f"is a font without its table {missing[0]!r}; give an intact one")
+    if not (face.has_color_png or any(_has(face, tag) for tag in _OUTLINES)):
+        raise UnfitError("is a font without outlines; give a TTF or an OTF")
+    if face.glyph_count == 0:
+        raise UnfitError("is a damaged font (it has no glyphs); give an intact one")
+    _check_numbers(face)
+    return face
+
+
+def _has(face: Face, table: str) -> bool:
+    # Names of tables cannot be asked for: those of damaged fonts are no text.
+    return len(face.reference_table(table)) > 0
+
+
+def _check_numbers(face: Face) -> None:
+    """Refuse an em of no size, and places of glyphs that run backwards: those draw nothing."""
+    head = face.reference_table("head").data
+    em = int.from_bytes(head[_EM], "big")
+    if em not in _EMS:
+        raise UnfitError(f"is a damaged font (an em of {em} units); give an intact one")
+    form = ">u4" if int.from_bytes(head[_FORM], "big") else ">u2"
+    table = face.reference_table("loca").data
+    count = min(face.glyph_count + 1, len(table) // np.dtype(form).itemsize)
+    places = np.frombuffer(table, form, count).astype(np.int64)
+    if (np.diff(places) < 0).any():
+        raise UnfitError("is a damaged font (its glyphs overlap in the file); give an intact one")
+
+
+def check_drawing(count: int, points: FloatArray, em: float) -> None:
+    """Refuse a glyph of too many lines and curves, or one that reaches too far.
+
+    Parameters
+    ----------
+    points
+        Ends and handles of the lines and curves that were kept.
+    em
+        In the units of the points.
+
+    >>> check_drawing(2, np.array([[0.0, 9.0], [1e9, 0.0]]), 1000.0)
+    Traceback (most recent call last):
+    packwork.readers.reading.UnfitError: is a font with a glyph that reaches too far; ...
+    """
+    if count > MAX_SEGMENTS:
+        raise UnfitError(
+            f"is a font with a glyph of {count:,} pieces, more than {MAX_SEGMENTS:,}; "
+            "give a plainer one"
+        )
+    if not (np.abs(points) <= MAX_REACH * em).all():
+        raise UnfitError("is a font with a glyph that reaches too far; give an intact one")
+
+
+def check_glyph(rings: Sequence[FloatArray]) -> None:
+    """Refuse a glyph whose flattened contours would take minutes, and all memory, to resolve.
+
+    >>> check_glyph([np.random.default_rng(0).random((1000, 2))])
+    Traceback (most recent call last):
+    packwork.readers.reading.UnfitError: is a font with a glyph whose lines cross ...
+    """
+    points = sum(map(len, rings))
+    if points > MAX_POINTS:
+        raise UnfitError(f"is a font with a glyph of {points:,} points; give a plainer one")
+    try:
+        Allowance(MAX_CROSSINGS).spend([ring for ring in rings if len(ring)])
+    except TooRichError as error:
+        raise UnfitError(
+            f"is a font with a glyph whose lines cross too often ({error.what}); give a plainer one"
+        ) from None
+
 
 UNKNOWN_LANGUAGE = "und"
 """What HarfBuzz is told where no language is given: it would ask the machine."""
@@ -94,13 +212,6 @@ class Typeface:
     weight
         For variable fonts: the weight axis.
 
-    Raises
-    ------
-    UnfitError
-        If it is no font that can be read.
-
-    Examples
-    --------
     >>> Typeface(b"nonsense", "x.ttf")
     Traceback (most recent call last):
     packwork.readers.reading.UnfitError: is not a font; give a TTF, an OTF or a TTC
@@ -128,8 +239,6 @@ class Typeface:
     def identity(self) -> tuple[bytes, int, float | None]:
         """Key that faces share which draw alike: a hash of the file, the index, the weight.
 
-        Examples
-        --------
         >>> bundled_typeface().identity == bundled_typeface().identity
         True
         """
@@ -165,17 +274,10 @@ class Typeface:
     ) -> Shaped:
         """Glyphs of one script and direction: ligatures, joined letters, stacked marks.
 
-        Examples
-        --------
         >>> face = bundled_typeface()
         >>> found = [face.shaped(text).glyphs for text in ("office", "中")]
         >>> len(found[0]), [glyph.number for glyph in found[1]]
         (6, [0])
-
-        Raises
-        ------
-        UnfitError
-            If they are more than ``MOST_GLYPHS``.
         """
         key = run, is_leftward, language
         # Whether a run can be drawn is asked before it is.
@@ -219,13 +321,7 @@ class Typeface:
         return Bitmap(bytes(blob.data), left, top, left + box.width, top - box.height)
 
     def drawing(self, number: int) -> tuple[Segment, ...]:
-        """Curves of a glyph about its origin, in the font's units, y down.
-
-        Raises
-        ------
-        UnfitError
-            If it has more than ``MAX_SEGMENTS``, reaches too far, or is damaged.
-        """
+        """Curves of a glyph about its origin, in the font's units, y down."""
         if number not in self._known:
             pen = _CurveRecorder()
             self._font.draw_glyph(number, _draw_functions(), pen)
@@ -251,8 +347,6 @@ class Typeface:
 def bundled_typeface() -> Typeface:
     """The bundled black sans: Latin, Greek and Cyrillic letters.
 
-    Examples
-    --------
     >>> bundled_typeface().has("aяω")
     True
     """

@@ -11,8 +11,7 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.fonts import FONT_ENDINGS, MOST_FACES, installed_families
 from packwork.readers.files import exists, read_bytes
-from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Typeface, bundled_typeface
-from packwork.readers.fonts.guard import MAX_FONT_BYTES
+from packwork.readers.fonts.face import MAX_FONT_BYTES, UNKNOWN_LANGUAGE, Typeface, bundled_typeface
 from packwork.readers.fonts.itemise import Piece, clusters, itemised
 from packwork.readers.fonts.lettering import Lettering, TypeSetting, lettering_of
 from packwork.readers.reading import UnfitError, reading_file

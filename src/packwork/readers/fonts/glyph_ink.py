@@ -18,9 +18,8 @@ from packwork.geometry.bezier import flatten_cubic
 from packwork.geometry.distance import clearance, distance
 from packwork.geometry.outline import Outline, joined
 from packwork.geometry.polygon import region, silhouette
-from packwork.readers.fonts.face import Segment, Typeface
-from packwork.readers.fonts.guard import check_glyph
-from packwork.readers.fonts.kept_glyphs import GlyphInk, kept_glyph, remembered_by_font
+from packwork.readers.cache import GlyphInk, cached_by_identity, kept_glyph
+from packwork.readers.fonts.face import Segment, Typeface, check_glyph
 
 
 def points_of(segment: Segment) -> FloatArray:
@@ -144,7 +143,7 @@ class GlyphPath:
         return self.template.format(*moved.ravel().tolist()).replace(" -", "-")
 
 
-@remembered_by_font(MOST_KNOWN)
+@cached_by_identity(MOST_KNOWN)
 def glyph_path(face: Typeface, number: int) -> GlyphPath:
     """Curves of a glyph."""
     segments = face.drawing(number)
@@ -153,7 +152,7 @@ def glyph_path(face: Typeface, number: int) -> GlyphPath:
     return GlyphPath("".join(pieces), np.array(values, dtype=np.float64).reshape(-1, 2))
 
 
-@remembered_by_font(MOST_KNOWN)
+@cached_by_identity(MOST_KNOWN)
 def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     """Region of a glyph, its curves followed to ``tolerance``.
 

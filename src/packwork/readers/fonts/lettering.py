@@ -17,6 +17,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import Region, united
+from packwork.readers.cache import GlyphInk, cached_by_identity
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Bitmap, Glyph, Typeface
 from packwork.readers.fonts.glyph_ink import (
     ClearInk,
@@ -26,7 +27,6 @@ from packwork.readers.fonts.glyph_ink import (
     glyph_path,
 )
 from packwork.readers.fonts.itemise import Piece, visual_order
-from packwork.readers.fonts.kept_glyphs import GlyphInk, remembered_by_font
 from packwork.readers.pictures.decode import Pixels, decode_picture
 from packwork.readers.pictures.silhouette import outline_of_cut_out
 from packwork.readers.reading import UnfitError
@@ -197,7 +197,7 @@ class _DrawnWord:
     curves: Curves
 
 
-@remembered_by_font(MOST_WORDS)
+@cached_by_identity(MOST_WORDS)
 def _drawn_by(
     face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...]
 ) -> _DrawnWord:

@@ -25,6 +25,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, silhouette
 from packwork.phrasing import number_of
+from packwork.readers.cache import followed_once
 from packwork.readers.gate.door import parse_xml
 from packwork.readers.layouts.arts import LINK, Arts, labelled, place_and_art
 from packwork.readers.layouts.assembly import (
@@ -56,7 +57,6 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.kept import followed_once
 from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform, view_box
 from packwork.readers.svg_syntax.shapes import points_of
 from packwork.scene.item import FlatArt, Item

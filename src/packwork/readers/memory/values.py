@@ -14,7 +14,7 @@ from PIL import Image
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.readers.memory.coverage import coverage_of_array, picture_of_array, png_of_picture
+from packwork.readers.memory.items import coverage_of_array, picture_of_array, png_of_picture
 from packwork.readers.memory.shapes import Columns, is_geometry, points_up, shapes_of
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.reading import UnfitError, reading_file

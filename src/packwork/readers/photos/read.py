@@ -28,8 +28,7 @@ from packwork.readers.options import AS_DRAWN, HALF
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, PICTURE_ENDINGS
 from packwork.readers.pictures.developing import Negative, Photograph, Window, developed, inspected
-from packwork.readers.pictures.silhouette import outline_of_cut_out
-from packwork.readers.pictures.transparency import solidity, tell_what_is_faint
+from packwork.readers.pictures.silhouette import outline_of_cut_out, solidity, tell_what_is_faint
 from packwork.readers.reading import reading_file
 from packwork.readers.regions import centred, clean_union
 from packwork.scene.item import Item, PhotoArt

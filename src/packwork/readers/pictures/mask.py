@@ -13,10 +13,11 @@ from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes
 from packwork.readers.options import HALF
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
-from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
-from packwork.readers.pictures.transparency import (
+from packwork.readers.pictures.silhouette import (
     LEAST_CLEAR_OF_MASK,
+    SPECK,
     decides,
+    outline_of_coverage,
     raised,
     solidity,
     tell_what_is_faint,

@@ -19,7 +19,7 @@ from packwork.readers.gate.door import parse_xml, unpacked
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
-from packwork.readers.pictures.transparency import LEAST_WHITE
+from packwork.readers.pictures.silhouette import LEAST_WHITE
 from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.regions import canvas_box, clean_union, tell_if_full
 from packwork.readers.svg.drawing import WHOLE_PAGE, PaintedDrawing, is_near_white, read_drawing

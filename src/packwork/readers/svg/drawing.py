@@ -18,7 +18,7 @@ from packwork.readers.budget.rendering import Work, check_tiles, work_of
 from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
-from packwork.readers.pictures.transparency import LEAST_WHITE
+from packwork.readers.pictures.silhouette import LEAST_WHITE
 from packwork.readers.reading import TooRichError, UnfitError, notice, one_budget
 from packwork.readers.svg.ink import Ink, painted_ink
 from packwork.readers.svg.render.compare import LEAST_AGREEMENT, Comparison

@@ -6,11 +6,10 @@ tells whether it is an edge of the region, which makes a compound path some thir
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 import shapely
@@ -46,22 +45,8 @@ _MANY = 2_000
 
 
 def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) -> Region:
-    """Region that closed rings fill under ``rule``; valid, possibly empty.
+    """Region that closed rings ``(n, 2)`` fill under SVG's ``rule``; valid, possibly empty.
 
-    Parameters
-    ----------
-    rings
-        Each ``(n, 2)``.
-    rule
-        SVG's word.
-
-    Raises
-    ------
-    TooRichError
-        If they cross each other too often to be resolved, or too many lie in each other.
-
-    Examples
-    --------
     >>> square = np.array([[0, 0], [4, 0], [4, 4], [0, 4.0]])
     >>> filled([square, square / 4 + 1], "evenodd", Allowance(9)).area
     15.0
@@ -118,20 +103,8 @@ _FLAT = 1e-12
 class Follower:
     """Follows curves to a tolerance; what it has computed for a shape it remembers.
 
-    Parameters
-    ----------
-    extent
-        Longer side of the drawing's box, in CSS pixels.
-    flattening
-        Largest distance of a curve from its chords, as a share of that.
-
-    Examples
-    --------
-    >>> import xml.etree.ElementTree as ET
-    >>> from packwork.readers.svg.walk import painted_shapes
-    >>> shapes = painted_shapes(ET.fromstring('<svg><rect width="4" height="2"/></svg>'), None)
-    >>> Follower(4.0).parts(shapes[0])[0].area
-    8.0
+    ``extent`` is the longer side of the drawing's box, in CSS pixels, ``flattening`` the largest
+    distance of a curve from its chords, as a share of that.
     """
 
     def __init__(self, extent: float, flattening: float = FLATTENING) -> None:
@@ -145,26 +118,14 @@ class Follower:
         self._union_allowance = Allowance(MAX_UNION_CROSSINGS)
 
     def parts(self, shape: Painted, *, is_bridged: bool = False) -> list[Region]:
-        """Visible regions of the fill and of the stroke, each if there is one.
-
-        Parameters
-        ----------
-        is_bridged
-            Whether short gaps of dashed lines are passed over.
-        """
+        """Visible regions of fill and stroke, with ``is_bridged`` over short gaps of dashes."""
         parts = [self.fill(shape)] if shape.painting.has_fill else []
         if shape.painting.has_stroke:
             parts.append(self.stroke(shape, is_bridged=is_bridged))
         return parts
 
     def united(self, regions: Iterable[Region]) -> Region:
-        """Union of regions; empty if there are none.
-
-        Raises
-        ------
-        TooRichError
-            If the edges of all unions cross too often to be resolved.
-        """
+        """Union of regions; empty if there are none."""
         several = [region for region in regions if not region.is_empty]
         if len(several) == 1:
             return several[0]
@@ -253,124 +214,40 @@ _MOST_COVERS, _LEAST_COVER = 4, 0.05
 that they have to cover. More tries cost time where nothing is hidden. Chosen."""
 
 
-class Ink(ABC):
-    """Region of a drawing, in CSS pixels; each part is computed when it is asked for."""
-
-    @property
-    @abstractmethod
-    def whole(self) -> Region:
-        """All that is painted."""
-
-    @property
-    @abstractmethod
-    def body(self) -> Region:
-        """Region with the short gaps of dashed lines closed: what an outline goes round."""
-
-    @property
-    @abstractmethod
-    def fills(self) -> Region:
-        """Region of all fills; possibly empty."""
-
-    @property
-    @abstractmethod
-    def lines(self) -> Region:
-        """Region of the strokes of shapes without a fill; possibly empty."""
-
-    @property
-    @abstractmethod
-    def is_cut(self) -> bool:
-        """Whether a page or a viewport cuts off part of what is drawn."""
-
-
-def painted_ink(shapes: Sequence[Painted], tolerance: float | None = None) -> Ink:
-    """Ink of shapes, curves followed to ``FLATTENING`` of the drawing's extent.
+@final
+@dataclass(frozen=True, eq=False)
+class TracedInk:
+    """Region of a drawing traced from a picture, fills and strokes not told apart.
 
     Parameters
     ----------
-    shapes
-        In painting order.
-    tolerance
-        Largest distance of a curve from its chords, in CSS pixels, where that is to be
-        finer.
-
-    Raises
-    ------
-    UnfitError
-        If coordinates are absurd.
-    TooRichError
-        If outlines need too much detail; asking for a region also if its edges cross too
-        often.
-
-    Examples
-    --------
-    >>> painted_ink([]).whole.is_empty
-    True
+    body
+        The same with its lines drawn solid.
+    is_cut
+        Whether the drawing was shown on its page.
     """
-    box = drawing_box(shapes)
-    extent = 0.0 if box is None else max(box[2] - box[0], box[3] - box[1])
-    if extent <= 0:
-        return TracedInk(Polygon(), is_cut=False)
-    flattening = FLATTENING if tolerance is None else min(FLATTENING, tolerance / extent)
-    _check_detail(shapes, flattening * extent)
-    ink = PaintedInk(shapes, extent, flattening)
-    if tolerance is not None or ink.body.is_empty:
-        return ink
-    # Of shapes that reach far beyond what shows of them, that is followed as finely.
-    left, top, right, bottom = ink.body.bounds
-    shown = max(right - left, bottom - top)
-    if shown > extent / 2:
-        return ink
-    _check_detail(shapes, FLATTENING * shown)
-    return PaintedInk(shapes, extent, FLATTENING * shown / extent)
 
-
-@final
-class TracedInk(Ink):
-    """Ink traced from a picture: one region, fills and strokes not told apart."""
-
-    def __init__(self, whole: Region, body: Region = None, *, is_cut: bool = True) -> None:
-        self._whole = whole
-        self._body = whole if body is None else body
-        self._is_cut = is_cut
-
-    @property
-    def whole(self) -> Region:
-        """The region that was found."""
-        return self._whole
-
-    @property
-    def body(self) -> Region:
-        """The region that was found with its lines drawn solid."""
-        return self._body
+    whole: Region
+    body: Region
+    is_cut: bool = True
 
     @property
     def fills(self) -> Region:
         """All of it."""
-        return self._body
+        return self.body
 
     @property
     def lines(self) -> Region:
         """None of it."""
         return Polygon()
 
-    @property
-    def is_cut(self) -> bool:
-        """Whether the drawing was shown on its page."""
-        return self._is_cut
-
 
 @final
-class PaintedInk(Ink):
-    """Ink computed from a drawing's shapes.
+class PaintedInk:
+    """Region of a drawing computed from its shapes; each part is computed when it is asked for.
 
-    Parameters
-    ----------
-    shapes
-        In painting order.
-    extent
-        Longer side of the box round what shows of them.
-    flattening
-        Largest distance of a curve from its chords, as a share of that.
+    ``extent`` is the longer side of the box round what shows of them, ``flattening`` the largest
+    distance of a curve from its chords, as a share of that.
     """
 
     def __init__(
@@ -388,7 +265,7 @@ class PaintedInk(Ink):
 
     @cached_property
     def body(self) -> Region:
-        """Region with the short gaps of dashed lines closed."""
+        """Region with the short gaps of dashed lines closed: what an outline goes round."""
         is_dashed = any(shape.painting.pen.dashes for shape in self._shapes)
         return self._together(is_bridged=True) if is_dashed else self.whole
 
@@ -429,6 +306,34 @@ class PaintedInk(Ink):
                 covers.append(self._follower.fill(shape))
                 shapely.prepare(covers[-1])
         return self._follower.united(regions)
+
+
+Ink: TypeAlias = TracedInk | PaintedInk
+"""Region of a drawing, in CSS pixels."""
+
+
+def painted_ink(shapes: Sequence[Painted], tolerance: float | None = None) -> Ink:
+    """Ink of shapes in painting order, curves followed to ``FLATTENING`` of the drawing's extent.
+
+    ``tolerance`` is the largest distance of a curve from its chords, in CSS pixels, where that is
+    to be finer.
+    """
+    box = drawing_box(shapes)
+    extent = 0.0 if box is None else max(box[2] - box[0], box[3] - box[1])
+    if extent <= 0:
+        return TracedInk(Polygon(), Polygon(), is_cut=False)
+    flattening = FLATTENING if tolerance is None else min(FLATTENING, tolerance / extent)
+    _check_detail(shapes, flattening * extent)
+    ink = PaintedInk(shapes, extent, flattening)
+    if tolerance is not None or ink.body.is_empty:
+        return ink
+    # Of shapes that reach far beyond what shows of them, that is followed as finely.
+    left, top, right, bottom = ink.body.bounds
+    shown = max(right - left, bottom - top)
+    if shown > extent / 2:
+        return ink
+    _check_detail(shapes, FLATTENING * shown)
+    return PaintedInk(shapes, extent, FLATTENING * shown / extent)
 
 
 def _check_detail(shapes: Sequence[Painted], tolerance: float) -> None:

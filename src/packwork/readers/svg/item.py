@@ -19,6 +19,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.budget.expansion import count_expanded
 from packwork.readers.budget.rendering import FILTER, drop_filters
+from packwork.readers.cache import read_once
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
@@ -28,7 +29,6 @@ from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import LARGESSE, WHOLE_PAGE, PaintedDrawing, read_drawing
 from packwork.readers.svg.ink import TracedInk
-from packwork.readers.svg.kept import read_once
 from packwork.readers.svg.overpaint import FILTERED, whole_reach, within_outline
 from packwork.readers.svg.render.compare import SIDES_PX, excess, side_by_side
 from packwork.readers.svg_syntax.coordinates import parse_length

@@ -154,10 +154,10 @@ def traced_ink(
     100
     """
     if part is None:
-        return TracedInk(Polygon())
+        return TracedInk(Polygon(), Polygon())
     whole, side = _traced(solid_twin(root), page, part, work, threshold, TRACE_PX, shapes)
     if not any("stroke-dasharray" in element.attrib for element in root.iter()):
-        return TracedInk(whole)
+        return TracedInk(whole, whole)
     twin = solid_twin(root, with_dashes=False)
     return TracedInk(whole, _traced(twin, page, part, work, threshold, side, shapes)[0])
 
@@ -212,7 +212,7 @@ def _traced(
     Of what is too rich the picture is made coarser, and all that shows in it counts as full.
     """
     from packwork.readers.pictures.contours import contour_region
-    from packwork.readers.pictures.transparency import raised, tell_what_is_faint
+    from packwork.readers.pictures.silhouette import raised, tell_what_is_faint
 
     side = work.side(longest_px, max(part[2:]))
     while True:

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from packwork.folders import Store
+from packwork.readers import cache
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import Read
 from packwork.readers.svg import item as svg_item
-from packwork.readers.svg import kept
 from packwork.readers.svg.item import read_svg
 from packwork.scene.item import Item, VectorArt
 
@@ -32,7 +32,7 @@ PAGE = (
 def readings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Names of the drawings that were read and not remembered; a cache of its own."""
     monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(kept, "STORE", Store("drawings", kept.MOST_BYTES))
+    monkeypatch.setattr(cache, "DRAWINGS", Store("drawings", 10_000_000))
     anew, names = svg_item._read_anew, list[str]()
 
     def noting(data: bytes, name: str, *rest: object, **how: object) -> Read:
@@ -89,7 +89,7 @@ def test_other_code_reads_anew(
 ) -> None:
     (tmp_path / "a.svg").write_text(RING, encoding="utf-8")
     read_svg(tmp_path / "a.svg")
-    monkeypatch.setattr(kept, "reader_version", lambda: "another")
+    monkeypatch.setattr(cache, "reader_version", lambda: "another")
     read_svg(tmp_path / "a.svg")
     assert len(readings) == 2
 
@@ -126,7 +126,7 @@ def test_what_is_said_of_a_drawing_is_said_each_time(
         lambda data: data[:-8],
         lambda data: data + bytes(8),
         lambda data: data.replace(b"NONE", b"NIL"),
-        lambda data: data.replace(b"lengths", b"length"),
+        lambda data: data.replace(b"arrays", b"array"),
         lambda data: data[: data.index(b"\n") + 1] + np.full(99, np.nan).tobytes(),
         lambda data: b"\x80\x04" + data,
     ],
@@ -135,14 +135,14 @@ def test_what_is_no_reading_is_passed_over(
     spoil: object, tmp_path: Path, readings: list[str]
 ) -> None:
     (tmp_path / "a.svg").write_text(RING, encoding="utf-8")
-    whole = kept.packed(read_svg(tmp_path / "a.svg"))
+    whole = cache.packed_read(read_svg(tmp_path / "a.svg"))
     # The way to read a page again is not of the file.
     assert whole is None
-    whole = kept.packed(Read(read_svg(tmp_path / "a.svg").item, "a.svg"))
+    whole = cache.packed_read(Read(read_svg(tmp_path / "a.svg").item, "a.svg"))
     assert whole is not None
     assert callable(spoil)
-    assert kept.unpacked(whole, "a", "a.svg") is not None
-    assert kept.unpacked(spoil(whole), "a", "a.svg") is None
+    assert cache.unpacked_read(whole, "a", "a.svg") is not None
+    assert cache.unpacked_read(spoil(whole), "a", "a.svg") is None
 
 
 def test_all_that_a_reading_holds_is_known_here() -> None:

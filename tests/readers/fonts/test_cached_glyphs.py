@@ -10,17 +10,17 @@ import shapely
 
 from packwork.folders import Store
 from packwork.geometry.outline import Outline
-from packwork.readers.fonts import kept_glyphs
+from packwork.readers import cache
+from packwork.readers.cache import GlyphInk, kept_glyph, packed_glyph, unpacked_glyph
 from packwork.readers.fonts.face import bundled_typeface
 from packwork.readers.fonts.glyph_ink import glyph_ink
-from packwork.readers.fonts.kept_glyphs import GlyphInk, kept_glyph, packed, unpacked
 
 
 @pytest.fixture
 def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Store:
     monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path))
-    store = Store("glyphs", kept_glyphs.MOST_BYTES)
-    monkeypatch.setattr(kept_glyphs, "STORE", store)
+    store = Store("glyphs", 10_000_000)
+    monkeypatch.setattr(cache, "GLYPHS", store)
     return store
 
 
@@ -65,13 +65,13 @@ def test_other_tolerances_and_other_code_draw_anew(
     kept_glyph(("font", 7, 1.0), lambda: draw("first"))
     kept_glyph(("font", 7, 1.0), lambda: draw("again"))
     kept_glyph(("font", 7, 0.5), lambda: draw("finer"))
-    monkeypatch.setattr(kept_glyphs, "reader_version", lambda: "another")
+    monkeypatch.setattr(cache, "reader_version", lambda: "another")
     kept_glyph(("font", 7, 1.0), lambda: draw("other code"))
     assert asked == ["first", "finer", "other code"]
 
 
 def test_what_is_damaged_is_no_glyph() -> None:
-    whole = packed(letter("B"))
+    whole = packed_glyph(letter("B"))
     for length in range(0, len(whole), 7):
-        assert unpacked(whole[:length]) is None
-    assert unpacked(whole + b"12345678") is None
+        assert unpacked_glyph(whole[:length]) is None
+    assert unpacked_glyph(whole + b"12345678") is None
