@@ -96,7 +96,7 @@ def test_only_the_studio_and_the_cluster_open_connections() -> None:
     nets = {"socket", "ssl", "urllib.request", "http.client", "requests", "uvicorn", "distributed"}
     found = {module for module, other in IMPORTS if other in nets or other.split(".")[0] in nets}
     # Of a socket pair inside one process: a way to hear of signals.
-    found.discard("packwork.cli.watch")
+    found.discard("packwork.cli.failure")
     assert found <= {f"packwork.studio.{name}" for name in ("serving", "connections")} | {
         "packwork.batches.cluster"
     }

@@ -24,11 +24,11 @@ from benchmarks.kit.measuring import machine, markdown_table, ranged, timed
 from packwork.pipeline.recorder import Recorder
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.writers.bitmaps import ON_WHITE, png_bytes
 from packwork.writers.film.film import Film
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.projector import Projector
 from packwork.writers.film.registry import FILMS, film_bytes
-from packwork.writers.png import ON_WHITE, png_bytes
 
 ITEMS = 100
 RUNS = {

@@ -32,9 +32,9 @@ from packwork.readers.svg.render.compare import iou
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.pdf import pdf_bytes
-from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 sys.path.append(str(DOCS.parent / "tests"))

@@ -62,6 +62,8 @@ class Offer:
     ----------
     group
         Heading that it stands under; None for that of its model, if it has one.
+    also
+        Heading whose topic of the help lists it too.
     verbs
         Commands that have it; None for those of its model. An empty set: it is an argument, a
         table of options, or for recipe files and Python only.
@@ -84,6 +86,7 @@ class Offer:
     """
 
     group: Group | None = None
+    also: Group | None = None
     verbs: Verbs | None = None
     flags: str | None = None
     metavar: str | None = None

@@ -10,8 +10,14 @@ from typing import Any
 import pytest
 
 import packwork as pw
-from packwork.batches.plan import BatchPlan, Template, Wanted, planned
-from packwork.batches.run import carried_out, standing
+from packwork.batches.batch import (
+    BatchPlan,
+    BatchRequest,
+    Template,
+    batch_progress,
+    plan_batch,
+    run_batch,
+)
 from packwork.batches.task import RowOutcome
 from packwork.errors import ReadError, RecipeError, WriteError
 
@@ -31,8 +37,8 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def plan_of(folder: Path, rows: list[dict[str, Any]] = ROWS) -> BatchPlan:
-    return planned(
-        Wanted(
+    return plan_batch(
+        BatchRequest(
             templates=[Template("poster", POSTER, folder)],
             rows=rows,
             columns=tuple(rows[0]),
@@ -106,7 +112,7 @@ def test_workers_make_the_same_bytes_and_one_that_dies_takes_no_row_with_it(
     alone, beside = tmp_path / "alone", tmp_path / "beside"
     rows = [{**ROWS[0], "name": f"row{k}", "n": 4 + k} for k in range(6)]
     plan = plan_of(alone, rows)
-    assert statuses(carried_out(plan, standing(plan), 1)) == ["made"] * 6
+    assert statuses(run_batch(plan, batch_progress(plan), 1)) == ["made"] * 6
     plan, killed = plan_of(beside, rows), list[int]()
 
     def kill_one(_: RowOutcome) -> None:
@@ -114,17 +120,17 @@ def test_workers_make_the_same_bytes_and_one_that_dies_takes_no_row_with_it(
             worker.kill()
             killed.append(worker.pid or 0)
 
-    assert statuses(carried_out(plan, standing(plan), 2, kill_one)) == ["made"] * 6
+    assert statuses(run_batch(plan, batch_progress(plan), 2, kill_one)) == ["made"] * 6
     assert len(killed) == 1
     assert contents(beside) == contents(alone)
 
 
 def test_a_batch_that_is_stopped_is_gone_on_with(tmp_path: Path) -> None:
     plan, heard = plan_of(tmp_path), list[RowOutcome]()
-    found = carried_out(plan, standing(plan), 1, heard.append, lambda: len(heard) > 0)
+    found = run_batch(plan, batch_progress(plan), 1, heard.append, lambda: len(heard) > 0)
     assert statuses(found) == ["made", "stopped", "stopped"]
     assert [path.name for path in tmp_path.glob("*.svg")] == ["Ann.svg"]
-    found = carried_out(plan, standing(plan), 1)
+    found = run_batch(plan, batch_progress(plan), 1)
     assert statuses(found) == ["kept", "made", "made"]
 
 

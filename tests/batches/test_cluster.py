@@ -12,9 +12,15 @@ import pytest
 
 import packwork as pw
 from batches.by_hand import Cluster
+from packwork.batches.batch import (
+    BatchPlan,
+    BatchRequest,
+    Template,
+    batch_progress,
+    plan_batch,
+    run_batch,
+)
 from packwork.batches.cluster import parcel_of
-from packwork.batches.plan import BatchPlan, Template, Wanted, planned
-from packwork.batches.run import carried_out, standing
 from packwork.batches.task import RowOutcome
 from packwork.errors import PackworkError
 from packwork.mirror import mirrored, names_like, place_in
@@ -42,14 +48,14 @@ def plan_of(home: Path, out: str, count: int = 6) -> BatchPlan:
         {"name": f"row{k}", "shape": shapes[k % 3], "art": "own.svg", "n": 4 + k}
         for k in range(count)
     ]
-    wanted = Wanted(
+    request = BatchRequest(
         templates=[Template("poster", POSTER, home)],
         rows=rows,
         columns=tuple(rows[0]),
         outputs=[f"{home / out}/{{name}}.svg", f"{home / out}/{{name}}.geojson"],
         drawing={},
     )
-    return planned(wanted)
+    return plan_batch(request)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -89,13 +95,13 @@ def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
 ) -> None:
     monkeypatch.chdir(home)
     plan = plan_of(Path(), "alone")
-    assert statuses(carried_out(plan, standing(plan), 1)) == ["made"] * 6
+    assert statuses(run_batch(plan, batch_progress(plan), 1)) == ["made"] * 6
     plan = plan_of(Path(), "far")
-    found = carried_out(plan, standing(plan), scheduler=cluster.address)
+    found = run_batch(plan, batch_progress(plan), scheduler=cluster.address)
     assert statuses(found) == ["made"] * 6
     assert contents(Path("far")) == contents(Path("alone"))
     again = plan_of(Path(), "far")
-    assert len(standing(again).kept) == 6
+    assert len(batch_progress(again).kept) == 6
 
 
 def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> None:
@@ -107,7 +113,7 @@ def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> N
             cluster.workers.append(cluster.add_worker())
         heard.append(outcome)
 
-    found = carried_out(plan, standing(plan), told=kill_one, scheduler=cluster.address)
+    found = run_batch(plan, batch_progress(plan), told=kill_one, scheduler=cluster.address)
     assert statuses(found) == ["made"] * 6
 
 
@@ -142,12 +148,12 @@ def test_a_scheduler_that_is_lost_ends_with_what_was_made(
             cluster.scheduler.kill()
         heard.append(outcome)
 
-    found = carried_out(plan, standing(plan), told=kill, scheduler=cluster.address)
+    found = run_batch(plan, batch_progress(plan), told=kill, scheduler=cluster.address)
     assert "made" in statuses(found)
     assert "stopped" in statuses(found)
     assert set(statuses(found)) == {"made", "stopped"}
     assert not list((home / "far").glob(".packwork-*"))
-    rest = carried_out(plan, standing(plan), 1)
+    rest = run_batch(plan, batch_progress(plan), 1)
     assert set(statuses(rest)) == {"made", "kept"}
 
 
@@ -175,7 +181,7 @@ def test_a_local_cluster_serves_too(home: Path) -> None:
     )
     with local:
         plan = plan_of(home, "local", 3)
-        found = carried_out(plan, standing(plan), scheduler=local.scheduler_address)
+        found = run_batch(plan, batch_progress(plan), scheduler=local.scheduler_address)
     assert statuses(found) == ["made"] * 3
 
 

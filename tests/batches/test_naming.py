@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.batches.naming import identity_of, path_of
+from packwork.batches.templates import identity_of, path_of
 from packwork.errors import RecipeError
 
 

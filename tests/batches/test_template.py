@@ -7,7 +7,7 @@ from datetime import date
 import numpy as np
 import pytest
 
-from packwork.batches.template import columns_of, filled
+from packwork.batches.templates import columns_of, filled
 from packwork.errors import RecipeError
 
 

@@ -18,7 +18,7 @@ from packwork.readers.layouts.read import read_written
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 from packwork.uses.photos import rim
-from packwork.writers.png import png_bytes
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SheetSize, SvgOptions, svg_document
 from scenes import square
 

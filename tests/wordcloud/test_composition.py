@@ -10,7 +10,7 @@ from PIL import Image
 
 from packwork.readers.words.items import EM_PX, WORD_SPACE
 from packwork.wordcloud import WordCloud
-from packwork.wordcloud.setting import EDGE, UPRIGHT
+from packwork.wordcloud.engine import EDGE, UPRIGHT
 
 WEIGHTS = {f"word{k}": 1 / (1 + k) for k in range(60)}
 

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 
 from packwork.wordcloud import WordCloud
-from packwork.writers.png import png_bytes
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SvgOptions
 
 WORDS = {"honey": 3.0, "bear": 2.0, "bees": 1.0, "Ägypten": 1.0}

@@ -125,7 +125,7 @@ def test_gif_is_no_faster_than_browsers(
 
 
 def test_the_last_frame_is_the_picture_of_the_layout(make_film: MakeFilm) -> None:
-    from packwork.writers.png import png_bytes
+    from packwork.writers.bitmaps import png_bytes
     from packwork.writers.svg import SvgOptions
 
     film = make_film()

@@ -11,8 +11,7 @@ from packwork.errors import RecipeError, WriteError
 from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
 from packwork.scene.track import numbers_of, track_of
-from packwork.writers.film.film import Film
-from packwork.writers.film.knots import item_knots, knots
+from packwork.writers.film.film import Film, item_knots, knots
 from packwork.writers.film.options import FilmOptions
 
 

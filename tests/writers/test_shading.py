@@ -19,7 +19,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.contrast import oklab
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 from packwork.uses.words.recipe import words_recipe
-from packwork.writers.shading import APART, in_palette, shaded
+from packwork.writers.recolour_drawings import APART, in_palette, shaded
 from scenes import box
 
 BLUE = "#0072b2"

@@ -20,9 +20,9 @@ from packwork.errors import ReadError
 from packwork.scene.item import Item, Label
 from packwork.scene.layout import Layout
 from packwork.writers import geojson_text, svg_text
-from packwork.writers.labels import item_ids
-from packwork.writers.png import png_bytes
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SvgOptions
+from packwork.writers.svg_symbols import item_ids
 from scenes import disc, flat_item
 
 LayoutMaker = Callable[..., Layout]

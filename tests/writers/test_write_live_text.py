@@ -23,8 +23,8 @@ from packwork.readers.words.items import word_item
 from packwork.readers.words.options import Word
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
-from packwork.writers.embedding import may_be_embedded
 from packwork.writers.svg import SvgOptions, svg_text
+from packwork.writers.svg_live_text import may_be_embedded
 
 INTER = resources.files("packwork.bundled").joinpath("fonts/InterDisplay-Black.otf").read_bytes()
 FONTS = Path(__file__).parents[1] / "readers" / "fonts"
@@ -160,8 +160,8 @@ def test_files_are_the_same_every_time() -> None:
 
 
 def test_pictures_and_pages_keep_to_outlines() -> None:
+    from packwork.writers.bitmaps import png_bytes
     from packwork.writers.pdf import pdf_bytes
-    from packwork.writers.png import png_bytes
 
     placed = layout("ox")
     assert pdf_bytes(placed, LIVE) == pdf_bytes(placed, SvgOptions())

@@ -22,10 +22,10 @@ from packwork.scene.item import Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.units import canvas_size
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.cutting import CutOptions
 from packwork.writers.pdf import pdf_bytes, without_text
-from packwork.writers.picturing import MAX_PICTURE_PX
-from packwork.writers.png import png_bytes
+from packwork.writers.pictures import MAX_PICTURE_PX
 from packwork.writers.svg import SvgOptions
 from printed import pdf_pixels, read_pdf
 

@@ -9,10 +9,11 @@ import resvg_py
 
 from packwork.errors import RecipeError, WriteError
 from packwork.geometry.affine import identity
+from packwork.raster.drawing import drawn_png
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
+from packwork.writers.bitmaps import ON_WHITE, png_bytes
 from packwork.writers.frame import MAX_SIDE_PX, picture_frame
-from packwork.writers.png import ON_WHITE, _rendered, png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 WITH_LINE = replace(ON_WHITE, show_container=True)
@@ -37,7 +38,7 @@ def test_golden_of_another_layout(
 
 def test_flattened_looks_the_same(three: Layout, read_picture: ReadPicture) -> None:
     used, full = (
-        read_picture(_rendered(svg_text(three, SvgOptions(flatten=flatten))))
+        read_picture(drawn_png(svg_text(three, SvgOptions(flatten=flatten))))
         for flatten in (False, True)
     )
     assert np.abs(used - full).max() <= 2

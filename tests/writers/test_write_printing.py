@@ -19,7 +19,7 @@ from packwork.scene.track import Track
 from packwork.writers.film.animated_svg import animated_svg_bytes
 from packwork.writers.film.film import Film
 from packwork.writers.film.options import FilmOptions
-from packwork.writers.printing import SPARE, printed, printed_on_paper
+from packwork.writers.pictures import SPARE, printed, printed_on_paper
 from packwork.writers.registry import encoded, write_options
 from packwork.writers.svg import svg_text
 

@@ -15,7 +15,7 @@ from packwork.readers.svg.item import item_of_svg
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import has_one_colour, recoloured
-from packwork.writers.png import png_bytes
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 LayoutMaker = Callable[..., Layout]

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from packwork import writers
-from packwork.batches.plan import Wanted, planned
-from packwork.batches.reading import table_of, templates_of
+from packwork.batches.batch import (
+    batch_progress,
+    plan_batch,
+    read_request,
+    run_batch,
+)
 from packwork.batches.report import rows_of
-from packwork.batches.run import carried_out, standing
 from packwork.batches.task import RowOutcome
 from packwork.display.extras import found
 from packwork.errors import RecipeError
 from packwork.progress import Stop, never
-from packwork.recipe.refusals import validated
-from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -142,22 +142,10 @@ def batch(
             'is asked for in a worker process: call this under if __name__ == "__main__":, or with '
             "workers=1",
         )
-    given = validated(DrawingOptions, drawing).model_dump()
-    writers.write_options(**given)
-    templates = templates_of(recipe, allow_code=allow_code)
-    read = table_of(table, [one.options for one in templates])
     outputs = [output] if isinstance(output, str | Path) else list(output)
-    plan = planned(
-        Wanted(
-            templates=templates,
-            rows=read.rows,
-            columns=read.columns,
-            outputs=[str(one) for one in outputs],
-            drawing=given,
-            allows_code=allow_code,
-        )
-    )
-    now = standing(plan, anew=anew)
+    request = read_request(recipe, table, list(map(str, outputs)), drawing, allow_code=allow_code)
+    plan = plan_batch(request)
+    now = batch_progress(plan, anew=anew)
     return Batch(
-        tuple(carried_out(plan, now, workers, stop=stop, scheduler=scheduler, in_place=in_place))
+        tuple(run_batch(plan, now, workers, stop=stop, scheduler=scheduler, in_place=in_place))
     )

@@ -9,7 +9,7 @@ from typing import Any
 from packwork import pipeline, threads, uses
 from packwork.batches.pool import results, worker_count
 from packwork.batches.report import flat
-from packwork.batches.task import hearing
+from packwork.batches.task import collecting_notices
 from packwork.errors import PackworkError, RecipeError
 from packwork.metrics.measure import ExactShares, Metrics
 from packwork.phrasing import enumerated
@@ -111,7 +111,7 @@ def best_of(
 
 def run_seed(task: Seeded, stop: Stop) -> Run:
     """A run of one seed; what it tells on the way was told of the first already."""
-    with hearing(), threads.using(1):
+    with collecting_notices(), threads.using(1):
         return pipeline.run(uses.read(make_recipe(**task.recipe)), NOBODY, stop, task.record)
 
 

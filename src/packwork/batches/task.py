@@ -1,23 +1,30 @@
-"""One row of a batch: run, drawn, written with its record, in whatever process."""
+"""One row of a batch: run, drawn, written with its record, in whatever process.
+
+The record beside a row's files says what they were made of, so that none is made twice.
+"""
 
 from __future__ import annotations
 
+import glob
 import hashlib
+import json
 import logging
+import os
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from packwork import pipeline, threads, uses, writers
-from packwork.batches.record import inputs_of, key_of, record_path, relative
 from packwork.errors import PackworkError
 from packwork.inputs import check_no_input, note_input, noting_inputs
+from packwork.installed import installed_version
 from packwork.progress import NOBODY, Stop, never
 from packwork.recipe import make_recipe
-from packwork.writers.options import DrawingOptions
+from packwork.recipe_paths import named_files
 
 Status: TypeAlias = Literal["made", "short", "kept", "failed", "stopped"]
 """What has become of a row: ``short`` is made, but not as asked; ``kept`` was made before."""
@@ -103,7 +110,7 @@ def draw(task: Task, stop: Stop = never) -> Drawn | RowOutcome:
     """Run a row and draw its files; what became of it where there is nothing to draw."""
     began = time.perf_counter()
     try:
-        with noting_inputs() as noted, hearing() as heard, threads.using(1):
+        with noting_inputs() as noted, collecting_notices() as heard, threads.using(1):
             run = pipeline.run(uses.read(make_recipe(**task.options)), NOBODY, stop)
             if stop():
                 return RowOutcome(row=task.row, name=task.name, status="stopped")
@@ -145,18 +152,18 @@ def write(task: Task, found: Drawn) -> RowOutcome:
 
 
 @contextmanager
-def hearing() -> Iterator[list[str]]:
+def collecting_notices() -> Iterator[list[str]]:
     """Collect what is told on the way, which is then told nowhere else.
 
     Examples
     --------
-    >>> with hearing() as heard:
+    >>> with collecting_notices() as heard:
     ...     logging.getLogger("packwork").warning("its %s were closed", "slits")
     >>> heard
     ['its slits were closed']
     """
     heard: list[str] = []
-    handler = _Ear(heard)
+    handler = _LogCollector(heard)
     logger = logging.getLogger("packwork")
     before = logger.handlers, logger.propagate
     logger.handlers, logger.propagate = [handler], False
@@ -166,7 +173,7 @@ def hearing() -> Iterator[list[str]]:
         logger.handlers, logger.propagate = before
 
 
-class _Ear(logging.Handler):
+class _LogCollector(logging.Handler):
     def __init__(self, heard: list[str]) -> None:
         super().__init__(logging.WARNING)
         self._heard = heard
@@ -209,6 +216,94 @@ def _digests(
     }
 
 
-def drawing_of(asked: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of some options that say how files are drawn."""
-    return {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
+ENDING = ".batch.json"
+"""Of the record, beside the first of a row's files."""
+
+MOST_BYTES = 4_000_000
+"""Of a record. Chosen."""
+
+
+def record_path(outputs: Iterable[Path]) -> Path:
+    """Path of the record of a row.
+
+    Examples
+    --------
+    >>> record_path([Path("out/Ann.svg"), Path("out/Ann.pdf")]).name
+    'Ann.batch.json'
+    """
+    first = next(iter(outputs))
+    return first.with_name(first.stem + ENDING)
+
+
+def relative(outputs: Iterable[Path]) -> list[str]:
+    """Files of a row as seen from the folder of its record.
+
+    Examples
+    --------
+    >>> relative([Path("svg/Ann.svg"), Path("pdf/Ann.pdf")])
+    ['Ann.svg', '../pdf/Ann.pdf']
+    """
+    outputs = list(outputs)
+    home = outputs[0].parent
+    return [Path(os.path.relpath(path, home)).as_posix() for path in outputs]
+
+
+def key_of(options: Mapping[str, Any], outputs: Iterable[Path], drawing: Mapping[str, Any]) -> str:
+    """SHA-256 of all that is asked for, and of the version that makes it."""
+    asked = {
+        "packwork": installed_version(),
+        "options": options,
+        "outputs": relative(outputs),
+        "drawing": drawing,
+    }
+    return hashlib.sha256(json.dumps(asked, sort_keys=True, default=str).encode()).hexdigest()
+
+
+def inputs_of(options: Mapping[str, Any], read: Iterable[str]) -> dict[str, str]:
+    """Digests of all files that were read, and of what stands in the folders that are named."""
+    named = [name for name in named_files(options) if name]
+    listed = [name for name in named if glob.has_magic(name) or Path(name).is_dir()]
+    return {name: digest_of(name) for name in sorted({*read, *listed})}
+
+
+def digest_of(name: str | Path) -> str:
+    """SHA-256 of a file's content, or of what a folder or a pattern lists; empty for nothing."""
+    if glob.has_magic(str(name)):
+        return _of_names(glob.glob(str(name), recursive=True))  # noqa: PTH207
+    try:
+        status = Path(name).stat()
+        return _digest(str(name), status.st_mtime_ns, status.st_size, status.st_ino)
+    except OSError:
+        return ""
+
+
+@lru_cache(maxsize=65_536)
+def _digest(name: str, *_: int) -> str:
+    # A file that stands in each row is read once.
+    path = Path(name)
+    if path.is_dir():
+        return _of_names(each.name for each in path.iterdir())
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _of_names(names: Iterable[str]) -> str:
+    return hashlib.sha256(os.fsencode("\n".join(sorted(names)))).hexdigest()
+
+
+def is_done(key: str, outputs: Iterable[Path]) -> dict[str, Any] | None:
+    """The record of a row whose files are all there and as they would be made; None else."""
+    outputs = tuple(outputs)
+    path = record_path(outputs)
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            return None
+        found = json.loads(path.read_bytes())
+        if found["key"] != key:
+            return None
+        told = {path.parent / name: digest for name, digest in found["outputs"].items()}
+        is_whole = all(digest_of(path) == digest for path, digest in told.items())
+        is_same = all(digest_of(name) == digest for name, digest in found["inputs"].items())
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return None
+    return found if is_whole and is_same and len(told) == len(outputs) else None

@@ -18,15 +18,14 @@ from packwork.errors import RecipeError, WriteError
 from packwork.phrasing import enumerated, number_of
 
 if TYPE_CHECKING:
-    from packwork.batches.plan import BatchPlan
-    from packwork.batches.run import BatchProgress
+    from packwork.batches.batch import BatchPlan, BatchProgress
     from packwork.batches.task import RowOutcome, Status
     from packwork.display.bar import TerminalBar
 
 MOST_NAMED = 20
 """Rows that are named on the terminal; a report names all. Chosen."""
 
-_SAID: Mapping[Status, str] = {
+_STATUS_WORDS: Mapping[Status, str] = {
     "made": "made", "short": "made, but not as asked", "kept": "made already", "failed": "failed",
     "stopped": "not made",
 }  # fmt: skip
@@ -126,49 +125,33 @@ def batch(
     [bold]packwork batch recipes/ -o 'out/{recipe}.svg' --index out/index.html[/]
     """
     with clear_errors():
-        from packwork import writers
-        from packwork.batches.plan import Wanted, planned
-        from packwork.batches.reading import table_of, templates_of
-        from packwork.batches.run import standing
-        from packwork.recipe.refusals import validated
-        from packwork.writers.options import DrawingOptions
+        from packwork.batches.batch import batch_progress, plan_batch, read_request
 
         drawing: dict[str, Any] = {
             "pixels": pixels, "dpi": dpi, "background": background, "halo": halo,
             "show_container": show_container, "flatten": flatten, "text": text, "bleed": bleed,
         }  # fmt: skip
-        drawing = validated(DrawingOptions, drawing).model_dump()
-        writers.write_options(**drawing)
-        beside = Beside(report=report, contact_sheet=contact_sheet, index=index)
-        beside.check()
-        templates = templates_of(recipe, allow_code=allow_code)
-        read = table_of(table, [one.options for one in templates])
-        for notice in read.notices:
+        files = BatchFiles(report=report, contact_sheet=contact_sheet, index=index)
+        files.check()
+        request = read_request(recipe, table, output, drawing, allow_code=allow_code)
+        for notice in request.notices:
             say(notice)
-        wanted = Wanted(
-            templates=templates,
-            rows=read.rows,
-            columns=read.columns,
-            outputs=output,
-            drawing=drawing,
-            allows_code=allow_code,
-        )
-        plan = planned(wanted)
-        beside.check_plan(plan)
+        plan = plan_batch(request)
+        files.check_plan(plan)
         if plan.outside:
             say(f"rows read files outside the recipe's folder: {enumerated(plan.outside, 5)}")
-        now = standing(plan, anew=anew)
+        now = batch_progress(plan, anew=anew)
         if dry_run:
             _say_what_would_be(plan, now, quiet)
             raise typer.Exit(SHORTFALL if plan.bad else 0)
         if in_place and scheduler is None:
             raise RecipeError("in_place", "is of --scheduler; say which, as tcp://10.0.0.1:8786")
         by = {"workers": workers, "scheduler": scheduler, "in_place": in_place}
-        raise typer.Exit(_carried_out(plan, now, by, beside, quiet))
+        raise typer.Exit(_make_rows(plan, now, by, files, quiet))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Beside:
+class BatchFiles:
     """File that is written of all rows together; None for none."""
 
     report: Path | None = None
@@ -205,8 +188,8 @@ class Beside:
         WriteError, RecipeError
             Before anything is run.
         """
-        from packwork.batches.naming import identity_of
         from packwork.batches.sheet import SEEN, shown_of
+        from packwork.batches.templates import identity_of
 
         taken = {identity_of(path) for task in plan.tasks for path in task.outputs}
         for path in self.paths:
@@ -233,7 +216,7 @@ class Beside:
         return [path for path, _ in made]
 
 
-class _Teller:
+class _RateBar:
     """Moves a bar: rows done and failed, how many a minute, time left."""
 
     def __init__(self, bar: TerminalBar, to_do: int) -> None:
@@ -247,29 +230,31 @@ class _Teller:
         self._failed += outcome.status == "failed"
         rate = self._done / max(time.monotonic() - self._began, 1e-3)
         left = (self._to_do - self._done) / rate
-        text = f"{self._done} of {self._to_do} rows, {60 * rate:.0f} a minute, {_spoken(left)} left"
+        text = (
+            f"{self._done} of {self._to_do} rows, {60 * rate:.0f} a minute, {_duration(left)} left"
+        )
         self._bar.tell(
             self._done / self._to_do, text + (f", {self._failed} failed" if self._failed else "")
         )
 
 
-def _spoken(seconds: float) -> str:
+def _duration(seconds: float) -> str:
     """Time as people say it.
 
     Examples
     --------
-    >>> _spoken(40), _spoken(600)
+    >>> _duration(40), _duration(600)
     ('40 s', '10 min')
     """
     return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
 
 
-def _carried_out(
-    plan: BatchPlan, now: BatchProgress, by: Mapping[str, Any], beside: Beside, quiet: bool
+def _make_rows(
+    plan: BatchPlan, now: BatchProgress, by: Mapping[str, Any], files: BatchFiles, quiet: bool
 ) -> int:
     """Make what is to be made, and tell of it; the exit code."""
     from packwork import threads
-    from packwork.batches.run import carried_out
+    from packwork.batches.batch import run_batch
     from packwork.cli.running import compile_kernels
     from packwork.display.bar import TerminalBar
 
@@ -279,10 +264,10 @@ def _carried_out(
     bar, interrupt = TerminalBar(None, quiet), Interrupt()
     with interrupt.listening():
         with bar.showing():
-            teller = _Teller(bar, max(len(now.to_do), 1))
-            found = carried_out(plan, now, told=teller, stop=interrupt, **by)
+            teller = _RateBar(bar, max(len(now.to_do), 1))
+            found = run_batch(plan, now, told=teller, stop=interrupt, **by)
         interrupt.is_over = True
-        written = beside.write(found)
+        written = files.write(found)
     _say_what_came(found, written, quiet)
     if any(one.status == "stopped" for one in found):
         if by["scheduler"] is not None and not interrupt.pressed:
@@ -317,7 +302,9 @@ def _say_what_came(found: Sequence[RowOutcome], written: Sequence[Path], quiet: 
     _name_bad([one for one in found if one.status in {"failed", "short"}])
     if not quiet:
         counts = Counter(one.status for one in found)
-        said = [f"{counts[status]} {words}" for status, words in _SAID.items() if counts[status]]
+        said = [
+            f"{counts[status]} {words}" for status, words in _STATUS_WORDS.items() if counts[status]
+        ]
         typer.echo(f"{number_of(len(found), 'row')}: {', '.join(said)}")
         if written:
             typer.echo(printable(f"wrote {', '.join(map(str, written))}"))

@@ -7,9 +7,9 @@ import re
 
 from packwork.scene.item import Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
-from packwork.writers.marks import shape_key
-from packwork.writers.png import png_bytes
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SheetSize, SvgOptions, svg_document
+from packwork.writers.svg_symbols import shape_key
 
 SIDE_PX = 600
 """Longer side of the picture on screen, whatever the canvas: fits a notebook's column.

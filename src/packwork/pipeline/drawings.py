@@ -26,7 +26,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import representative_colour
-from packwork.writers.shading import in_palette, shaded
+from packwork.writers.recolour_drawings import in_palette, shaded
 
 SAME_AREA = 1e-3
 """Share by which the area of a drawing may differ from that of its shape. Larger takes another

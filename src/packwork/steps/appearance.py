@@ -31,7 +31,7 @@ from packwork.scene.notation import matrix_text
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import mean_lights, representative_colour
-from packwork.writers.shading import in_palette, shaded
+from packwork.writers.recolour_drawings import in_palette, shaded
 
 
 def beside(layout: Layout) -> IntArray:

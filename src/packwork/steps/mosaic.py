@@ -20,7 +20,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.recolour import tinted_photo
 from packwork.scene.swatch import ShownLight, mean_lights, shown_light
 from packwork.scene.target import TargetPicture, blurred
-from packwork.writers.shading import averaging
+from packwork.writers.recolour_drawings import averaging
 
 STEPS, STEP = 24, 1.2
 """Steps towards the colours, and how far each goes over what is missing at an item. More change

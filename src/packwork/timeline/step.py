@@ -12,8 +12,7 @@ import numpy as np
 
 from packwork import uses, writers
 from packwork.arrays import FloatArray
-from packwork.batches.naming import identity_of, path_of
-from packwork.batches.template import ROW, columns_of
+from packwork.batches.templates import ROW, columns_of, identity_of, path_of
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
 from packwork.readers.layouts.read import is_session

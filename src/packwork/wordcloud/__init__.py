@@ -13,8 +13,8 @@ from packwork.wordcloud.colours import (
     get_single_color_func,
     random_color_func,
 )
+from packwork.wordcloud.tokenization import STOPWORDS
 from packwork.wordcloud.wordcloud import WordCloud
-from packwork.wordcloud.words import STOPWORDS
 
 __all__ = [
     "STOPWORDS",

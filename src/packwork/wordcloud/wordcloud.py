@@ -33,20 +33,20 @@ from packwork.wordcloud.colours import (
     random_of,
     rgba,
 )
-from packwork.wordcloud.picture import FAINT, paint
-from packwork.wordcloud.setting import (
+from packwork.wordcloud.engine import (
+    FAINT,
     CloudSettings,
     PlacedWords,
     container_of_mask,
     enlarged,
+    paint,
     placed,
     relative_steps,
 )
-from packwork.wordcloud.tokenization import process_tokens, unigrams_and_bigrams
-from packwork.wordcloud.words import STOPWORDS, tokens
+from packwork.wordcloud.tokenization import STOPWORDS, process_tokens, tokens, unigrams_and_bigrams
 from packwork.writers.atomic import write_atomic
+from packwork.writers.bitmaps import png_bytes
 from packwork.writers.options import TextChoice
-from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 __all__ = ["STOPWORDS", "WordCloud", "get_single_color_func", "random_color_func"]

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
         write_all,
         write_atomic,
     )
+    from packwork.writers.bitmaps import png_bytes
     from packwork.writers.diagnose import diagnose_png
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
     from packwork.writers.geojson import geojson_text, json_bytes
     from packwork.writers.halos import faint_told
-    from packwork.writers.png import png_bytes
     from packwork.writers.recipe import recipe_bytes
     from packwork.writers.registry import (
         WRITERS,
@@ -72,7 +72,7 @@ _HOMES = {
     "film.registry": ("FILMS", "check_film", "film_bytes"),
     "geojson": ("geojson_text", "json_bytes"),
     "halos": ("faint_told",),
-    "png": ("png_bytes",),
+    "bitmaps": ("png_bytes",),
     "recipe": ("recipe_bytes",),
     "registry": (
         "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded",

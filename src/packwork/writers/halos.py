@@ -23,8 +23,8 @@ from packwork.scene.contrast import light_of, oklabs_of_light
 from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import small_png
-from packwork.writers.marks import shape_key
 from packwork.writers.options import HaloChoice
+from packwork.writers.svg_symbols import shape_key
 
 PAPER = "#ffffff"
 """What a clear background is taken for."""

@@ -33,10 +33,10 @@ class DrawingOptions(Options):
     """Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place of
     --pixels."""
 
-    background: str | None = None
+    background: Annotated[str | None, Offer(also=Group.COLOURS)] = None
     """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
 
-    halo: HaloChoice = "none"
+    halo: Annotated[HaloChoice, Offer(also=Group.COLOURS)] = "none"
     """A rim that makes items stand out from the background, in SVG, PNG, JPEG and PDF: faint (of
     those that are hardly to be seen on it) or all."""
 

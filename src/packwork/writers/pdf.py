@@ -8,18 +8,20 @@ the fonts of another machine than the one on which they were measured.
 
 from __future__ import annotations
 
+import io
+from collections.abc import Sequence
 from dataclasses import replace
 
+from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, WriteError
 from packwork.scene.colour import parse_colour
 from packwork.scene.container import Container
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
-from packwork.scene.notation import sound_text
+from packwork.scene.notation import number, sound_text
 from packwork.units import convert, parse_length
-from packwork.writers.cutting import cut_rings
-from packwork.writers.picturing import pictured
-from packwork.writers.spot import Press, prepared
+from packwork.writers.cutting import HAIRLINE_PT, SPOT, cut_rings
+from packwork.writers.pictures import pictured
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
 PICTURE_DPI = 600
@@ -88,8 +90,7 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
     rings = (
         [] if options.cut is None or not options.cut.is_asked else cut_rings(layout, options.cut)
     )
-    lines = [scale * ring for ring in rings]
-    return prepared(page, Press(lines=lines, width=width, height=height, bleed=beyond))
+    return _finished(page, [scale * ring for ring in rings], (width, height), beyond)
 
 
 def drawing_text(layout: Layout, options: SvgOptions) -> str:
@@ -157,3 +158,54 @@ def _pictured(item: Item, px_per_unit: float) -> Item:
         return replace(item, art=pictured(item, px_per_unit))
     except ValueError as error:
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({error})") from error
+
+
+_DIGITS = 4
+"""Decimals of a coordinate, in points: 35 nm."""
+
+
+def _finished(
+    data: bytes, lines: Sequence[FloatArray], size: tuple[float, float], bleed: float
+) -> bytes:
+    """PDF of one page with boxes that say where it is trimmed, cut lines on top in a spot colour.
+
+    Print-and-cut programs look for a separation called CutContour, and Typst, which sets the
+    page, knows no spot colours. ``lines`` are closed, in points, y down from the top of the
+    sheet of ``size`` that is left after trimming; ``bleed`` is printed beyond it on each side.
+    """
+    import pikepdf
+    from pikepdf import Array, Dictionary, Name
+
+    with pikepdf.open(io.BytesIO(data)) as pdf:
+        # False unless it is said; programs made with Poppler call it an error where it is.
+        if "/Suspects" in (marked := pdf.Root.get("/MarkInfo", Dictionary())):
+            del marked["/Suspects"]
+        page = pdf.pages[0]
+        wide, high = size
+        if lines or bleed:
+            trimmed = (bleed, bleed, bleed + wide, bleed + high)
+            page.TrimBox = [round(v, 6) for v in trimmed]
+            page.BleedBox = [round(v, 6) for v in (0, 0, wide + 2 * bleed, high + 2 * bleed)]
+        if lines:
+            # Magenta where there is no such ink.
+            tint = Dictionary(FunctionType=2, Domain=[0, 1], C0=[0] * 4, C1=[0, 1, 0, 0], N=1)
+            ink = Array([Name.Separation, Name(f"/{SPOT}"), Name.DeviceCMYK, tint])
+            page.add_resource(pdf.make_indirect(ink), Name.ColorSpace, Name(f"/{SPOT}"))
+            over = Dictionary(Type=Name.ExtGState, OP=True, op=True, OPM=1)
+            page.add_resource(pdf.make_indirect(over), Name.ExtGState, Name.Overprint)
+            page.contents_add(b"q\n", prepend=True)
+            page.contents_add(b"Q\n" + _strokes(lines, bleed, bleed + high))
+        written = io.BytesIO()
+        pdf.save(written, deterministic_id=True)
+        return written.getvalue()
+
+
+def _strokes(lines: Sequence[FloatArray], left: float, top: float) -> bytes:
+    """Content that strokes the lines, over what is there and without knocking it out."""
+    drawn = ["q", "/Overprint gs", f"/{SPOT} CS", "1 SCN", f"{HAIRLINE_PT:g} w", "4 M"]
+    for ring in lines:
+        points = [
+            f"{number(left + x, _DIGITS)} {number(top - y, _DIGITS)}" for x, y in ring.tolist()
+        ]
+        drawn.append(f"{points[0]} m " + " ".join(f"{point} l" for point in points[1:]) + " s")
+    return "\n".join([*drawn, "Q", ""]).encode()

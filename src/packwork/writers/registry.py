@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -12,17 +13,22 @@ from packwork.errors import RecipeError, WriteError
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.bitmaps import (
+    ON_WHITE,
+    check_webp_side,
+    jpeg_bytes,
+    png_bytes,
+    tiff_bytes,
+    webp_bytes,
+)
 from packwork.writers.cutting import CutOptions
 from packwork.writers.dxf import dxf_bytes
-from packwork.writers.extras import check_extra
 from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
 from packwork.writers.halos import haloed
 from packwork.writers.options import DrawingOptions, HaloChoice
 from packwork.writers.pdf import bleed_pt, drawing_text, pdf_bytes
-from packwork.writers.png import ON_WHITE, png_bytes
-from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
-from packwork.writers.stills import check_webp_side, jpeg_bytes, tiff_bytes, webp_bytes
+from packwork.writers.pictures import DPI, SPARE, printed, printed_on_paper
 from packwork.writers.svg import SvgOptions, svg_text
 
 MOST_DPI = 2_400
@@ -325,3 +331,29 @@ def write_options(**options: Any) -> WriteOptions:
         halo=asked.halo,
         takes_ground=background is None,
     )
+
+
+PACKAGES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {".pdf": ("typst", "pikepdf"), ".dxf": ("ezdxf",), ".mp4": ("av",), ".webm": ("av",)}
+)
+"""File ending to the packages it needs: the extras ``pdf``, ``dxf`` and ``video`` of the
+project."""
+
+
+def check_extra(path: str | Path) -> None:
+    """Refuse a path whose format needs a package that is not installed.
+
+    Raises
+    ------
+    WriteError
+        Saying what to install.
+
+    Examples
+    --------
+    >>> check_extra("layout.svg")
+    """
+    for package in PACKAGES.get(Path(path).suffix.lower(), ()):
+        if importlib.util.find_spec(package) is None:
+            raise WriteError(
+                path, f"needs the package {package}; install it: pip install {package}"
+            )

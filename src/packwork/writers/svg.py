@@ -32,11 +32,10 @@ from packwork.scene.notation import (
 from packwork.units import Unit
 from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import PictureFrame
-from packwork.writers.labels import item_ids, labelled
-from packwork.writers.live import LiveWords
-from packwork.writers.marks import element, paint, shape_key
 from packwork.writers.options import TextChoice
 from packwork.writers.promise import promised, stated_limits, stated_weights
+from packwork.writers.svg_live_text import LiveWords
+from packwork.writers.svg_symbols import element, item_ids, labelled, paint, shape_key
 
 PRECISION = 1e-7
 """Every point drawn lies within this share of the canvas's longer side of its place in

@@ -28,7 +28,7 @@ from packwork.readers.text import Letter, container_of_words, letters_of
 from packwork.readers.words.items import word_item
 from packwork.readers.words.options import Word
 from packwork.scene.item import FontFile, LiveText, TextRun
-from packwork.writers.embedding import embedded_fonts
+from packwork.writers.svg_live_text import embedded_fonts
 
 SECONDS_AT_MOST = 20.0
 """A bomb takes hours or all memory; the bound is that generous for slow machines."""

@@ -10,7 +10,7 @@ from packwork.errors import RecipeError
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
 from packwork.readers.words.tokens import found_in
-from packwork.wordcloud.words import tokens
+from packwork.wordcloud.tokenization import tokens
 
 ENDLESS = "(a+)+$"
 LONG = "a" * 60 + "!"

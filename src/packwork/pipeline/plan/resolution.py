@@ -20,7 +20,7 @@ from packwork.scene.item import Art, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import XLINK, tree_of
 from packwork.units import convert
-from packwork.writers.printing import DPI
+from packwork.writers.pictures import DPI
 
 _LOG = logging.getLogger("packwork")
 

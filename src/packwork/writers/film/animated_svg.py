@@ -15,12 +15,10 @@ from packwork.arrays import FloatArray
 from packwork.scene.item import VectorArt
 from packwork.scene.notation import decimals, number, with_fresh_ids
 from packwork.scene.track import COLUMNS, poses_of
-from packwork.writers.film.film import Film, Tell, tell_nobody
-from packwork.writers.film.knots import item_knots
+from packwork.writers.film.film import Film, Tell, item_knots, tell_nobody
 from packwork.writers.frame import picture_frame
-from packwork.writers.labels import item_ids
-from packwork.writers.marks import element, paint
 from packwork.writers.svg import sheet_of, svg_document
+from packwork.writers.svg_symbols import element, item_ids, paint
 
 TOLERANCE = 1 / 4_000
 """Largest way of an item from where a film's frames have it, as a share of the canvas: a

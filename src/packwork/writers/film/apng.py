@@ -11,9 +11,8 @@ import numpy as np
 from PIL import Image
 
 from packwork.raster.overlay import Picture
-from packwork.writers.film.changes import Rectangle, changed_part
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
-from packwork.writers.film.projector import Projector
+from packwork.writers.film.projector import Projector, Rectangle, changed_part
 
 COMPRESSION = 4
 """Of zlib, 1 to 9. More: a twentieth smaller, twice the time. Tried."""

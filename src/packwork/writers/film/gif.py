@@ -16,9 +16,8 @@ import numpy.typing as npt
 from PIL import Image
 
 from packwork.raster.overlay import Picture
-from packwork.writers.film.changes import Rectangle, changed_part
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
-from packwork.writers.film.projector import Projector
+from packwork.writers.film.projector import Projector, Rectangle, changed_part
 
 MAX_FPS = 50.0
 """GIF counts hundredths of a second, and browsers slow down what is shorter than two."""

@@ -22,12 +22,11 @@ from packwork.scene.colour import Colour, css_colour, hex_colour, parse_colour
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.track import poses_of
 from packwork.writers.film.animated_svg import TOLERANCE
-from packwork.writers.film.film import Film, Tell, tell_nobody
-from packwork.writers.film.knots import item_knots
+from packwork.writers.film.film import Film, Tell, item_knots, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame
-from packwork.writers.marks import shape_key
-from packwork.writers.picturing import pictured
+from packwork.writers.pictures import pictured
 from packwork.writers.svg import CONTAINER_STROKE, CONTAINER_STROKE_SHARE
+from packwork.writers.svg_symbols import shape_key
 
 Json = dict[str, Any]
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import io
 from collections.abc import Hashable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 from PIL import Image
 
 from packwork.arrays import FloatArray
@@ -19,9 +20,9 @@ from packwork.scene.layout import without_items
 from packwork.scene.track import poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame
-from packwork.writers.marks import paint, shape_key
-from packwork.writers.picturing import pictured
+from packwork.writers.pictures import pictured
 from packwork.writers.svg import sheet_of, svg_document
+from packwork.writers.svg_symbols import paint, shape_key
 
 _SMALLEST_PX = 1.0
 """Longer side of a drawing that is shown smaller than that, when it is rendered."""
@@ -117,3 +118,39 @@ def _sheet(film: Film, frame: PictureFrame) -> Picture:
 def _pixels(png: bytes) -> Picture:
     with Image.open(io.BytesIO(png)) as picture:
         return np.asarray(picture.convert("RGBA"))
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A rectangle of a frame, in whole pixels."""
+
+    top: int
+    left: int
+    bottom: int
+    right: int
+
+    @property
+    def rows(self) -> slice:
+        """For an array."""
+        return slice(self.top, self.bottom)
+
+    @property
+    def columns(self) -> slice:
+        """For an array."""
+        return slice(self.left, self.right)
+
+
+def changed_part(changed: npt.NDArray[np.bool_]) -> Rectangle:
+    """Smallest rectangle that holds all that changed; one pixel if nothing did.
+
+    Examples
+    --------
+    >>> seen = np.zeros((4, 6), dtype=bool)
+    >>> seen[1, 2] = seen[2, 4] = True
+    >>> changed_part(seen)
+    Rectangle(top=1, left=2, bottom=3, right=5)
+    """
+    rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
+    if len(rows) == 0:
+        return Rectangle(0, 0, 1, 1)
+    return Rectangle(int(rows[0]), int(columns[0]), int(rows[-1]) + 1, int(columns[-1]) + 1)

@@ -10,7 +10,6 @@ from typing import TypeAlias
 
 from packwork.errors import WriteError
 from packwork.writers.atomic import check_writable
-from packwork.writers.extras import check_extra
 from packwork.writers.film.animated_svg import animated_svg_bytes
 from packwork.writers.film.apng import apng_bytes
 from packwork.writers.film.film import Film, Tell, tell_nobody
@@ -18,6 +17,7 @@ from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.lottie import lottie_bytes
 from packwork.writers.film.video import mp4_bytes, webm_bytes
 from packwork.writers.film.webp import webp_bytes
+from packwork.writers.registry import check_extra
 
 FilmEncoder: TypeAlias = Callable[[Film, Tell], bytes]
 

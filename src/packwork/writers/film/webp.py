@@ -10,9 +10,8 @@ import numpy as np
 from PIL import Image
 
 from packwork.raster.overlay import Picture
-from packwork.writers.film.changes import Rectangle, changed_part
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
-from packwork.writers.film.projector import Projector
+from packwork.writers.film.projector import Projector, Rectangle, changed_part
 
 QUALITY = 85
 """Of WebP, 0 to 100. Larger: larger files; smaller: rings about edges. Chosen by eye."""
