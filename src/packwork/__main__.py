@@ -19,7 +19,7 @@ def main() -> None:
         _leave_working_folder()
         _log_warnings()
         from packwork.cli import app
-        from packwork.cli.watch import WATCH
+        from packwork.cli.failure import WATCH
 
         try:
             with WATCH.listening():

@@ -274,16 +274,16 @@ def test_every_demo_is_a_recipe() -> None:
 def test_the_teaser_lays_letters_beside_each_other(
     folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from packwork.cli import teaser
+    from packwork.cli import demo
 
     few = {"count": 3, "seed": 1}
     letters = (
-        teaser.TeaserLetter("I-plain", ["star"], {**few, "epochs": 20, "levels": "32"}),
-        teaser.TeaserLetter(
+        demo.TeaserLetter("I-plain", ["star"], {**few, "epochs": 20, "levels": "32"}),
+        demo.TeaserLetter(
             "L-heaped", ["circle"], {**few, "size": "8%", "open": "top"}, is_pile=True
         ),
     )
-    monkeypatch.setattr(teaser.make_teaser, "__defaults__", (letters,))
+    monkeypatch.setattr(demo.make_teaser, "__defaults__", (letters,))
     assert packwork("demo teaser --folder pictures -q").exit_code == 0
     assert sorted(file.name for file in (folder / "pictures").iterdir()) == [
         "teaser-1-I-plain.png",
@@ -293,16 +293,16 @@ def test_the_teaser_lays_letters_beside_each_other(
         "teaser.png",
     ]
     with Image.open(folder / "pictures" / "teaser.png") as sheet:
-        height = teaser.LETTER_PX + 2 * teaser.SPACE_PX
+        height = demo.LETTER_PX + 2 * demo.SPACE_PX
         assert sheet.height == height
         # Something is drawn in both halves, and nothing in the margin.
         grey = np.asarray(sheet.convert("L"))
     assert (grey[:, : grey.shape[1] // 3].min(), grey[:, -grey.shape[1] // 3 :].min()) < (200, 200)
-    assert np.ptp(grey[: teaser.SPACE_PX]) == 0
+    assert np.ptp(grey[: demo.SPACE_PX]) == 0
 
 
 def test_every_letter_of_the_teaser_is_a_recipe() -> None:
-    from packwork.cli.teaser import LETTERS
+    from packwork.cli.demo import LETTERS
 
     assert "".join(letter.name[0] for letter in LETTERS) == "SIGGRAPH"
     for letter in LETTERS:

@@ -11,8 +11,7 @@ import typer
 from typer.testing import CliRunner
 
 from each import for_each
-from packwork.cli.flags import flag, typed
-from packwork.cli.options import by_name
+from packwork.cli.options import by_name, flag, typed
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options, offered
 from packwork.recipe import Recipe

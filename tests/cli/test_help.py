@@ -84,6 +84,23 @@ def test_help_of_one_option_shows_that_alone(typed: str, packwork: Command) -> N
     assert flags_in(packwork("fill heart star -h -n 4").output) == ["--count"]
 
 
+def test_what_follows_help_of_the_program_is_a_command_or_a_topic(packwork: Command) -> None:
+    assert flags_in(packwork("--help palette").output) == ["--palette"]
+    assert flags_in(packwork("-h --font").output) == ["--font"]
+    assert packwork("--help chart").output == packwork("chart --help").output
+    assert packwork("--help words type").output == packwork("words --help type").output
+    wrong = packwork("--help qqqq")
+    assert wrong.exit_code == 2
+    assert "there is no topic 'qqqq'" in wrong.stderr
+
+
+def test_the_topic_of_colours_has_background_and_halo(packwork: Command) -> None:
+    for name in ("fill", "words", "photos", "chart", "pile"):
+        shown = flags_in(packwork(f"{name} --help colours").output)
+        assert {"--background", "--halo"} <= set(shown)
+    assert "--background" in flags_in(packwork("fill --help written").output)
+
+
 def test_the_bare_name_shows_the_help(packwork: Command) -> None:
     result = packwork("")
     assert "Usage: packwork" in result.output
@@ -97,7 +114,7 @@ def test_the_version_is_one_line(packwork: Command) -> None:
 
 
 HEAVY = {"numpy", "numba", "scipy", "shapely", "contourpy", "PIL"}
-OURS = {"packwork.recipe", "packwork.cli.options", "packwork.cli.fill"}
+OURS = {"packwork.recipe", "packwork.cli.options", "packwork.cli.verbs"}
 MODELS = {"pydantic", *OURS}
 
 
@@ -108,7 +125,7 @@ MODELS = {"pydantic", *OURS}
         ("--version", HEAVY | MODELS),
         ("", HEAVY | MODELS),
         ("fil heart", HEAVY | OURS),
-        ("fill --help", HEAVY | {"packwork.cli.chart"}),
+        ("fill --help", HEAVY | {"packwork.cli.running"}),
     ],
 )
 def test_help_loads_nothing_heavy(line: str, kept_out: set[str]) -> None:
@@ -133,15 +150,15 @@ def test_the_summary_of_a_command_is_its_own_first_line(name: str) -> None:
 
 
 def test_every_command_has_a_summary() -> None:
-    def is_command(module: ModuleType) -> bool:
-        said = inspect.getdoc(module) or ""
-        return said.startswith(f"``packwork {module.__name__.rpartition('.')[2]}``")
+    def commands_of(module: ModuleType) -> set[str]:
+        about = (inspect.getdoc(module) or "").split("\n")[0]
+        return set(re.findall(r"``(?:packwork )?(\w+)``", about))
 
     modules = [
         importlib.import_module(f"packwork.cli.{found.name}")
         for found in pkgutil.iter_modules(packwork.cli.__path__)
     ]
-    assert {m.__name__.rpartition(".")[2] for m in modules if is_command(m)} == set(SUMMARIES)
+    assert set().union(*map(commands_of, modules)) == set(SUMMARIES)
 
 
 def test_a_run_waits_for_no_library_that_only_some_need() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from packwork.cli.notices import Notices, joined
+from packwork.cli.terminal import Notices, joined
 from packwork.errors import ReadError
 
 Command = Callable[..., Result]

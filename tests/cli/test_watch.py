@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from packwork.cli import watch
+from packwork.cli import failure
 
 PROGRAM = """
 import hashlib, signal, sys, threading
-from packwork.cli.watch import WATCH
+from packwork.cli.failure import WATCH
 
 def be_deaf():
     # One call into C, for hours, that lets go of Python's lock as those of renderers do.
@@ -52,7 +52,7 @@ def test_a_long_call_before_the_run_is_left_at_once() -> None:
     with running("pass", "be_deaf()") as run:
         run.send_signal(signal.SIGINT)
         _, err = run.communicate(timeout=100)
-    assert (run.returncode, err) == (130, f"packwork: {watch.ENDED}\n")
+    assert (run.returncode, err) == (130, f"packwork: {failure.ENDED}\n")
 
 
 @NEEDS_SIGNALS
@@ -61,10 +61,10 @@ def test_a_long_call_in_a_run_is_left_at_the_second_time() -> None:
     with running(before, "be_deaf()") as run:
         assert run.stderr is not None
         run.send_signal(signal.SIGINT)
-        assert run.stderr.readline() == f"packwork: {watch.STOPPING}\n"
+        assert run.stderr.readline() == f"packwork: {failure.STOPPING}\n"
         run.send_signal(signal.SIGINT)
         _, err = run.communicate(timeout=100)
-    assert (run.returncode, err) == (130, f"packwork: {watch.ENDED}\n")
+    assert (run.returncode, err) == (130, f"packwork: {failure.ENDED}\n")
 
 
 @NEEDS_SIGNALS
@@ -80,7 +80,7 @@ def test_a_ctrl_c_that_something_swallows_is_answered_all_the_same() -> None:
     with running("pass", swallow) as run:
         run.send_signal(signal.SIGINT)
         _, err = run.communicate(timeout=100)
-    assert (run.returncode, err) == (130, f"packwork: {watch.ENDED}\n")
+    assert (run.returncode, err) == (130, f"packwork: {failure.ENDED}\n")
 
 
 @NEEDS_SIGNALS
@@ -89,13 +89,13 @@ def test_a_program_that_answers_is_left_to_end_by_itself() -> None:
         run.send_signal(signal.SIGINT)
         _, err = run.communicate(timeout=100)
     assert "KeyboardInterrupt" in err
-    assert watch.ENDED not in err
+    assert failure.ENDED not in err
 
 
 def test_after_all_is_written_nothing_is_said(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    mine = watch.InterruptListener()
+    mine = failure.InterruptListener()
     monkeypatch.setattr(mine, "end", lambda: pytest.fail("must not end"))
     mine.finish()
     mine.press()

@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import packwork as pw
 from packwork.cli import app
-from packwork.cli.checking import on_trust_in
+from packwork.cli.running import on_trust_in
 from packwork.readers.layouts.pdf import printed_page
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg

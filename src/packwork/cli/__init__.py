@@ -10,8 +10,8 @@ import logging
 import typer
 
 from packwork.cli.commands import MARKUP, LazyGroup
-from packwork.cli.notices import NOTICES
 from packwork.cli.start_up import START_UP as START_UP  # its import reads the clock
+from packwork.cli.terminal import NOTICES
 
 app = typer.Typer(
     name="packwork",

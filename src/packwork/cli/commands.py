@@ -1,4 +1,4 @@
-"""The commands by name, loaded when one is asked for.
+"""The commands by name, loaded when one is asked for; wrong use of them in one line.
 
 The help of ``packwork`` itself is written from the table below, so that it need not wait for
 what the commands import.
@@ -9,15 +9,20 @@ from __future__ import annotations
 import copy
 import importlib
 import re
+import sys
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Final
 
 import typer
 import typer.main
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 
-from packwork.cli.usage import OneLineGroup, is_no_flag
-from packwork.synonyms import option_meant
+from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors
+from packwork.cli.terminal import prepare_streams, say
+from packwork.errors import ReadError
+from packwork.inputs import noting_inputs
+from packwork.synonyms import command_meant, option_meant
 
 SUMMARIES: Mapping[str, str] = {
     "fill": "Fill a container with items.",
@@ -35,6 +40,9 @@ SUMMARIES: Mapping[str, str] = {
 }
 """What stands in the help, in its order: for each command the first line of its docstring."""
 
+IN_VERBS = frozenset({"fill", "words", "chart", "photos", "pile", "run"})
+"""Commands of the module ``verbs``; each other one has a module of its name."""
+
 MARKUP: Final = "rich"
 
 ALL = "all"
@@ -44,7 +52,7 @@ _NO_MARKUP = re.compile(r"\[(?!/?(?:bold)?\])")
 
 
 class Commands(Mapping[str, Any]):
-    """Commands by name; each is the function of its name in the module of its name."""
+    """Commands by name; each is the function of its name."""
 
     def __init__(self) -> None:
         self._loaded: dict[str, Any] = {}
@@ -65,7 +73,8 @@ class Commands(Mapping[str, Any]):
 
 
 def _load(name: str) -> Any:
-    function = getattr(importlib.import_module(f"packwork.cli.{name}"), name)
+    module = "verbs" if name in IN_VERBS else name
+    function = getattr(importlib.import_module(f"packwork.cli.{module}"), name)
     alone = typer.Typer(add_completion=False, rich_markup_mode=MARKUP)
     # What a benchmark's script is given is its own.
     settings = {"ignore_unknown_options": name == "bench"}
@@ -103,7 +112,10 @@ class HelpfulCommand(TyperCommand):
                 shown.epilog = f"More: {ctx.command_path} --help all, or --help and a topic: "
                 shown.epilog += ", ".join(topics(self.params)) + ", or an option's name."
         elif self.topic != ALL:
-            shown.params = _of_topic(self.params, self.topic, ctx)
+            shown.params = _of_topic(self, self.topic)
+            if not shown.params:
+                line = _no_topic(self, self.topic)
+                raise typer.BadParameter(line, ctx=ctx, param_hint="--help")
             shown.help, shown.add_help_option = "", False
         shown.params = [copy.copy(param) for param in shown.params]
         for param in (p for p in shown.params if getattr(p, "help", None)):
@@ -130,36 +142,41 @@ def _common(command: HelpfulCommand) -> list[Any]:
     return [p for p in command.params if p.param_type_name == "argument" or p.name in shown]
 
 
-def _of_topic(params: Sequence[Any], topic: str, ctx: Any) -> list[Any]:
-    """Options of a group, or one option.
-
-    Raises
-    ------
-    typer.BadParameter
-        If the command has neither.
-    """
+def _of_topic(command: Any, topic: str) -> list[Any]:
+    """Options of a group, or one option; none if the command has neither."""
     from packwork.offers import Group
+    from packwork.recipe.verbs import named, options_of
 
-    group = next((group.value for group in Group if group.topic == topic), None)
-    options = [param for param in params if param.param_type_name == "option"]
-    found = [param for param in options if group and param.rich_help_panel == group]
-    if not found:
-        flag = f"--{topic.lstrip('-').replace('_', '-')}"
-        found = [p for p in options if {topic, flag} & {*p.opts, *p.secondary_opts}]
-    if not found:
-        meant = option_meant(topic, [param.name for param in options])
-        what_would_do = (
-            f"did you mean {meant}?" if meant else f"use {ALL}, " + ", ".join(topics(params))
-        )
-        line = (
-            is_no_flag(ctx.command.name, topic) or f"there is no topic {topic!r}; {what_would_do}"
-        )
-        raise typer.BadParameter(line, ctx=ctx, param_hint="--help")
-    return found
+    options = [param for param in command.params if param.param_type_name == "option"]
+    group = next((group for group in Group if group.topic == topic), None)
+    if group is not None:
+        verb = named(command.name)
+        also = {one.name for one in (options_of(verb) if verb else ()) if one.offer.also is group}
+        found = [p for p in options if p.rich_help_panel == group.value or p.name in also]
+        if found:
+            return found
+    flag = f"--{topic.lstrip('-').replace('_', '-')}"
+    return [p for p in options if {topic, flag} & {*p.opts, *p.secondary_opts}]
 
 
-class LazyGroup(OneLineGroup):
-    """All commands; its own help and errors load none of them."""
+def _no_topic(command: Any, topic: str) -> str:
+    """Message about what is neither a topic nor an option, with what would do."""
+    line = is_no_flag(command.name, topic)
+    if line is not None:
+        return line
+    meant = option_meant(
+        topic, [param.name for param in command.params if param.param_type_name == "option"]
+    )
+    known = f"use {ALL}, " + ", ".join(topics(command.params))
+    return f"there is no topic {topic!r}; " + (f"did you mean {meant}?" if meant else known)
+
+
+class LazyGroup(TyperGroup):
+    """All commands; its own help and errors load none of them.
+
+    Usage errors are one line and exit code 2, without a box; Ctrl-C before a command begins,
+    while things are still loaded, is one line too.
+    """
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**{**settings, "commands": None})
@@ -173,3 +190,116 @@ class LazyGroup(OneLineGroup):
             for name, summary in SUMMARIES.items()
         }
         super(LazyGroup, shown).format_help(ctx, formatter)
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments; what follows ``--help`` is a command, or a topic of one."""
+        if len(args) > 1 and args[0] in ctx.help_option_names:
+            named, *topics_of_it = args[1:]
+            if named in SUMMARIES:
+                args = [named, "--help", *topics_of_it]
+            else:
+                args = [self._command_with(named), "--help", named]
+        rest: list[str] = super().parse_args(ctx, args)
+        return rest
+
+    def _command_with(self, topic: str) -> str:
+        """The first command whose help has a topic; ``fill``, which says so, if there is none."""
+        commands = ((name, self.commands[name]) for name in SUMMARIES)
+        return next((name for name, one in commands if _of_topic(one, topic)), "fill")
+
+    def make_context(self, *args: Any, **extra: Any) -> Any:
+        """Read the group's own options; see ``click.Command.make_context``."""
+        with clear_errors():
+            return super().make_context(*args, **extra)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Find the command and run it; see ``typer.core.TyperGroup.invoke``.
+
+        What it reads is noted, so that it writes over none of it.
+        """
+        with clear_errors(), noting_inputs():
+            _check_folder()
+            return super().invoke(ctx)
+
+    def main(self, *args: Any, **extra: Any) -> Any:
+        """Run a command line; see ``typer.core.TyperGroup.main``."""
+        run: Any = super().main
+        prepare_streams()
+        if not extra.pop("standalone_mode", True):
+            return run(*args, **extra, standalone_mode=False)
+        try:
+            code = run(*args, **extra, standalone_mode=False)
+        except typer.Abort:
+            sys.exit(INTERRUPTED)
+        except Exception as error:
+            # Typer brings its own copy of click's exceptions or not, by version: those
+            # about usage are known by what they can do.
+            if not hasattr(error, "format_message"):
+                raise
+            if type(error).__name__ == "NoArgsIsHelpError":
+                typer.echo(error.format_message())
+            else:
+                say(_line(error))
+            sys.exit(BAD_INPUT)
+        sys.exit(code or 0)
+
+
+def _check_folder() -> None:
+    """Refuse to run in a folder that has been deleted: no name would lead anywhere."""
+    try:
+        Path.cwd()
+    except OSError:
+        raise ReadError(
+            "the current folder", "is there no more; go to another one (cd) and try again"
+        ) from None
+
+
+def is_no_flag(command: str, typed: str) -> str | None:
+    """The line about an option that only recipe files and Python have; None about any other.
+
+    Examples
+    --------
+    >>> is_no_flag("fill", "--shades")
+    '--shades is no flag; write shades = "nearest" into a recipe (see --save-recipe) or use Python'
+    """
+    from packwork.recipe.verbs import named, options_of
+
+    verb, name = named(command), typed.lstrip("-").replace("-", "_")
+    for option in options_of(verb) if verb else ():
+        if option.name == name and not option.offer.is_flag:
+            other = next((one for one in option.choices if one != option.default), "...")
+            return (
+                f'{typed} is no flag; write {name} = "{other}" into a recipe (see --save-recipe) '
+                "or use Python"
+            )
+    return None
+
+
+def _meant(error: Any, context: Any) -> str | None:
+    """Message for an unknown option or command, with the one that may be meant."""
+    option = getattr(error, "option_name", None)
+    if type(error).__name__ == "NoSuchOption" and option and context is not None:
+        if line := is_no_flag(context.command.name, option):
+            return line
+        names = [
+            name for param in context.command.params for name in param.opts if name[:2] == "--"
+        ]
+        meant = option_meant(option, names)
+        return f"no such option: {option}" + (f"; did you mean {meant}?" if meant else "")
+    unknown = re.match(r"no such command '([^']*)'", str(error.format_message()), re.IGNORECASE)
+    if unknown is None:
+        return None
+    meant = command_meant(unknown[1])
+    return f"no such command '{unknown[1]}'" + (f"; did you mean {meant}?" if meant else "")
+
+
+def _line(error: Any) -> str:
+    """Error in one line, with where to look up what would do."""
+    said = " ".join(str(error.format_message()).replace("Value error, ", "").split()).rstrip(".")
+    context = getattr(error, "ctx", None)
+    said = _meant(error, context) or said
+    if type(error).__name__ == "MissingParameter" and context is not None:
+        pieces = " ".join(context.command.collect_usage_pieces(context)[1:])
+        said = f"{said}; use {context.command_path} {pieces}"
+    command = context.command_path if context is not None else "packwork"
+    return f"{said[0].lower()}{said[1:]}; see {command} --help"

@@ -245,7 +245,7 @@ def _written(
 ) -> bool:
     """Settle, write and show a session's layout; whether it is certified."""
     from packwork import writers
-    from packwork.cli.checking import faults_in, on_trust_in
+    from packwork.cli.running import faults_in, on_trust_in
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
     from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure

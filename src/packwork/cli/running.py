@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
@@ -13,131 +13,25 @@ from typing import Any, NoReturn
 import typer
 from rich.console import Console
 
-from packwork import pipeline, precompile, threads, uses, writers
-from packwork.cli.checking import held_against_files, on_trust_in, painted_in
-from packwork.cli.choosing import check_choosing, run_chosen, seeded, sheet_of
-from packwork.cli.cutting import check_bleed, check_room, with_room
-from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
+from packwork import pipeline, precompile, threads, uses, verify, writers
+from packwork.cli.failure import INTERRUPTED, SHORTFALL, WATCH, Interrupt
 from packwork.cli.files import Choosing
-from packwork.cli.notices import NOTICES, joined
-from packwork.cli.sessions import saving, told
+from packwork.cli.outputs import Outputs, check_room, outputs_asked, saving, with_room
 from packwork.cli.show import Paper, printing, show_results
 from packwork.cli.start_up import START_UP
-from packwork.cli.terminal import printable, say
-from packwork.cli.watch import WATCH
+from packwork.cli.terminal import NOTICES, joined, printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
-from packwork.inputs import check_no_input
-from packwork.readers.layouts.read import SESSION, is_session
+from packwork.progress import NOBODY
+from packwork.readers.layouts.read import is_session
 from packwork.recipe import Recipe
-from packwork.recipe.refusals import validated
-from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
-from packwork.uses.icons import NO_CONTAINER
-from packwork.writers.film.options import FilmOptions
-from packwork.writers.options import DrawingOptions
 
 MOST_NAMED = 5
 """Lines about items without a place on the terminal; a report names all. Chosen."""
 
 DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
 """Endings of files that people look at."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Outputs:
-    """All that one run is to write.
-
-    Parameters
-    ----------
-    report, diagnose, recipe, saliency
-        Measures (JSON), the diagnostic picture (PNG), the recipe (TOML), what stands out of the
-        container's picture (PNG); None for none.
-    drawing
-        Options of drawing as they were asked for, by name.
-    """
-
-    files: Sequence[Path]
-    options: writers.WriteOptions
-    films: Sequence[Path] = ()
-    filming: FilmOptions = field(default_factory=FilmOptions)
-    report: Path | None = None
-    diagnose: Path | None = None
-    recipe: Path | None = None
-    saliency: Path | None = None
-    keeps_files: bool = False
-    choosing: Choosing = field(default_factory=Choosing)
-    drawing: Mapping[str, Any] = field(default_factory=dict)
-
-    @property
-    def kiss(self) -> str | None:
-        """Distance of the lines that are cut from items; None if there are none such."""
-        cut = self.options.svg.cut
-        return None if cut is None else cut.kiss
-
-    @property
-    def sides(self) -> list[Path]:
-        """Files that are written beside the layouts."""
-        sheet = self.choosing.contact_sheet
-        sides = (self.report, self.diagnose, self.recipe, self.saliency, sheet)
-        return [side for side in sides if side is not None]
-
-    @property
-    def every(self) -> list[Path]:
-        """All files."""
-        return [*self.files, *self.films, *self.sides]
-
-    def check(self) -> None:
-        """Refuse paths that cannot be written or that collide.
-
-        Raises
-        ------
-        WriteError
-            Before anything has been run or written.
-        """
-        for path in self.files:
-            if is_session(path):
-                writers.check_writable(path)
-            else:
-                writers.check_output(path, SESSION)
-        for path in self.films:
-            writers.check_film(path)
-        for side in self.sides:
-            writers.check_writable(side)
-        writers.check_outputs(self.every)
-        check_choosing(self.choosing)
-        check_bleed(self.files, self.options.bleed)
-        if self.keeps_files:
-            writers.check_new(self.every)
-
-    def told(self, layout: Layout) -> Layout:
-        """The layout, its manifest saying how it is drawn."""
-        return told(layout, self.options.svg.background, self.drawing)
-
-    def saved_recipe(self, recipe: Recipe) -> list[tuple[Path, bytes]]:
-        """The recipe's file, if one is asked for, and its bytes."""
-        if self.recipe is None:
-            return []
-        if self.filming.model_fields_set:
-            recipe = recipe.model_copy(update={"film": self.filming})
-        return [(self.recipe, writers.recipe_bytes(recipe.plain(), self.recipe.parent))]
-
-    def check_read(self, job: pipeline.Job) -> None:
-        """Refuse, once all is read, to write over any of it, and pictures that are too large.
-
-        Raises
-        ------
-        WriteError
-            Naming the output and the input.
-        RecipeError
-            About the pixels.
-        """
-        for path in self.every:
-            check_no_input(path)
-        if job.recipe.container != NO_CONTAINER:
-            pictures = [*self.files, *([] if self.diagnose is None else [self.diagnose])]
-            for path in pictures:
-                writers.check_picture_size(path, job.container, self.options)
 
 
 def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoReturn:
@@ -152,34 +46,6 @@ def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoRetu
     """
     outputs = outputs_asked(asked, default, recipe.film)
     raise typer.Exit(run_and_write(recipe, outputs, asked["quiet"]))
-
-
-def outputs_asked(
-    asked: Mapping[str, Any], default: Path, recipes: FilmOptions | None = None
-) -> Outputs:
-    """Outputs that the options of a command ask for.
-
-    Parameters
-    ----------
-    recipes
-        How the recipe makes films; None if it does not say.
-    """
-    drawing = {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
-    filming = {key: asked[key] for key in FilmOptions.model_fields if key in asked}
-    outputs = Outputs(
-        files=asked["output"] or (),
-        options=writers.write_options(**drawing),
-        films=asked["film"] or (),
-        filming=film_options(recipes, **filming),
-        report=asked["report"],
-        diagnose=asked["diagnose"],
-        recipe=asked["save_recipe"],
-        saliency=asked.get("show_saliency"),
-        keeps_files=asked["no_clobber"],
-        choosing=validated(Choosing, {name: asked[name] for name in Choosing.model_fields}),
-        drawing=drawing,
-    )
-    return outputs if outputs.every else replace(outputs, files=[default])
 
 
 def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
@@ -224,7 +90,8 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         drawn, undrawn = _drawn(run, outputs)
         run = held_against_files(run, drawn, outputs.options)
         if tried:
-            saved = outputs.saved_recipe(seeded(recipe, run))
+            seed = run.layout.manifest["seed"]
+            saved = outputs.saved_recipe(recipe.model_copy(update={"seed": seed}))
         written = [*drawn, *saved, *films, *sheet_of(tried, outputs.choosing)]
         results = run.report(time.perf_counter() - began, START_UP.told())
         if not was_cut_short and (outputs.report is not None or not quiet):
@@ -382,3 +249,77 @@ def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
             f"still rough: {100 * exact.overlap:.1f} % of the container is covered "
             f"twice, {100 * exact.exceeding:.1f} % as much lies outside; {remedy}"
         )
+
+
+def run_chosen(
+    job: pipeline.Job,
+    choosing: Choosing,
+    bar: TerminalBar,
+    interrupt: Interrupt,
+    *,
+    record: bool,
+    quiet: bool,
+) -> tuple[pipeline.Run, tuple[pipeline.Run, ...]]:
+    """A run, or the best of several, and all that were tried then."""
+    if choosing.best_of == 1:
+        return pipeline.run(job, NOBODY if quiet else bar, interrupt, record), ()
+    from packwork.batches.seeds import best_of
+
+    def tell(done: int) -> None:
+        bar.tell(done / choosing.best_of, f"{done} of {choosing.best_of} seeds")
+
+    found = best_of(
+        job.recipe, choosing.best_of, choosing.best_by, record, job.recipe.threads, tell, interrupt
+    )
+    return found.best, found.runs
+
+
+def sheet_of(tried: Sequence[pipeline.Run], choosing: Choosing) -> list[tuple[Path, bytes]]:
+    """The picture of all that were tried, if it is asked for, and its bytes."""
+    if choosing.contact_sheet is None or not tried:
+        return []
+    from packwork.batches.sheet import THUMB_PX, sheet_bytes
+
+    pictures = [writers.png_bytes(run.layout, THUMB_PX) for run in tried]
+    return [(choosing.contact_sheet, sheet_bytes(pictures))]
+
+
+def faults_in(
+    drawn: Sequence[tuple[Path, bytes]], layout: Layout, options: writers.WriteOptions
+) -> list[str]:
+    """Parts of a layout's promise that the text of a file breaks, a sentence each."""
+    return [
+        f"{path.name}: {fault}"
+        for path, data in drawn
+        for fault in verify.faults_in_file(data, path, layout, options)
+    ]
+
+
+def on_trust_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
+    """Parts of the files that are not held against what was measured, a sentence each."""
+    return [
+        f"{path.name}: {one}" for path, _ in drawn for one in verify.on_trust_in_file(path, layout)
+    ]
+
+
+def held_against_files(
+    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], options: writers.WriteOptions
+) -> pipeline.Run:
+    """A run that is certified if the texts of its files are, measured by themselves."""
+    if not run.certified:
+        return run
+    faults = faults_in(drawn, run.layout, options)
+    return replace(run, certified=False, broken=(*run.broken, *faults)) if faults else run
+
+
+def painted_in(
+    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], advice: list[str]
+) -> dict[str, int] | None:
+    """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
+    data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
+    if data is None or len(data) > verify.PAINTED_BYTES:
+        return None
+    painted = verify.painted_pixels(data, run.layout, is_own=True)
+    if run.certified and (painted.outside or painted.double):
+        advice.append(f"{painted}")
+    return asdict(painted)

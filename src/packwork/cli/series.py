@@ -14,9 +14,9 @@ from packwork import threads, writers
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.files import Choosing
+from packwork.cli.outputs import saving
+from packwork.cli.outputs import told as told_drawing
 from packwork.cli.running import compile_kernels
-from packwork.cli.sessions import saving
-from packwork.cli.sessions import told as told_drawing
 from packwork.cli.terminal import printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import RecipeError
