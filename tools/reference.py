@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 import packwork
 from packwork.cli import app
 from packwork.readers.charts import ChartOptions
-from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions

@@ -23,7 +23,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.embedding import assigned
 from packwork.pipeline.result import Run
 from packwork.readers.container import read_container
-from packwork.readers.words.together import information, pairs_within, places_of
+from packwork.readers.words.cooccurrence import information, pairs_within, places_of
 from packwork.readers.words.tokens import sentences
 from packwork.recipe import make_recipe
 from packwork.scene.item import Item

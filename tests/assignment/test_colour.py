@@ -10,8 +10,8 @@ from PIL import Image
 
 from packwork.arrays import FloatArray
 from packwork.assignment.orders import GRID, order_by_colour
-from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.read import read_photos
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photos
 from packwork.scene.contrast import light_of, oklabs_of_light
 from packwork.scene.swatch import mean_light, patch_of
 

@@ -9,7 +9,10 @@ import pytest
 from scipy.stats import spearmanr
 
 import packwork as pw
+from packwork import uses
 from packwork.errors import PackworkError, RecipeError
+from packwork.pipeline.run import run
+from packwork.recipe import make_recipe
 from packwork.recipe_paths import with_paths
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.swatch import mean_lights
@@ -54,6 +57,13 @@ def test_numbers_rise_along_a_direction(ages: str, way: str, axis: str, sign: in
 def test_numbers_rise_from_the_middle(ages: str, way: str, sign: int) -> None:
     layout = pw.fill("circle", NAMES, count=40, arrange=f'{way} by="{ages}"', **QUICK)
     assert sign * _order(_numbers(layout), _away(layout)) > CHANCE
+
+
+def test_the_file_of_numbers_is_read_once(ages: str) -> None:
+    recipe = make_recipe(container="square", items=NAMES, count=8, arrange=f'by="{ages}"', **QUICK)
+    job = uses.read(recipe)
+    Path(ages).unlink()
+    assert run(job).layout.items
 
 
 def test_numbers_rise_along_a_letter(ages: str) -> None:

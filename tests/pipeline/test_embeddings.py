@@ -13,14 +13,14 @@ from scipy.spatial import cKDTree
 import packwork as pw
 from packwork.arrays import IntArray
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.words.options import Word
-from packwork.readers.words.together import (
+from packwork.readers.words.cooccurrence import (
     information,
     pairs_within,
     places_of,
     related,
     vectors_of,
 )
+from packwork.readers.words.options import Word
 from packwork.scene.swatch import representative_colour
 
 QUICK = {"levels": "60", "epochs": 60, "effort": "draft", "seed": 0}

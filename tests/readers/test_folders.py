@@ -11,8 +11,8 @@ from packwork.errors import ReadError
 from packwork.readers.container import read_container
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.items import read_items
-from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.read import read_photos
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photos
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 
 SQUARE = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="M1 1h6v6h-6z"/></svg>'

@@ -19,7 +19,7 @@ import packwork as pw
 from packwork.errors import RecipeError
 from packwork.pipeline.plan.plan import Plan
 from packwork.readers.charts import ChartOptions
-from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.recipe import read_recipe
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe

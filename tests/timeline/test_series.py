@@ -14,7 +14,7 @@ from PIL import Image
 
 import packwork as pw
 from packwork.errors import PackworkError, ReadError, RecipeError
-from packwork.readers.words.steps import in_order, named_column, read_word_steps
+from packwork.readers.words.table import in_order, named_column, read_word_steps
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import outwards, solved
 from packwork.timeline.step import word_steps

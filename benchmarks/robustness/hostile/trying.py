@@ -22,8 +22,8 @@ from packwork.metrics.measure import measure
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import read_written
-from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.read import read_photos
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photos
 from packwork.readers.recipe import read_recipe
 from packwork.readers.svg.curve import walled_container
 from packwork.readers.tables.pairs import read_weights

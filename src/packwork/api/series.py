@@ -21,7 +21,7 @@ from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Value
 from packwork.readers.tables.frames import is_frame, rows_of_frame
 from packwork.readers.words.options import check_weight
-from packwork.readers.words.steps import read_word_steps, steps_of_rows
+from packwork.readers.words.table import read_word_steps, steps_of_rows
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
 from packwork.timeline.step import chart_steps, step_files, word_steps

@@ -25,7 +25,7 @@ from packwork.phrasing import number_of
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import EM_PX
-from packwork.readers.words.steps import named_column, read_word_steps
+from packwork.readers.words.table import named_column, read_word_steps
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import film_options
 from packwork.timeline.film import filmed

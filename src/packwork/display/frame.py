@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from packwork.display.extras import found
-from packwork.readers.tables.columns import as_number, is_missing
+from packwork.readers.tables.cells import as_number, is_missing
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import representative_colour
 

@@ -18,8 +18,8 @@ from packwork.errors import PackworkError
 from packwork.phrasing import enumerated
 from packwork.pipeline.registration import is_alike
 from packwork.readers.items import read_items
-from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.read import read_photos
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photos
 from packwork.recipe_paths import files_outside
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -156,6 +156,8 @@ class Job:
         What may be put into the voids that are left, one of each sort.
     target
         The picture that the layout shows from afar, if any.
+    numbers
+        What items are put in order by, by their names, where a file says so.
     is_counted
         Whether the number of items was found by the run.
     """
@@ -172,6 +174,7 @@ class Job:
     earlier: Layout | None = None
     target: TargetPicture | None = None
     vectors: ItemVectors | None = None
+    numbers: Mapping[str, float] | None = None
     is_counted: bool = False
     skipped: tuple[PackworkError, ...] = ()
     clock: Clock = field(default_factory=Clock)

@@ -26,7 +26,7 @@ from packwork.readers.folders import Sample
 from packwork.readers.items import is_several, read_items
 from packwork.readers.layouts.read import is_drawn, read_written
 from packwork.readers.options import AS_DRAWN
-from packwork.readers.photos.read import read_photos
+from packwork.readers.photos import read_photos
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
@@ -103,6 +103,8 @@ class Material:
         Of which voids are filled, unless the recipe names others.
     given
         Names and sources of all that was read, in the order it was given; None if it had none.
+    target
+        The recipe's picture on this container, if it has been read.
     """
 
     use: Use
@@ -111,6 +113,7 @@ class Material:
     fillers: tuple[Item, ...]
     given: tuple[Key, ...] | None = None
     skipped: tuple[PackworkError, ...] = ()
+    target: TargetPicture | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,7 +241,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         regions=read_regions(chosen.asked, container),
         fillers=fillers.items,
         earlier=_earlier(file, container, chosen.items) if file else None,
-        target=_target(recipe, recipe.picture, container) if recipe.picture else None,
+        target=_target(recipe, recipe.picture, material) if recipe.picture else None,
         vectors=vectors,
         is_counted=recipe.count == AUTO,
         skipped=(*material.skipped, *fillers.skipped, *(vectors.told if vectors else ())),
@@ -270,16 +273,18 @@ def _vectors(recipe: Recipe, asked: str, material: Material) -> ItemVectors:
     return read_item_vectors(recipe, asked, material.cast.items, material.given)
 
 
-def _target(recipe: Recipe, picture: str, container: Container) -> TargetPicture:
+def _target(recipe: Recipe, picture: str, material: Material) -> TargetPicture:
     """The picture that the layout is to show."""
     if recipe.chart is not None:
         raise RecipeError("picture", "has no meaning in a chart, whose colours say something")
-    if container.backdrop is not None:
+    if material.container.backdrop is not None:
         raise RecipeError("picture", "has no meaning round a picture, which is seen behind all")
+    if material.target is not None:
+        return material.target
     # Only what is asked for loads the picture library.
     from packwork.readers.target import read_target
 
-    return read_target(picture, container, recipe.read_options)
+    return read_target(picture, material.container, recipe.read_options)
 
 
 def _earlier(file: str, container: Container, items: tuple[Item, ...]) -> Layout:

@@ -15,9 +15,9 @@ from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
 from packwork.readers.files import read_bytes
 from packwork.readers.memory.values import GivenVectors
+from packwork.readers.tables.cells import Written
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table
-from packwork.readers.tables.written import Written
 from packwork.shelf import shelved
 
 MAX_BYTES = 512_000_000

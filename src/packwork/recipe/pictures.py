@@ -11,7 +11,7 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 from packwork.errors import RecipeError
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
-from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photo_options import PhotoOptions
 from packwork.units import parse_share
 
 

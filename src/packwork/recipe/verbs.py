@@ -15,7 +15,7 @@ from typing import Any
 from packwork.offers import Group, Offered, Verbs
 from packwork.options import Options, offered
 from packwork.readers.charts import ChartOptions
-from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions

@@ -54,8 +54,8 @@ GREY = 0.02
 """Chroma in Oklab below which a colour has no hue that is seen. Chosen."""
 
 
-def check_arranged(job: Job) -> None:
-    """Refuse an arrangement that has no meaning for these items, before anything is run.
+def with_order(job: Job) -> Job:
+    """The job with the numbers of its order, which is refused if it has no meaning.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def check_arranged(job: Job) -> None:
     """
     recipe = job.recipe
     if recipe.arrange is None:
-        return
+        return job
     if recipe.chart is not None or recipe.pile is not None:
         raise RecipeError("arrange", "is for items that fill a container; leave it out here")
     if job.target is not None:
@@ -76,7 +76,10 @@ def check_arranged(job: Job) -> None:
         raise RecipeError(
             "arrange", f"goes by the {by} of items' own colours, and --palette gives them others"
         )
+    if by not in MEASURES and by.lower().endswith(FILES):
+        job = replace(job, numbers=_of_file(job, by))
     measured(job, by)
+    return job
 
 
 def measured(job: Job, by: str) -> FloatArray:
@@ -84,11 +87,11 @@ def measured(job: Job, by: str) -> FloatArray:
 
     Raises
     ------
-    ReadError, RecipeError
-        As for :func:`check_arranged`.
+    RecipeError
+        As for :func:`with_order`.
     """
-    if by not in MEASURES and by.lower().endswith(FILES):
-        values = _of_file(job, by)
+    if job.numbers is not None:
+        values = np.array([job.numbers[item.name] for item in job.items])
     elif by not in MEASURES:
         values = job.use.column(job, by)
     elif by == "weight":
@@ -249,7 +252,7 @@ def _shares(values: FloatArray, areas: FloatArray) -> FloatArray:
     return np.asarray(means[group])
 
 
-def _of_file(job: Job, file: str) -> FloatArray:
+def _of_file(job: Job, file: str) -> dict[str, float]:
     rows = read_pairs(file, MOST_BYTES, job.recipe).rows
     table: dict[str, float] = {}
     for row in rows:
@@ -263,7 +266,7 @@ def _of_file(job: Job, file: str) -> FloatArray:
         raise RecipeError(
             "arrange", f"{file} has no number for {missing[0][:40]!r}; there are {there}"
         )
-    return np.array([table[item.name] for item in job.items])
+    return table
 
 
 @final

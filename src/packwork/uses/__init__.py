@@ -21,7 +21,7 @@ from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.steps.assign_in_order import check_arranged
+from packwork.steps.assign_in_order import with_order
 from packwork.uses.icons import NO_CONTAINER, KnownContainer, read_icons
 
 if TYPE_CHECKING:
@@ -88,9 +88,7 @@ def read(
     """Read what a recipe names; the first half of :func:`fill`."""
     clock = Clock()
     with clock.time("read"), threads.using(recipe.threads):
-        job = job_of(recipe, _material(recipe, items, container), clock)
-        check_arranged(job)
-        return job
+        return with_order(job_of(recipe, _material(recipe, items, container), clock))
 
 
 def _material(

@@ -16,7 +16,6 @@ from packwork.pipeline.plan.counts import items_needed, no_container
 from packwork.pipeline.read import AUTO, Material, drawn_first, read_named
 from packwork.pipeline.run import RunStep
 from packwork.raster.coverage import coverage
-from packwork.readers.target import read_target
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
@@ -64,20 +63,25 @@ class KnownContainer:
         return self.needed(recipe, items) if recipe.count == AUTO else None
 
 
-def suited_first(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> tuple[Item, ...]:
-    """Items in the order in which they are taken: those that show the picture best come first.
+def suited_first(
+    recipe: Recipe, container: Container, items: tuple[Item, ...]
+) -> tuple[tuple[Item, ...], TargetPicture | None]:
+    """Items in the order in which they are taken, those that show the picture best first.
 
-    As they are where none is left out, or none keeps colours of its own.
+    As they are where none is left out, or none keeps colours of its own; else the picture beside.
     """
     count, tint = recipe.count, recipe.tint
     are_photos = all(isinstance(item.art, PhotoArt) for item in items)
     keeps_none = tint == 1.0 or (tint is None and not are_photos)
     if recipe.picture is None or keeps_none or not isinstance(count, int) or count >= len(items):
-        return items
+        return items, None
+    # Only what is asked for loads the picture library.
+    from packwork.readers.target import read_target
+
     target = read_target(recipe.picture, container, recipe.read_options)
     best = best_suited(mean_lights(items), _wanted(target, container, count))
     rest = np.setdiff1d(np.arange(len(items)), best)
-    return tuple(items[k] for k in (*best, *rest))
+    return tuple(items[k] for k in (*best, *rest)), target
 
 
 def best_suited(lights: FloatArray, wanted: FloatArray) -> IntArray:
@@ -134,21 +138,20 @@ def material_of(
 ) -> Material:
     """Items and photographs that a recipe names, for a use that reads nothing else."""
     named = read_named(recipe, given)
-    items = named.items
+    items, target = named.items, None
     if recipe.picture is not None:
-        # Only what is asked for loads the picture library.
-        from packwork.uses.icons import suited_first
-
-        items = suited_first(recipe, room.known, items)
+        items, target = suited_first(recipe, room.known, items)
     if given is None and items is named.items:
         items = drawn_first(recipe, items)
     chosen = expand_copies(recipe, items, room.counted(recipe, items))
+    container = room.of(chosen)
     return Material(
         use=use,
-        container=room.of(chosen),
+        container=container,
         cast=chosen,
         fillers=named.items,
         # Words of a layout come by weight: what a user means by their order is not known.
         given=None if any(item.text is not None for item in given or ()) else named.keys,
         skipped=named.skipped,
+        target=target if container is room.container else None,
     )

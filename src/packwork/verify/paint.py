@@ -18,7 +18,7 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import ReadError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import document, parse_untrusted, parse_xml
-from packwork.readers.layouts.strangers import group_named, tag
+from packwork.readers.layouts.foreign_svg import group_named, tag
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Layout

@@ -17,8 +17,8 @@ from packwork import uses
 from packwork.errors import ReadError, RecipeError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.container import read_container
-from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.read import read_photo, read_photos, shape_of
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photo, read_photos, shape_of
 from packwork.readers.pictures.developing import developed, inspected
 from packwork.recipe.refusals import validated
 from packwork.scene.item import Item, PhotoArt
@@ -155,7 +155,7 @@ def test_the_shape_of_all_photos_is_read_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shapes = Mock(wraps=read_container)
-    monkeypatch.setattr("packwork.readers.photos.read.read_container", shapes)
+    monkeypatch.setattr("packwork.readers.photos.read_container", shapes)
     photos = tuple(saved(tmp_path, f"{k}.png") for k in range(3))
     found = read_photos(PhotoOptions(sources=photos, shape="circle")).items
     assert [item.outline.area for item in found] == pytest.approx([np.pi * 30**2] * 3, rel=2e-3)

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.readers.charts import ChartOptions
+from packwork.readers.tables.cells import is_number_like, written_numbers
 from packwork.readers.tables.decoding import decoded
 from packwork.readers.tables.delimited import delimiter_of
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.readers.tables.table import read_table
-from packwork.readers.tables.written import is_number_like, written_numbers
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words

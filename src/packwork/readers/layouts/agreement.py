@@ -22,7 +22,7 @@ from packwork.geometry.overlay import buffered, intersection
 from packwork.geometry.polygon import Region, region
 from packwork.readers.gate.door import parse_xml
 from packwork.readers.layouts.arts import LINK
-from packwork.readers.layouts.strangers import tag
+from packwork.readers.layouts.foreign_svg import tag
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.svg_syntax.coordinates import Page, read_page

@@ -21,7 +21,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.layouts.assembly import sound_outline
-from packwork.readers.layouts.strangers import tag
+from packwork.readers.layouts.foreign_svg import tag
 from packwork.readers.pictures.decode import opened
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal, kept_art, vector_art

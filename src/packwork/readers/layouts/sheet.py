@@ -15,7 +15,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.layouts.arts import Arts
-from packwork.readers.layouts.strangers import group_named, tag
+from packwork.readers.layouts.foreign_svg import group_named, tag
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal
 from packwork.readers.svg_syntax.coordinates import parse_transform

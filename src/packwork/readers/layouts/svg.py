@@ -35,6 +35,13 @@ from packwork.readers.layouts.assembly import (
     sound_gap,
     sound_weight,
 )
+from packwork.readers.layouts.foreign_svg import (
+    OWN,
+    group_named,
+    loose_items,
+    strange,
+    tag,
+)
 from packwork.readers.layouts.sheet import (
     backdrop_of,
     drawing_of,
@@ -42,13 +49,6 @@ from packwork.readers.layouts.sheet import (
     limits_of,
     notes_of,
     with_halos,
-)
-from packwork.readers.layouts.strangers import (
-    OWN,
-    group_named,
-    loose_items,
-    strange,
-    tag,
 )
 from packwork.readers.layouts.tampering import examined
 from packwork.readers.pictures.decode import decode_picture

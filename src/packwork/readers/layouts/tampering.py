@@ -16,7 +16,7 @@ from packwork.geometry.polygon import Region
 from packwork.phrasing import number_of
 from packwork.readers.gate.sanitise import safe_value
 from packwork.readers.layouts.arts import LINK
-from packwork.readers.layouts.strangers import (
+from packwork.readers.layouts.foreign_svg import (
     LOST_CONTAINER,
     LOST_ITEMS,
     group_named,

@@ -9,9 +9,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from packwork.errors import ReadError
+from packwork.readers.tables.cells import is_number_like
 from packwork.readers.tables.decoding import decoded
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.written import is_number_like
 
 ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t"}
 """What parts the cells of a line, by the file's ending, where the lines do not show it."""

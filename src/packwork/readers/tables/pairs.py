@@ -12,10 +12,10 @@ from typing import Any
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated
 from packwork.readers.files import read_bytes
+from packwork.readers.tables.cells import is_number_like, written_numbers
 from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import TextTable, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.written import is_number_like, written_numbers
 
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""

@@ -10,12 +10,12 @@ from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes
+from packwork.readers.tables.cells import Written, figure, written_numbers
 from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import ENDINGS, TextTable, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.frames import plain_row
 from packwork.readers.tables.parquet import rows_of_parquet
-from packwork.readers.tables.written import Written, figure, written_numbers
 
 NAMES = frozenset(
     {

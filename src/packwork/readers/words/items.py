@@ -22,9 +22,9 @@ from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
+from packwork.readers.words.cooccurrence import related
 from packwork.readers.words.options import WeightIs, Word, WordOptions, lines_of
 from packwork.readers.words.source import ranked_words
-from packwork.readers.words.together import related
 from packwork.scene.item import Item, Label, LiveText, VectorArt
 
 EM_PX = 100.0

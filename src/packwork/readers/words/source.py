@@ -17,7 +17,7 @@ from packwork.readers.tables.decoding import Decoded, decoded
 from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import Word, WordOptions, sound
-from packwork.readers.words.table import read_word_table
+from packwork.readers.words.table import MAX_BYTES, read_word_table
 from packwork.readers.words.tokens import (
     ENGLISH,
     guess_language,
@@ -149,9 +149,6 @@ def _singular(word: str, counts: Counter[str]) -> str | None:
         forms.append(word[:-2])
     return next((form for form in forms if form in counts), None)
 
-
-MAX_BYTES = 50_000_000
-"""Size of a text or a table: some fifty long novels. Chosen."""
 
 STANDARD_INPUT = "-"
 """Stands for what is piped into the program."""
@@ -304,7 +301,7 @@ def _is_long(word: str, options: WordOptions) -> bool:
 
 
 def _rows(source: str, asked: TableFormat) -> Ranked:
-    table = read_word_table(source, MAX_BYTES, asked)
+    table = read_word_table(source, asked)
     if not table.words:
         raise ReadError(source, "holds no words; give lines such as bear,2")
     told = [ReadError(source, notice) for notice in table.notices]

@@ -1,16 +1,22 @@
-"""Tables of words and weights: CSV, TSV and JSON."""
+"""Tables of words and weights, also with a column of steps: years, days, chapters."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated, number_of
+from packwork.readers.tables.cells import is_number_like
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.pairs import MOST_NAMED, Pair, Pairs, read_pairs
+from packwork.readers.tables.pairs import MOST_NAMED, Pair, Pairs, pairs_of_rows, read_pairs
 from packwork.readers.tables.table import total_row
 from packwork.readers.words.options import Word
+
+MAX_BYTES = 50_000_000
+"""Size of a text or a table: some fifty long novels. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +38,7 @@ class TableRead:
     lost: tuple[str, ...] = ()
 
 
-def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead:
+def read_word_table(file: str, asked: TableFormat) -> TableRead:
     r"""Words of lines ``word,weight``, or of JSON as ``{"bear": 2}``.
 
     Further columns go under the names of the first line. Rows without a word, or without a
@@ -50,13 +56,13 @@ def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "t.csv")
     ...     _ = path.write_text("word,weight,kind\nbear,2,animal\nfox,,\n")
-    ...     read = read_word_table(str(path), 1_000, TableFormat())
+    ...     read = read_word_table(str(path), TableFormat())
     >>> read.words
     (Word(text='bear', weight=2.0, columns={'kind': 'animal'}),)
     >>> read.notices
     ('left out 1 row of 2 without a weight: fox (line 3)',)
     """
-    return words_of(read_pairs(file, most_bytes, asked), file)
+    return words_of(read_pairs(file, MAX_BYTES, asked), file)
 
 
 def words_of(table: Pairs, file: str) -> TableRead:
@@ -109,3 +115,132 @@ def _left_out(why: str, which: Sequence[Pair], count: int) -> str:
     named = [f"{pair.name[:40]} ({pair.where})" if pair.name else pair.where for pair in which]
     rows = number_of(len(which), "row")
     return f"left out {rows} of {count} {why}: {enumerated(named, MOST_NAMED)}"
+
+
+MOST_STEPS = 1_000
+"""Steps of a series at most. Chosen."""
+
+_DAY = re.compile(r"\d{4}(-\d\d){1,2}([T ][0-9:.]+)?")
+
+
+@dataclass(frozen=True)
+class WordSteps:
+    """Weights of words, step by step.
+
+    Parameters
+    ----------
+    weights
+        By step, in their order, then by word.
+    notices
+        What has to be told of how the table was read.
+    """
+
+    column: str
+    weights: Mapping[str, Mapping[str, float]]
+    notices: tuple[str, ...] = ()
+
+
+def named_column(said: str) -> tuple[str, str]:
+    """File and column of ``talks.csv:year``.
+
+    Raises
+    ------
+    RecipeError
+        If it names no column.
+
+    Examples
+    --------
+    >>> named_column("talks.csv:year")
+    ('talks.csv', 'year')
+    """
+    file, _, column = said.rpartition(":")
+    if not file or not column.strip() or "/" in column or "\\" in column:
+        raise RecipeError(
+            "series", f"names no column of steps: {said[:60]!r}; write it as talks.csv:year"
+        )
+    return file, column.strip()
+
+
+def read_word_steps(file: str, column: str, asked: TableFormat | None = None) -> WordSteps:
+    r"""Words of a table, by its column of steps.
+
+    A word that a step has twice has both weights. Steps that are all numbers, or all days such as
+    2026-11-23, come in their order, others in that of the table.
+
+    Raises
+    ------
+    ReadError
+        If it is no table of words.
+    RecipeError
+        If it has no such column, or that says fewer than two steps.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "t.csv")
+    ...     _ = path.write_text("year,word,count\n2001,bear,2\n1999,fox,1\n")
+    ...     read_word_steps(str(path), "year").weights
+    {'1999': {'fox': 1.0}, '2001': {'bear': 2.0}}
+    """
+    return _steps(read_word_table(file, asked or TableFormat()), file, column)
+
+
+def steps_of_rows(rows: Sequence[Mapping[str, Any]], column: str) -> WordSteps:
+    """Steps of rows that a program holds.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        As there.
+
+    Examples
+    --------
+    >>> rows = [{"word": "bear", "weight": 2, "year": 9}, {"word": "fox", "weight": 1, "year": 10}]
+    >>> list(steps_of_rows(rows, "year").weights)
+    ['9', '10']
+    """
+    return _steps(words_of(pairs_of_rows(rows), "data"), "data", column)
+
+
+def _steps(table: TableRead, file: str, column: str) -> WordSteps:
+    columns = dict.fromkeys(key for word in table.words for key in word.columns)
+    if column not in columns:
+        there = enumerated(list(columns), 20) if columns else "none but those of words and weights"
+        raise RecipeError("series", f"{file} has no column {column[:40]!r}; there are {there}")
+    found = _by_step(table.words, column)
+    if not 2 <= len(found) <= MOST_STEPS:
+        raise RecipeError(
+            "series", f"column {column[:40]!r} says {len(found):,} steps; 2 to {MOST_STEPS:,} go"
+        )
+    weights = {label: found[label] for label in in_order(list(found))}
+    return WordSteps(column, weights, (*table.notices, *table.lost))
+
+
+def _by_step(words: Sequence[Word], column: str) -> dict[str, dict[str, float]]:
+    found: dict[str, dict[str, float]] = {}
+    for word in words:
+        label = " ".join(word.columns.get(column, "").split())
+        if not label:
+            raise ReadError("series", f"the word {word.text[:40]!r} has no {column[:40]}")
+        weights = found.setdefault(label, {})
+        weights[word.text] = weights.get(word.text, 0.0) + word.weight
+    return found
+
+
+def in_order(labels: Sequence[str]) -> list[str]:
+    """Labels of steps in the order of time, if they tell of it; else as they are.
+
+    Examples
+    --------
+    >>> in_order(["10", "9"]), in_order(["2026-02", "2025-11"]), in_order(["spring", "autumn"])
+    (['9', '10'], ['2025-11', '2026-02'], ['spring', 'autumn'])
+    """
+    if all(_DAY.fullmatch(label) for label in labels):
+        return sorted(labels)
+    try:
+        numbers = {label: float(label) for label in labels if is_number_like(label)}
+    except ValueError:
+        return list(labels)
+    return sorted(labels, key=numbers.__getitem__) if len(numbers) == len(labels) else list(labels)

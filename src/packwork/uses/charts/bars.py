@@ -18,7 +18,7 @@ from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext
 from packwork.progress import NOBODY, Observer, Stop
-from packwork.readers.tables.columns import MISSING, as_number
+from packwork.readers.tables.cells import MISSING, as_number
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.pile import Arrival, SettleOptions, pile

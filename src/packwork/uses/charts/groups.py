@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from packwork.errors import RecipeError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.charts import ChartOptions
-from packwork.readers.tables.columns import (
+from packwork.readers.tables.cells import (
     as_number,
     categories,
     is_missing,

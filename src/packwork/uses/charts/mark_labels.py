@@ -13,7 +13,7 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.phrasing import number_of
-from packwork.readers.tables.columns import MISSING
+from packwork.readers.tables.cells import MISSING
 from packwork.scene.contrast import contrast
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout, Note

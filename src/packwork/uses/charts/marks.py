@@ -15,10 +15,16 @@ from packwork.readers.charts import ChartOptions
 from packwork.readers.items import read_items
 from packwork.readers.options import ReadOptions
 from packwork.readers.regions import Holes
-from packwork.readers.tables.columns import MISSING, categories, is_numeric, names_of_all, shown
+from packwork.readers.tables.cells import (
+    MISSING,
+    categories,
+    is_numeric,
+    names_of_all,
+    shown,
+    shown_decimal,
+)
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
-from packwork.readers.tables.written import shown_decimal
 from packwork.scene.item import MAX_LENGTH, Datum, Item, Label
 from packwork.uses.charts.groups import Groups, read_groups
 from packwork.uses.charts.rows import NUMBERS, marks_of, oddities, read_amounts, read_chart_table
@@ -218,7 +224,7 @@ def _drawings(
             raise RecipeError("mark", f"gives {len(given)} marks; say which row has which: mark_by")
         return {"": given[0] if given else read_items("circle").items[0]}
     there = dict.fromkeys(kinds)
-    names = list(names_of_all(table, options.mark_by, there))
+    names = list(names_of_all(table.rows, options.mark_by, there))
     if len(names) + (MISSING in there) > len(given):
         names = [name for name in names if name in there]
     names += [name for name in there if name == MISSING]

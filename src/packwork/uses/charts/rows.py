@@ -14,10 +14,11 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.charts import ChartOptions
-from packwork.readers.tables.columns import (
+from packwork.readers.tables.cells import (
     FARTHEST,
     any_number,
     as_number,
+    is_date,
     is_missing,
     is_numeric,
     shown,
@@ -25,7 +26,6 @@ from packwork.readers.tables.columns import (
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import MOST_NAMED
 from packwork.readers.tables.table import Row, Table, read_table, total_row
-from packwork.readers.tables.written import is_date
 from packwork.uses.charts.groups import LARGE, Groups, left_out, round_up
 
 COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")

@@ -12,9 +12,9 @@ from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
-from packwork.readers.tables.columns import MISSING
+from packwork.readers.tables.cells import MISSING
 from packwork.recipe import Recipe
-from packwork.steps.assign_in_order import check_arranged
+from packwork.steps.assign_in_order import with_order
 from packwork.uses.charts.colours import chart_colours
 from packwork.uses.charts.layout import Chart, spread_out
 from packwork.uses.charts.marks import ChartRead, read_chart
@@ -73,8 +73,7 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
         fillers=(),
         skipped=read.told,
     )
-    whole = job_of(recipe, material, Clock())
-    check_arranged(whole)
+    whole = with_order(job_of(recipe, material, Clock()))
     return [
         _step(whole, chart, grouped.groups[k], asked.by, np.flatnonzero(grouped.group_of == k))
         for k in there

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from packwork.offers import Verbs
-from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photo_options import PhotoOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults

@@ -15,7 +15,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.read import AUTO
-from packwork.readers.tables.written import written_numbers
+from packwork.readers.tables.cells import written_numbers
 from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe

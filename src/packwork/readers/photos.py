@@ -25,7 +25,7 @@ from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, Sample, listed, matched
 from packwork.readers.items import ItemsRead
 from packwork.readers.options import AS_DRAWN, HALF
-from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, PICTURE_ENDINGS
 from packwork.readers.pictures.developing import Negative, Photograph, Window, developed, inspected
 from packwork.readers.pictures.silhouette import outline_of_cut_out, solidity, tell_what_is_faint

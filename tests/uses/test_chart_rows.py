@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from packwork.errors import PackworkError, RecipeError
 from packwork.readers.charts import ChartOptions
-from packwork.readers.tables.columns import is_missing
+from packwork.readers.tables.cells import is_missing
 from packwork.uses.charts.marks import ChartRead, read_chart
 
 

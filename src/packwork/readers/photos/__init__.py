@@ -1,1 +1,0 @@
-"""Photographs to items: read small, opened again when they are printed."""
