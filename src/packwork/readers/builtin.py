@@ -78,11 +78,6 @@ NAMES = (*sorted(PATHS), "stripe:6")
 def primitive(name: str) -> Region | None:
     """Region of a plain shape; None if none has that name.
 
-    Raises
-    ------
-    UnfitError
-        If it is a stripe of no sane length.
-
     Examples
     --------
     >>> primitive("square").area, primitive("stripe:4").bounds, primitive("dodo")
@@ -153,11 +148,6 @@ def container_names() -> list[str]:
 def builtin_item(name: str, holes: Holes = "fill") -> Item:
     """Item by name: a bundled icon, else a plain shape in one colour.
 
-    Raises
-    ------
-    ReadError
-        If there is no such name; the message names close ones.
-
     Examples
     --------
     >>> builtin_item("square").outline.bounds
@@ -176,11 +166,6 @@ def builtin_item(name: str, holes: Holes = "fill") -> Item:
 
 def builtin_container(name: str, side: float = 600.0) -> Container:
     """Container by name: a bundled drawing, else a plain shape that fills its canvas.
-
-    Raises
-    ------
-    ReadError
-        If there is no such name; the message names close ones.
 
     Examples
     --------

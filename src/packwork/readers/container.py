@@ -92,11 +92,6 @@ def read_parts(container: Container) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of a container that was read from an SVG.
 
     None of any other.
-
-    Raises
-    ------
-    ReadError
-        If the file is no longer what it was.
     """
     path = Path(container.source)
     if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):

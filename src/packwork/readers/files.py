@@ -16,11 +16,6 @@ from packwork.shelf import MEMORY, shelved
 def read_bytes(path: str | Path, most: int) -> bytes:
     """Content of a file of at most ``most`` bytes.
 
-    Raises
-    ------
-    ReadError
-        If it is missing, a folder, a pipe, unreadable or larger.
-
     Examples
     --------
     >>> read_bytes("no such file.svg", 10)
@@ -61,11 +56,6 @@ def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
     ----------
     longest
         Characters of a line at most.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, is larger, or a line is longer.
 
     Examples
     --------
@@ -111,11 +101,6 @@ def _telling(path: str | Path) -> Iterator[None]:
 
 def read_text(path: str | Path, most: int) -> str:
     """Text of a UTF-8 file of at most ``most`` bytes, with or without a byte order mark.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, is larger, or is not UTF-8.
 
     Examples
     --------

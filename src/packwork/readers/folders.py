@@ -125,11 +125,6 @@ def listed(folder: Path, endings: Collection[str]) -> Listing:
     ----------
     endings
         That are read, in lower case.
-
-    Raises
-    ------
-    ReadError
-        If the folder cannot be opened.
     """
     try:
         here = here_of(folder)

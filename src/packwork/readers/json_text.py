@@ -32,11 +32,6 @@ def is_read(data: bytes) -> bool:
 def check_size(data: bytes) -> None:
     """Refuse JSON of more values than may be read.
 
-    Raises
-    ------
-    UnfitError
-        If it has more than ``MAX_PARTS``.
-
     Examples
     --------
     >>> check_size(b"[" + b"0," * 7_000_000 + b"0]")
@@ -49,11 +44,6 @@ def check_size(data: bytes) -> None:
 
 def parsed(text: str) -> Any:
     """Value of JSON that is not too large; numbers in it are finite.
-
-    Raises
-    ------
-    UnfitError
-        If it is none.
 
     Examples
     --------

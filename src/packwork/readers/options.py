@@ -8,11 +8,6 @@ from dataclasses import dataclass
 def check_colour(key: str, text: str) -> str:
     """The same text, if it is a colour as CSS has them.
 
-    Raises
-    ------
-    RecipeError
-        About the option ``key``, if it is none.
-
     Examples
     --------
     >>> check_colour("border_color", "ivory")

@@ -79,11 +79,6 @@ def framed(
         Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
     shape
         Region that the photo is cut to, of any size.
-
-    Raises
-    ------
-    UnfitError
-        If a cut-out shows nothing.
     """
     width, height = negative.width, negative.height
     full = (0.0, 0.0, float(width), float(height))
@@ -165,11 +160,6 @@ def read_photo(
         Which photo of a run it is: one file may be there twice.
     shape
         Region that the photo is cut to, of any size; None where ``options`` ask for no shape.
-
-    Raises
-    ------
-    ReadError
-        If it is missing, broken or larger than the limits.
 
     Examples
     --------
@@ -259,11 +249,6 @@ def read_photos(
         Which are taken where there are more than are needed; few others are read. Of those named
         by themselves all are, unless these alone are too many.
 
-    Raises
-    ------
-    ReadError
-        If a source does not exist or gives no photo at all.
-
     Examples
     --------
     >>> read_photos(PhotoOptions(sources="no such file.jpg"))
@@ -319,11 +304,6 @@ def _taken_first(named: Sequence[_Named], sample: Sample) -> list[int]:
 
 def shape_of(options: PhotoOptions) -> Region | None:
     """Region that photos are cut to; None where they keep their shape or only lose corners.
-
-    Raises
-    ------
-    ReadError
-        If the shape cannot be read.
 
     Examples
     --------

@@ -120,11 +120,6 @@ def _name_files_elsewhere(recipe: str | Path, options: Mapping[str, Any]) -> Non
 def check_no_code(options: Mapping[str, Any]) -> None:
     """Refuse options that name code: losses are all that can.
 
-    Raises
-    ------
-    RecipeError
-        Naming it.
-
     Examples
     --------
     >>> check_no_code({"losses": {"mine:calm": 1}})
@@ -146,11 +141,6 @@ def check_nesting(path: str | Path, text: str) -> None:
     """Refuse tables and arrays in each other, and keys of parts, beyond what a recipe has.
 
     The parser would recurse for each, or keep a table for each part of each key.
-
-    Raises
-    ------
-    ReadError
-        If there are more than ``MOST_NESTED``.
 
     Examples
     --------

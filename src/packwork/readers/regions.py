@@ -86,11 +86,6 @@ corners, smaller speaks of shapes drawn to the rim. Chosen."""
 def clean_union(*regions: Region, speck: float = SPECK) -> Region:
     """Union of regions without specks and pinholes.
 
-    Raises
-    ------
-    UnfitError
-        If nothing is left, or what is left is too small or too thin to be placed.
-
     Examples
     --------
     >>> import shapely

@@ -63,13 +63,7 @@ class Quiet:
 
 
 def quiet_part(data: bytes, negative: Negative, share: float) -> Quiet:
-    """The share of a picture in which least is to be seen, small parts left out.
-
-    Raises
-    ------
-    UnfitError
-        If all of it is of one colour.
-    """
+    """The share of a picture in which least is to be seen, small parts left out."""
     saliency = saliency_map(data, negative)
     limit = float(np.quantile(saliency, share))
     # A soft step, so that the contour runs between pixels.
@@ -80,13 +74,7 @@ def quiet_part(data: bytes, negative: Negative, share: float) -> Quiet:
 
 
 def saliency_map(data: bytes, negative: Negative) -> FloatArray:
-    """Saliency of a picture's bytes, ``MAP_PX`` long, smoothed.
-
-    Raises
-    ------
-    UnfitError
-        If the picture is blank.
-    """
+    """Saliency of a picture's bytes, ``MAP_PX`` long, smoothed."""
     from scipy.ndimage import gaussian_filter, zoom
 
     full = (0.0, 0.0, float(negative.width), float(negative.height))
@@ -155,13 +143,7 @@ class QuietOptions:
 def container_around(
     source: str, side: float, options: QuietOptions, read_region: ReadRegion
 ) -> Container:
-    """Container of ``around:IMAGE``, its canvas the whole picture, ``side`` long.
-
-    Raises
-    ------
-    ReadError
-        If the picture cannot be read, is blank, or nothing of it is left.
-    """
+    """Container of ``around:IMAGE``, its canvas the whole picture, ``side`` long."""
     file = source.removeprefix(AROUND)
     data = read_bytes(file, MAX_PICTURE_BYTES)
     with reading_file(file):

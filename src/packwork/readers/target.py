@@ -52,11 +52,6 @@ def read_target(
     ----------
     reading
         How an SVG is read: with its white page or without.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, is clear, or has one colour only.
     """
     data = read_bytes(source, MAX_PICTURE_BYTES)
     if Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<":

@@ -74,11 +74,6 @@ class _DrawnGlyph:
 def letters_of(line: Sequence[TypeSetting]) -> list[Letter]:
     """Letters of one line, from left to right.
 
-    Raises
-    ------
-    ReadError
-        If a glyph is damaged or empty; it names the font.
-
     Examples
     --------
     >>> from packwork.readers.fonts.face import bundled_typeface
@@ -187,11 +182,6 @@ def container_of_words(
         A TTF, OTF or TTC file, or an installed family. If None the bundled bold sans, and
         installed fonts for what it lacks.
 
-    Raises
-    ------
-    ReadError
-        If there is no word, or the font cannot be read or lacks one of its characters.
-
     Examples
     --------
     >>> container = container_of_words("text:OX", 300.0)
@@ -237,11 +227,6 @@ _NOTHING = _JOINERS + " \ufe0e\ufe0f"
 def lines_of(text: str) -> list[str]:
     """Lines of a text, ``|`` between them, in composed characters, single spaces.
 
-    Raises
-    ------
-    UnfitError
-        If nothing is left, or it is too long.
-
     Examples
     --------
     >>> lines_of(" HELLO   big|WORLD| ")
@@ -267,11 +252,6 @@ def set_lines(lines: Sequence[Sequence[Letter]]) -> Region:
     ----------
     lines
         Letters of each from left to right.
-
-    Raises
-    ------
-    UnfitError
-        If a line has no ink at all.
 
     Examples
     --------

@@ -54,11 +54,6 @@ class Vectors:
     def called(self, name: str) -> FloatArray:
         """``(d,)`` vector of a row by its name, or else the axis of a column.
 
-        Raises
-        ------
-        RecipeError
-            About ``anchors``, if there is none of that name.
-
         Examples
         --------
         >>> found = Vectors("a.csv", ("bear", "fox"), np.eye(2), ("warm", "cold"))
@@ -82,11 +77,6 @@ def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
 
     A table's first column may hold names, and one more texts: of what group each is. A first line
     of numbers alone is a row too.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, a number is missing or none, or all vectors are alike.
 
     Examples
     --------
@@ -223,11 +213,6 @@ def in_order(vectors: Vectors, names: Sequence[Sequence[str]]) -> tuple[FloatArr
 
     Without names in the file there must be a row for each, in their order. Letters' case counts
     only where two names differ by nothing else.
-
-    Raises
-    ------
-    ReadError
-        If there are more or fewer rows than things, or no name is known.
 
     Examples
     --------

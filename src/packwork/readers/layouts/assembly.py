@@ -82,11 +82,6 @@ class FoundSheet:
 def assembled(sheet: FoundSheet, name: str) -> Layout:
     """Layout of what was found; what is a plain shape is unturned and as large as it is.
 
-    Raises
-    ------
-    UnfitError
-        If the container or an item has no area.
-
     Examples
     --------
     >>> import shapely
@@ -121,11 +116,6 @@ def assembled(sheet: FoundSheet, name: str) -> Layout:
 def sound_weight(text: str) -> float:
     """Weight as a file states it.
 
-    Raises
-    ------
-    UnfitError
-        If it is no number, or a negative one.
-
     Examples
     --------
     >>> sound_weight("2.5")
@@ -143,11 +133,6 @@ def sound_weight(text: str) -> float:
 def sound_gap(text: str) -> float:
     """Promised gap as a file states it.
 
-    Raises
-    ------
-    UnfitError
-        If it is a negative number or none.
-
     Examples
     --------
     >>> sound_gap("0")
@@ -164,11 +149,6 @@ def sound_gap(text: str) -> float:
 
 def sound_outline(region: Region, what: str) -> Outline:
     """Outline of a region, if it has an area and no more points than can be followed.
-
-    Raises
-    ------
-    UnfitError
-        About ``what``.
 
     Examples
     --------

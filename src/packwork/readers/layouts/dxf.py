@@ -63,11 +63,6 @@ class DxfLine:
 def tags_of(text: str) -> list[Tag]:
     r"""Pairs of a file in turn.
 
-    Raises
-    ------
-    UnfitError
-        If it is not DXF in text form, or too long.
-
     Examples
     --------
     >>> tags_of("0\nEOF\n")
@@ -107,11 +102,6 @@ def header_of(tags: Sequence[Tag]) -> dict[str, list[float]]:
 
 def lines_of(tags: Sequence[Tag]) -> list[DxfLine]:
     """Polylines of the drawing, in their order.
-
-    Raises
-    ------
-    UnfitError
-        If one is bent, has coordinates that are none, or is open and no wall of a container.
 
     Examples
     --------
@@ -182,11 +172,6 @@ _NOT_OURS = "as packwork writes it; give a DXF that no other program saved again
 
 def layout_of_dxf(text: str, name: str) -> Layout:
     r"""Layout of a DXF's text, its outlines the lines on the layer ``items``, else ``cut``.
-
-    Raises
-    ------
-    UnfitError
-        If it is not a DXF of ours.
 
     Examples
     --------

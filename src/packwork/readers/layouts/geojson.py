@@ -152,12 +152,6 @@ def read_layout(path: str | Path) -> Layout:
     Outlines are taken as they stand in the file, so that what is measured is what was
     written; each placed item gets its own ``Item``, its art a plain fill.
 
-    Raises
-    ------
-    ReadError
-        Saying where, if the file was edited into something that is no layout; saying what
-        to load instead, if it is a drawing of one.
-
     Examples
     --------
     >>> import json, tempfile
@@ -181,13 +175,7 @@ def read_layout(path: str | Path) -> Layout:
 
 
 def layout_of_geojson(text: str) -> Layout:
-    """Layout of such a file's text.
-
-    Raises
-    ------
-    UnfitError
-        If it is no layout.
-    """
+    """Layout of such a file's text."""
     said = parsed(text)
     if not isinstance(said, dict) or said.get("type") != "FeatureCollection":
         raise UnfitError("is not a GeoJSON FeatureCollection; give a layout saved as .geojson")

@@ -64,13 +64,7 @@ class PrintedPage:
 
 
 def printed_page(data: bytes) -> PrintedPage:
-    """Paint of a PDF's page.
-
-    Raises
-    ------
-    UnfitError
-        If it is no PDF of one page, or has what no PDF of ours has.
-    """
+    """Paint of a PDF's page."""
     import pikepdf
 
     try:

@@ -53,11 +53,6 @@ def is_session(path: str | Path) -> bool:
 def holds_layout(path: str | Path) -> bool:
     """Whether an SVG is one of ours, a layout, and no drawing to be packed.
 
-    Raises
-    ------
-    ReadError
-        If there is no such file.
-
     Examples
     --------
     >>> import tempfile
@@ -80,11 +75,6 @@ def read_written(path: str | Path) -> Layout:
     A session's file is read as the session stands. GeoJSON and DXF hold the outlines themselves. In
     an SVG each drawing is read anew, as people will see it, and followed to
     ``svg.MEASURED_FLATTENING`` of the canvas.
-
-    Raises
-    ------
-    ReadError
-        If it is missing, of another ending, or not as we write it.
 
     Examples
     --------
@@ -117,11 +107,6 @@ def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) 
         Its ending says what that is.
     outlines_only
         Whether nothing but outlines is wanted, of plain items.
-
-    Raises
-    ------
-    ReadError
-        If it is not as we write it.
     """
     ending = Path(path).suffix.lower()
     with reading_file(str(path)):

@@ -56,11 +56,6 @@ def drawing_of(root: ET.Element, is_in_full: bool) -> dict[str, Any]:
 def limits_of(said: Mapping[str, str]) -> dict[str, Any]:
     """Limits of turns and sizes that a run had, and how its words were set, as its recipe says it.
 
-    Raises
-    ------
-    UnfitError
-        If they are of another form.
-
     Examples
     --------
     >>> limits_of({"data-rotate": "none", "data-words": '{"case":"upper"}'})

@@ -93,11 +93,6 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
     outlines_only
         Whether items are to be plain, as what they look like is not wanted.
 
-    Raises
-    ------
-    UnfitError
-        If it is not an SVG of ours.
-
     Examples
     --------
     >>> wall = '<g id="container" display="none"><path d="M0 0h9v9h-9z"/></g>'

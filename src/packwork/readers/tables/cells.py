@@ -207,11 +207,6 @@ def written_numbers(
     asked
         What parts it in any case.
 
-    Raises
-    ------
-    ReadError
-        If that is not plain, or units are mixed.
-
     Examples
     --------
     >>> written_numbers(["1.234,5 €", "2 €", "-"], "t.csv", "price")
@@ -275,13 +270,7 @@ def _decimal(
 def _check_units(
     cells: Sequence[object], figures: dict[str, Figure], file: str, column: str
 ) -> None:
-    """Refuse numbers that are not of one unit.
-
-    Raises
-    ------
-    ReadError
-        Naming two of them.
-    """
+    """Refuse numbers that are not of one unit."""
     of_unit: dict[str, str] = {}
     for cell in dict.fromkeys(cell for cell in cells if isinstance(cell, str) and cell in figures):
         found = figures[cell]

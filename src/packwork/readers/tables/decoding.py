@@ -78,12 +78,6 @@ def decoded(data: bytes, file: str, encoding: str | None = None) -> Decoded:
     encoding
         What its letters are stored in; None finds it.
 
-    Raises
-    ------
-    ReadError
-        If it is none in that encoding, or in which one is not plain: the ones that may be meant
-        are named.
-
     Examples
     --------
     >>> decoded("Käse".encode("utf-16"), "t.csv").text
@@ -128,13 +122,7 @@ def _wide(data: bytes) -> str | None:
 
 
 def _windows_encoding(data: bytes, file: str) -> str:
-    """The likeliest encoding that makes words of all that is no ASCII.
-
-    Raises
-    ------
-    ReadError
-        If there is none.
-    """
+    """The likeliest encoding that makes words of all that is no ASCII."""
     shares = {name: _plainness(data[:SAMPLE], name, sets) for name, sets in ALPHABETS.items()}
     best = max(shares.values())
     if best >= PLAIN_SHARE:
@@ -197,11 +185,6 @@ gigabyte. Derived."""
 
 def read_json(file: str, asked: TableFormat) -> Any:
     """Value of a JSON file.
-
-    Raises
-    ------
-    ReadError
-        If it is none, or larger than ``MAX_JSON_BYTES``.
 
     Examples
     --------

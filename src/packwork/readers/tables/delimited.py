@@ -62,11 +62,6 @@ class TextTable:
 def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextTable:
     r"""A file's lines of cells; its first line may be ``sep=;``, as Excel has it.
 
-    Raises
-    ------
-    ReadError
-        If it is no text, or several delimiters part its lines alike.
-
     Examples
     --------
     >>> sheet = read_sheet(b"sep=|\nbear|2,5\n", "t.csv", ".csv", TableFormat())
@@ -88,11 +83,6 @@ def delimiter_of(text: str, file: str, usual: str) -> str:
 
     Of several the one within whose cells the others stand in numbers alone, as the commas of
     ``bear;2,5`` do. Where none parts all lines alike, the usual one.
-
-    Raises
-    ------
-    ReadError
-        If there are several.
 
     Examples
     --------
@@ -171,11 +161,6 @@ def _list(delimiters: Sequence[str]) -> str:
 def lines_of_cells(text: str, file: str, separator: str) -> Iterator[tuple[int, list[str]]]:
     r"""Number and cells of each line that is not empty; cells without spaces at their ends.
 
-    Raises
-    ------
-    ReadError
-        With the line's number, if it is not CSV, or there are more than ``MOST_ROWS``.
-
     Examples
     --------
     >>> list(lines_of_cells("a, b\n\n1,2\n", "t.csv", ","))
@@ -195,13 +180,7 @@ def lines_of_cells(text: str, file: str, separator: str) -> Iterator[tuple[int, 
 
 
 def check_size(file: str, rows: int, cells: int = 0) -> None:
-    """Refuse more rows than ``MOST_ROWS``, and more cells than ``MOST_CELLS``.
-
-    Raises
-    ------
-    ReadError
-        Saying how many there may be.
-    """
+    """Refuse more rows than ``MOST_ROWS``, and more cells than ``MOST_CELLS``."""
     if rows > MOST_ROWS:
         raise ReadError(file, f"has more than {MOST_ROWS:,} rows; give fewer")
     if cells > MOST_CELLS:

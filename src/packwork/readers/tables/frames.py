@@ -19,11 +19,6 @@ def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, 
     has_row_numbers
         Whether that holds of numbers of rows that were sorted or left out, too.
 
-    Raises
-    ------
-    RecipeError
-        If it is none of these.
-
     Examples
     --------
     >>> rows_of_frame({"land": ["Peru", "Kenya"], "kg": [2, 3]})

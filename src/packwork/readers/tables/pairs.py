@@ -78,11 +78,6 @@ def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
 
     Its first line may name the columns, and then there may be more of them.
 
-    Raises
-    ------
-    ReadError
-        If it is no such table, or how its numbers are written is not plain.
-
     Examples
     --------
     >>> import tempfile
@@ -104,11 +99,6 @@ def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
 
 def pairs_of_rows(rows: Sequence[Mapping[str, Any]]) -> Pairs:
     """Names and numbers of rows that a program holds.
-
-    Raises
-    ------
-    ReadError
-        If they are no such table.
 
     Examples
     --------
@@ -206,12 +196,6 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
     r"""Weights by item name, in the file's order.
 
     The file has two columns, ``name,weight``; a line that names them may stand on top.
-
-    Raises
-    ------
-    ReadError
-        With the line's number, if a weight is not a positive finite number, a name is
-        missing or stands there with two weights.
 
     Examples
     --------

@@ -67,14 +67,7 @@ class ColumnChunk:
 
 
 def pieces_of(data: bytes) -> list[ColumnChunk]:
-    """All columns of all groups of rows.
-
-    Raises
-    ------
-    ValueError
-        If the file's account of itself cannot be read, one has more than ``MOST_PAGES`` pages, or
-        sizes below nothing.
-    """
+    """All columns of all groups of rows."""
     length = int.from_bytes(data[-_TAIL:-4], "little")
     begin = len(data) - _TAIL - length
     if begin < 0 or data[-4:] != b"PAR1":
@@ -215,11 +208,6 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
     ----------
     needed
         Columns that are read in any case.
-
-    Raises
-    ------
-    ReadError
-        If it is none, holds more than memory does, or what reads it is not installed.
     """
     try:
         parquet = importlib.import_module("pyarrow.parquet")
@@ -258,13 +246,7 @@ def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]
 
 
 def _check_size(file: str, pieces: Sequence[ColumnChunk]) -> None:
-    """Refuse what would not fit into memory, by the headers of its pages.
-
-    Raises
-    ------
-    ReadError
-        Saying how much there may be.
-    """
+    """Refuse what would not fit into memory, by the headers of its pages."""
     # Lists have more values than rows.
     check_size(file, 0, sum(max(one.values, one.rows, one.found) for one in pieces))
     _check_bytes(file, sum(max(one.size, one.stated) for one in pieces))

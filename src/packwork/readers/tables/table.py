@@ -107,11 +107,6 @@ class Table:
     def check_column(self, key: str, column: str) -> None:
         """Refuse a column that is not there.
 
-        Raises
-        ------
-        RecipeError
-            About the option ``key``, saying which columns there are.
-
         Examples
         --------
         >>> Table("data", ("a", "b"), ()).check_column("size_by", "c")
@@ -132,11 +127,6 @@ class Table:
         whole
             Whether the column is one of numbers only if all that it holds are some: so
             categories such as ``1.200`` need no decision.
-
-        Raises
-        ------
-        ReadError
-            If how the numbers are written is not plain.
 
         Examples
         --------
@@ -175,11 +165,6 @@ def read_table(
     ----------
     needed
         Columns that are read of large files in any case.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read or has no rows.
 
     Examples
     --------

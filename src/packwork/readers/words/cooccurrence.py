@@ -34,13 +34,7 @@ MOST_RELATED = 4_000
 
 
 def related(sentences: Sequence[Sequence[str]], words: Sequence[Word], most: int = 1) -> FloatArray:
-    """``(n, d)`` vectors of the words of a text, by which of them stand near each other.
-
-    Raises
-    ------
-    RecipeError
-        If there is no text, it relates no two of the words, or there are too many.
-    """
+    """``(n, d)`` vectors of the words of a text, by which of them stand near each other."""
     if not sentences:
         raise RecipeError(
             "embeddings",

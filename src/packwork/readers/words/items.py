@@ -104,13 +104,6 @@ def read_word_items(
     is_related
         Whether vectors are made of which words stand together.
 
-    Raises
-    ------
-    ReadError
-        If the source or a font cannot be read, or no word can be set.
-    RecipeError
-        If weights are too far apart, or words that are to be related come from no text.
-
     Examples
     --------
     >>> read = read_word_items(WordOptions(source={"bear": 2, "中" * 200: 1}))
@@ -165,11 +158,6 @@ def _named(text: str) -> tuple[str, str]:
 def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
     """One word as an item: named after it, with a tooltip that tells its weight.
 
-    Raises
-    ------
-    UnfitError
-        If no font can draw it, it is blank or too long.
-
     Examples
     --------
     >>> item = word_item(Word("ox", 2.0), open_fonts([]))
@@ -213,11 +201,6 @@ class ShapedWord:
 def shaped_word(word: Word, fonts: Fonts, holes: Holes = "fill") -> ShapedWord:
     """One word as fonts draw it, about its outline's centroid.
 
-    Raises
-    ------
-    UnfitError
-        If no font can draw it, it is blank or too long.
-
     Examples
     --------
     >>> word = shaped_word(Word("ox", 2.0), open_fonts([]), "keep")
@@ -238,11 +221,6 @@ def shaped_word(word: Word, fonts: Fonts, holes: Holes = "fill") -> ShapedWord:
 
 def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs) -> FloatArray:
     """``(n,)`` areas, in shares, of words whose heights, or areas, are as the weights say.
-
-    Raises
-    ------
-    RecipeError
-        If the largest letters would be ``WIDEST_HEIGHTS`` as high as the smallest.
 
     Examples
     --------

@@ -233,11 +233,6 @@ class WordOptions(Options):
 def check_weight(word: str, weight: object) -> None:
     """Refuse what is no positive number.
 
-    Raises
-    ------
-    RecipeError
-        Naming the word.
-
     Examples
     --------
     >>> check_weight("bear", -1)

@@ -186,13 +186,6 @@ def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[W
     Of tables nothing is left out but what ``stopwords`` names. Words that weigh the same
     come in the order of the text.
 
-    Raises
-    ------
-    ReadError
-        If the source cannot be read, or no word is left.
-    RecipeError
-        If there is no list of stop words for the language.
-
     Examples
     --------
     >>> text = "The bear and the bees: a bear likes honey, and bees make honey for the bear."
@@ -204,11 +197,6 @@ def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[W
 
 def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Ranked:
     """All words that could be set, more than ``count`` if there are, as :func:`read_words`.
-
-    Raises
-    ------
-    ReadError, RecipeError
-        As there.
 
     Examples
     --------

@@ -44,11 +44,6 @@ def read_word_table(file: str, asked: TableFormat) -> TableRead:
     Further columns go under the names of the first line. Rows without a word, or without a
     positive number, are left out and named.
 
-    Raises
-    ------
-    ReadError
-        If it is no table, or no row has both.
-
     Examples
     --------
     >>> import tempfile
@@ -66,13 +61,7 @@ def read_word_table(file: str, asked: TableFormat) -> TableRead:
 
 
 def words_of(table: Pairs, file: str) -> TableRead:
-    """Words of a table that is read already.
-
-    Raises
-    ------
-    ReadError
-        If no row has a word and a weight.
-    """
+    """Words of a table that is read already."""
     sound = [pair for pair in table.rows if pair.is_sound]
     odd = [pair for pair in table.rows if not pair.is_sound]
     if odd and not sound:
@@ -143,11 +132,6 @@ class WordSteps:
 def named_column(said: str) -> tuple[str, str]:
     """File and column of ``talks.csv:year``.
 
-    Raises
-    ------
-    RecipeError
-        If it names no column.
-
     Examples
     --------
     >>> named_column("talks.csv:year")
@@ -167,13 +151,6 @@ def read_word_steps(file: str, column: str, asked: TableFormat | None = None) ->
     A word that a step has twice has both weights. Steps that are all numbers, or all days such as
     2026-11-23, come in their order, others in that of the table.
 
-    Raises
-    ------
-    ReadError
-        If it is no table of words.
-    RecipeError
-        If it has no such column, or that says fewer than two steps.
-
     Examples
     --------
     >>> import tempfile
@@ -189,11 +166,6 @@ def read_word_steps(file: str, column: str, asked: TableFormat | None = None) ->
 
 def steps_of_rows(rows: Sequence[Mapping[str, Any]], column: str) -> WordSteps:
     """Steps of rows that a program holds.
-
-    Raises
-    ------
-    ReadError, RecipeError
-        As there.
 
     Examples
     --------

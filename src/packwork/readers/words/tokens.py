@@ -41,11 +41,6 @@ def stop_words(language: str) -> frozenset[str]:
     English is a list of our own: that of ``stopwordsiso`` has nouns such as "computer" and
     "world". All others are that package's.
 
-    Raises
-    ------
-    RecipeError
-        If there is no list for a code.
-
     Examples
     --------
     >>> "the" in stop_words("en"), "und" in stop_words("en,de"), "world" in stop_words("en")
@@ -95,11 +90,6 @@ def guess_language(counts: Counter[str]) -> str | None:
 
 def own_stop_words(words: str | Iterable[str] | None) -> frozenset[str]:
     """Stop words of a file, one or several a line, or of a list; case folded.
-
-    Raises
-    ------
-    ReadError
-        If the file cannot be read.
 
     Examples
     --------
@@ -246,11 +236,6 @@ def found_in(pattern: str, texts: Sequence[str], *, groups: bool = False) -> lis
     groups
         As ``re.findall`` has it: groups, where the pattern has some, in place of the whole.
 
-    Raises
-    ------
-    RecipeError
-        If that takes more than ``MOST_SECONDS``.
-
     Examples
     --------
     >>> found_in(r"#\w+", ["a #bear and", "#honey"])
@@ -312,11 +297,6 @@ def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]
 
 def matches(text: str, pattern: str) -> Iterator[list[str]]:
     r"""Matches of a regular expression, line by line; control characters and idle spaces off.
-
-    Raises
-    ------
-    RecipeError
-        If it does not come to an end.
 
     Examples
     --------

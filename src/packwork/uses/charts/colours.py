@@ -57,14 +57,7 @@ class ChartColours:
 
 
 def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
-    """Colours of all marks; names to which the palette gives some in vain are told.
-
-    Raises
-    ------
-    RecipeError
-        If there are more categories than the palette has colours, or it gives them to names and
-        marks have none.
-    """
+    """Colours of all marks; names to which the palette gives some in vain are told."""
     column, known = chart.options.color_by, tuple[str, ...]()
     if column is not None and chart.is_ramp:
         colours = _ramp(recipe, chart, column)

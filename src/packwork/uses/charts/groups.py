@@ -70,11 +70,6 @@ def read_groups(table: Table, options: ChartOptions) -> Groups | None:
 
     Numbers and dates ascend, all else comes as it first stands in the table.
 
-    Raises
-    ------
-    RecipeError
-        If the column has no numbers for the steps, or there are too many groups.
-
     Examples
     --------
     >>> rows = ({"year": 1999}, {"year": 1962}, {"year": 1995}, {"year": None})

@@ -172,11 +172,6 @@ def spread_out(
     ----------
     single
         The container to fill, or of which each group has a copy; None for bars.
-
-    Raises
-    ------
-    RecipeError
-        If there are no groups to make bars of.
     """
     if single is None and not chart.groups:
         raise RecipeError("container", "none shows groups as bars: give --by COL, or a container")

@@ -124,13 +124,6 @@ def read_chart(
 ) -> ChartRead:
     """Marks of a chart.
 
-    Raises
-    ------
-    ReadError
-        If the table or a mark cannot be read.
-    RecipeError
-        If a column is not there, or cannot be shown.
-
     Examples
     --------
     >>> rows = ({"land": "Peru", "t": 25}, {"land": "Kenya", "t": 10}, {"land": "Fiji", "t": 0})
@@ -277,13 +270,7 @@ def _said(row: Row, drawn: Item, options: ChartOptions) -> tuple[str, Label]:
 def _areas(
     items: Sequence[Item], values: FloatArray, shares: FloatArray, options: ChartOptions
 ) -> FloatArray:
-    """``(n,)`` areas in shares, such that what sizes are meant to say is in proportion.
-
-    Raises
-    ------
-    ReadError
-        If the smallest could not be seen.
-    """
+    """``(n,)`` areas in shares, such that what sizes are meant to say is in proportion."""
     if options.unit is not None:
         wholes = shares
     elif options.size_by is None:

@@ -48,13 +48,6 @@ SPECK = 1e-3
 def read_chart_table(options: ChartOptions, asked: TableFormat) -> Table:
     """Table of a chart, the texts of whose number columns know their numbers.
 
-    Raises
-    ------
-    ReadError
-        If it cannot be read, or how numbers are written is not plain.
-    RecipeError
-        If a column is not there.
-
     Examples
     --------
     >>> rows = ({"land": "Peru", "t": "2,5"}, {"land": "Kenya", "t": "1"})
@@ -114,11 +107,6 @@ def sizes(
     table: Table, column: str, label_by: str | None
 ) -> tuple[dict[int, float], dict[str, bool]]:
     """Positive number of each row that has one; sentences about the others, and which tell of data.
-
-    Raises
-    ------
-    RecipeError
-        If no row has one.
 
     Examples
     --------
@@ -193,13 +181,7 @@ class Amounts:
 
 
 def read_amounts(table: Table, options: ChartOptions, groups: Groups | None) -> Amounts:
-    """Rows of a table that are shown; those in no group are not.
-
-    Raises
-    ------
-    RecipeError
-        If none can be.
-    """
+    """Rows of a table that are shown; those in no group are not."""
     member = [0] * len(table.rows) if groups is None else groups.of_row
     notices: dict[str, bool] = {}
     found = dict.fromkeys(range(len(table.rows)), 1.0)
@@ -242,13 +224,7 @@ def _counted(
 
 
 def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
-    """Row of each mark, and its share of a whole one, of amounts ``(n,)`` of rows.
-
-    Raises
-    ------
-    RecipeError
-        If there are too many to be told apart.
-    """
+    """Row of each mark, and its share of a whole one, of amounts ``(n,)`` of rows."""
     unit = options.unit
     if unit is None:
         total = float(len(amounts))

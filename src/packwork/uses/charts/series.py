@@ -45,13 +45,6 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
     recipe
         Of a chart in groups: those of ``by`` are the steps. A title may name the step, as
         ``Harvest of {year}``.
-
-    Raises
-    ------
-    ReadError
-        If the table or a mark cannot be read.
-    RecipeError
-        If an option has no meaning, or there are fewer than two steps.
     """
     asked = recipe.chart
     if asked is None or asked.by is None:

@@ -127,13 +127,7 @@ class FillGroups(RunStep):
 
 
 def check_groups(job: Job, chart: Chart) -> None:
-    """Refuse what groups cannot keep.
-
-    Raises
-    ------
-    RecipeError
-        If something asked has no meaning for groups.
-    """
+    """Refuse what groups cannot keep."""
     if job.earlier is not None:
         raise RecipeError("start", "groups of --by begin anew; leave the layout out")
     if job.plan.forces:
@@ -149,15 +143,7 @@ def check_groups(job: Job, chart: Chart) -> None:
 
 
 def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> Material:
-    """Marks of a recipe's chart, in a container or, without one, in bars.
-
-    Raises
-    ------
-    ReadError
-        If the table or a mark cannot be read.
-    RecipeError
-        If an option has no meaning for this table.
-    """
+    """Marks of a recipe's chart, in a container or, without one, in bars."""
     if recipe.stroke_width == "even":
         raise RecipeError(
             "stroke_width", "even changes the areas of marks, which stand for numbers; leave it out"
@@ -177,13 +163,7 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
 
 
 def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
-    """Marks of a chart, each once, as large as its data say.
-
-    Raises
-    ------
-    RecipeError
-        As for :func:`expand_copies`, and if a rule would make sizes or numbers of marks untrue.
-    """
+    """Marks of a chart, each once, as large as its data say."""
     chosen = expand_copies(recipe, chart.items)
     for one in chosen.asked:
         untrue = [key for key in ("weight", "scale") if key in one.values]

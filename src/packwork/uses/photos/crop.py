@@ -84,13 +84,7 @@ class Cropped:
 
 
 def crops(recipe: Recipe) -> bool:
-    """Whether items are cut at the container's line.
-
-    Raises
-    ------
-    RecipeError
-        If that has no meaning with what else is asked.
-    """
+    """Whether items are cut at the container's line."""
     if recipe.photos is None or recipe.photos.edge != "crop":
         return False
     others = {
