@@ -100,7 +100,6 @@ def read_parts(container: Container) -> list[tuple[str, Region]]:
 
 
 def _sheet(name: str, size: CanvasSize | None) -> Container:
-    """All of a canvas."""
     whole = CanvasSize(DEFAULT_SIDE, None, "px") if size is None else size
     return sheet(name, whole.width, whole.height or whole.width, whole.unit)
 

@@ -73,7 +73,6 @@ def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
 
 
 def _check_file(path: str | Path, most: int) -> None:
-    """Refuse what is no file of at most ``most`` bytes."""
     # Opening a pipe waits for its writer, and a device never ends.
     status = here_of(path).stat()
     mode = status.st_mode

@@ -152,7 +152,6 @@ def _holds(folder: Path, endings: Collection[str]) -> bool:
 
 
 def _below(folder: Path, here: Path) -> Iterator[Path]:
-    """Files in the folders of a folder, links to folders not followed."""
     met = 0
     for place, folders, names in os.walk(here):
         folders[:] = sorted(name for name in folders if not name.startswith("."))

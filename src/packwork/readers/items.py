@@ -214,7 +214,6 @@ def _read_all(
 def _taken_first(
     sources: Sequence[_Source], files: Sequence[tuple[int, str]], sample: Sample, most: int
 ) -> list[int]:
-    """Indices of files in the order in which they are taken."""
     alone = [k for k, (number, _) in enumerate(files) if sources[number].listing is None]
     drawn = sample.order([stem(file) for _, file in files])
     return list(dict.fromkeys([*(alone if len(alone) <= most else ()), *drawn]))

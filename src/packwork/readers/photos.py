@@ -96,7 +96,6 @@ def framed(
 
 
 def _rounded(full: Window, radius: float) -> Region:
-    """A rectangle with round corners; half the shorter side as radius makes a pill."""
     left, top, right, bottom = full
     xs, ys = (left + radius, right - radius), (top + radius, bottom - radius)
     middles = shapely.multipoints([(x, y) for x in xs for y in ys])
@@ -115,7 +114,6 @@ def _shaped(shape: Region, full: Window) -> tuple[Window, Region]:
 
 
 def _cut_out(data: bytes, negative: Negative, threshold: float) -> Region:
-    """Part of a photo that is not clear."""
     scale = min(1.0, CUT_OUT_PX / max(negative.width, negative.height))
     size = max(1, round(negative.width * scale)), max(1, round(negative.height * scale))
     full = (0.0, 0.0, float(negative.width), float(negative.height))
@@ -202,7 +200,6 @@ def _is_soft(negative: Negative, options: PhotoOptions) -> bool:
 
 
 def _path(region: Region) -> str:
-    """SVG path of a region in pixels of a photo."""
     rings = oriented_rings(region)
     return "".join(
         "M" + " ".join(f"{v:.{_DIGITS}f}" for v in ring.ravel().tolist()) + "Z" for ring in rings
@@ -291,12 +288,10 @@ def read_photos(
 
 
 def _well(results: Iterable[Item | ReadError]) -> int:
-    """Number of photos that could be read."""
     return sum(isinstance(result, Item) for result in results)
 
 
 def _taken_first(named: Sequence[_Named], sample: Sample) -> list[int]:
-    """Indices of photos in the order in which they are taken."""
     alone = [k for k, one in enumerate(named) if one.by_itself]
     drawn = sample.order([stem(one.file) for one in named])
     return list(dict.fromkeys([*(alone if len(alone) <= sample.most else ()), *drawn]))

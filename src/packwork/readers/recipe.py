@@ -98,7 +98,6 @@ def read_template(path: str | Path, *, allow_code: bool = False) -> dict[str, An
 
 
 def _check_numbers(path: str | Path, value: Any) -> None:
-    """Refuse whole numbers that neither reals nor Python's own texts can hold."""
     if isinstance(value, dict | list):
         for one in value.values() if isinstance(value, dict) else value:
             _check_numbers(path, one)

@@ -93,7 +93,6 @@ def saliency_map(data: bytes, negative: Negative) -> FloatArray:
 
 
 def _size(negative: Negative, longest: int) -> tuple[int, int]:
-    """Width and height of a picture that is ``longest`` long."""
     scale = longest / max(negative.width, negative.height)
     return max(8, round(negative.width * scale)), max(8, round(negative.height * scale))
 
@@ -182,7 +181,6 @@ def _art(file: str, data: bytes, negative: Negative) -> PhotoArt:
 
 
 def _kept_clear(text: str, size: CanvasSize, read_region: ReadRegion) -> Region:
-    """Region of a mask's name, or of ``left,top,width,height``."""
     sides = text.split(",")
     if len(sides) != 4:
         return read_region(text, size).outline.region

@@ -130,5 +130,4 @@ def _fineness(outline: Outline, width: float) -> float:
 
 
 def _seams(region: Region) -> int:
-    """Parts and holes."""
     return sum(1 + len(part.interiors) for part in polygon_parts(region))

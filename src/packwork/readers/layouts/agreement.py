@@ -124,7 +124,6 @@ def differences(svg: Sequence[Painted], pdf: Sequence[Painted], tolerance: float
 
 
 def _parts(shape: Painted, tolerance: float, cuts: dict[Clip, _Lines]) -> Iterator[_Part]:
-    """Fill and stroke of a shape."""
     lines = _Lines([piece.placed(shape.matrix) for piece in shape.pieces], tolerance)
     own = [_cut(clip, tolerance, cuts) for clip in _all_clips(shape)]
     kinds = [True] * shape.painting.has_fill + [False] * shape.painting.has_stroke
@@ -132,7 +131,6 @@ def _parts(shape: Painted, tolerance: float, cuts: dict[Clip, _Lines]) -> Iterat
 
 
 def _all_clips(shape: Painted) -> Iterator[Clip]:
-    """Clips of a shape, and those of all that is in them."""
     for clip in shape.clips:
         yield clip
         for one in clip.shapes:

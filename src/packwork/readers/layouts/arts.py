@@ -343,7 +343,6 @@ def _fill(drawn: ET.Element, source: ET.Element) -> str:
 
 
 def _area_like(outline: Outline, matrix: FloatArray) -> Region:
-    """The outline's region in the units of its markup."""
     return outline.mapped(affine.inverse(matrix)).region
 
 
@@ -360,7 +359,6 @@ def _whole(drawn: ET.Element, source: ET.Element) -> ET.Element:
 
 
 def _cleaned(element: ET.Element, matrix: FloatArray, *, is_traced: bool) -> VectorArt:
-    """An element that has been through the gate."""
     document = ET.Element(f"{_SPACE}svg")
     document.append(element)
     root = parse_untrusted(ET.tostring(document))

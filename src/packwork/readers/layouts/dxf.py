@@ -115,7 +115,6 @@ def lines_of(tags: Sequence[Tag]) -> list[DxfLine]:
 
 
 def _entities(tags: Sequence[Tag]) -> Iterator[tuple[str, list[Tag]]]:
-    """Kind and tags of each entity of the section that holds what is drawn."""
     start = next((k for k, tag in enumerate(tags) if tag == (2, "ENTITIES")), len(tags))
     kind, own = "", list[Tag]()
     for code, value in tags[start + 1 :]:

@@ -152,7 +152,6 @@ class _Reading:
         self.follow(drawn, drawn.get("/Resources", resources), inside, depth + 1)
 
     def _changed(self, state: _State, name: str, operands: Sequence[Any], found: Any) -> _State:
-        """The state after an operator that sets a part of it."""
         pen = state.pen
         if name == "cm":
             return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
@@ -187,7 +186,6 @@ def _draw_box(path: PathBuilder, x: float, y: float, width: float, height: float
 
 
 def _paintings(name: str, state: _State) -> list[Painting]:
-    """Fill and stroke, each by itself."""
     fills = [Painting(fill_rule=_FILLS[name])] if name in _FILLS else []
     is_stroked = name in _STROKES
     return [*fills, *([Painting(fill="none", stroke="black", pen=state.pen)] if is_stroked else [])]

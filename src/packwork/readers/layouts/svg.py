@@ -313,12 +313,10 @@ def _place(element: ET.Element) -> FloatArray:
 
 
 def _size(matrix: FloatArray) -> float:
-    """Largest factor by which a map makes lengths longer."""
     return float(np.linalg.norm(matrix[:, :2], 2))
 
 
 def _drawn(element: ET.Element) -> ET.Element:
-    """An item's element, its link and its tooltip taken off."""
     if tag(element) == "a" and "transform" in element.attrib:
         raise UnfitError(f"has a link that moves its item, {_NOT_OURS}")
     is_wrapping = tag(element) == "a" or (tag(element) == "g" and not element.attrib)

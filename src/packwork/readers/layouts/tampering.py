@@ -181,7 +181,6 @@ def _sentence(what: str, where: list[str]) -> str:
 
 
 def _of_document(root: ET.Element, data: bytes) -> Iterator[Met]:
-    """Changes that act on a whole file."""
     # Of files in UTF-16, too.
     plain = data.replace(b"\0", b"")
     if b"<?xml-stylesheet" in plain:
@@ -260,7 +259,6 @@ def _of_items(
 
 
 def _of_drawing(source: ET.Element, first: Mapping[str, ET.Element]) -> Iterator[str]:
-    """Parts of an item's drawing that are not followed."""
     name = tag(source)
     if name not in _SOURCES:
         yield f"the <{name}>"
@@ -334,7 +332,6 @@ def _hides(element: ET.Element) -> bool:
 
 
 def _declared(element: ET.Element) -> dict[str, str]:
-    """Properties that an element's ``style`` sets."""
     parts = (part.partition(":") for part in element.get("style", "").split(";"))
     return {key.strip().lower(): value.replace("!important", "").strip()
             for key, _, value in parts if key.strip()}  # fmt: skip

@@ -63,23 +63,12 @@ class Written(str):
         return made
 
     def __getnewargs__(self) -> tuple[str, float]:  # type: ignore[override]
-        """Both, for copies."""
         return str(self), self.number
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A written number without sign and unit.
-
-    Parameters
-    ----------
-    body
-        Digits, with what groups and parts them.
-    is_negative
-        By a sign before or after it, or brackets as in accounts.
-    unit
-        A sign of money, ``%``, or nothing.
-    """
+    """A written number: digits and what groups them, sign, and unit (``€``, ``%`` or none)."""
 
     body: str
     is_negative: bool
@@ -270,7 +259,6 @@ def _decimal(
 def _check_units(
     cells: Sequence[object], figures: dict[str, Figure], file: str, column: str
 ) -> None:
-    """Refuse numbers that are not of one unit."""
     of_unit: dict[str, str] = {}
     for cell in dict.fromkeys(cell for cell in cells if isinstance(cell, str) and cell in figures):
         found = figures[cell]

@@ -122,7 +122,6 @@ def _wide(data: bytes) -> str | None:
 
 
 def _windows_encoding(data: bytes, file: str) -> str:
-    """The likeliest encoding that makes words of all that is no ASCII."""
     shares = {name: _plainness(data[:SAMPLE], name, sets) for name, sets in ALPHABETS.items()}
     best = max(shares.values())
     if best >= PLAIN_SHARE:

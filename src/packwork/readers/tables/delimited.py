@@ -105,7 +105,6 @@ def delimiter_of(text: str, file: str, usual: str) -> str:
 
 
 def _sample(text: str) -> str:
-    """The first lines of a text, none cut."""
     head = text[:SAMPLE_LETTERS]
     lines = head.splitlines(keepends=True)
     if len(head) < len(text) and len(lines) > 1:

@@ -110,7 +110,6 @@ def pairs_of_rows(rows: Sequence[Mapping[str, Any]]) -> Pairs:
 
 
 def _rows(sheet: TextTable) -> list[tuple[str, Mapping[str, Any]]]:
-    """Place and cells of each line, by column."""
     lines = list(sheet.lines())
     if not lines:
         return []
@@ -173,7 +172,6 @@ def _name(cell: Any) -> str:
 
 
 def _columns(row: Mapping[str, Any]) -> tuple[str, str]:
-    """Columns of the names and of the numbers."""
     keys = list(row)
     by_name = {str(key).strip().lower(): key for key in keys}
     first = _first(NAME_COLUMNS, by_name) or (keys[0] if keys else "")

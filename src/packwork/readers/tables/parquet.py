@@ -238,7 +238,6 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
 
 
 def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]:
-    """Columns that are read: all of a small file, else those that are needed."""
     own = [name for name in dict.fromkeys(names) if not name.startswith(_INDEX)]
     if metadata.num_rows * len(own) <= ALL_COLUMNS_CELLS:
         return own
@@ -246,7 +245,6 @@ def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]
 
 
 def _check_size(file: str, pieces: Sequence[ColumnChunk]) -> None:
-    """Refuse what would not fit into memory, by the headers of its pages."""
     # Lists have more values than rows.
     check_size(file, 0, sum(max(one.values, one.rows, one.found) for one in pieces))
     _check_bytes(file, sum(max(one.size, one.stated) for one in pieces))

@@ -151,7 +151,6 @@ def _values(words: Sequence[Word]) -> dict[str, tuple[str, ...]]:
 
 
 def _named(text: str) -> tuple[str, str]:
-    """Name and text of a word, as its item has them."""
     return " ".join(lines_of(text)), text
 
 

@@ -234,7 +234,6 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
 
 
 def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
-    """Words of a text, weighed by how often they stand there."""
     found = list(
         sentences(text, include_numbers=options.include_numbers)
         if options.regexp is None
@@ -266,7 +265,6 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
 
 
 def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:
-    """Reason why no word of a text is left."""
     if not kept:
         named = enumerated([word for word, _ in counts.most_common()])
         many = number_of(

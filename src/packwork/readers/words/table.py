@@ -100,7 +100,6 @@ def _why(pair: Pair) -> str:
 
 
 def _left_out(why: str, which: Sequence[Pair], count: int) -> str:
-    """Sentence about rows that are not set."""
     named = [f"{pair.name[:40]} ({pair.where})" if pair.name else pair.where for pair in which]
     rows = number_of(len(which), "row")
     return f"left out {rows} of {count} {why}: {enumerated(named, MOST_NAMED)}"

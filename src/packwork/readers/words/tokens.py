@@ -181,7 +181,6 @@ def _language(piece: str) -> str:
 
 @cache
 def _segmenter(language: str) -> Any:
-    """BudouX' parser, whose model takes a moment to load."""
     import budoux
 
     return {
@@ -311,7 +310,6 @@ def matches(text: str, pattern: str) -> Iterator[list[str]]:
 
 
 def _runs(text: str) -> list[str]:
-    """Text between marks of punctuation."""
     plain = text.translate(_APOSTROPHES)
     table = {ord(character): _in_words(character) for character in set(plain)}
     return plain.translate(table).split("\n")

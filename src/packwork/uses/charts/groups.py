@@ -158,7 +158,6 @@ def _step_name(begin: float, step: float, numbers: Sequence[float]) -> str:
 
 
 def _check_count(count: int, table: Table, column: str) -> None:
-    """Refuse more groups than can be told apart, saying what would do."""
     if count <= MOST_GROUPS:
         return
     numbers = [as_number(row.get(column)) for row in table.rows]

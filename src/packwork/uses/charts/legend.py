@@ -93,7 +93,6 @@ def legend_notes(chart: Chart, layout: Layout) -> tuple[Note, ...]:
 
 
 def _groups(pen: Pen, chart: Chart, layout: Layout) -> None:
-    """Names of all groups, and their sums; under bars, or over containers."""
     frame, options, cells = chart.frame, chart.options, chart.cells
     sums, decimal = _sums(layout), chart.read.decimal
     written = {cell.name: spoken(sums.get(cell.name, 0.0), decimal) for cell in cells}
@@ -170,7 +169,6 @@ def _under_bars(pen: Pen, cells: Sequence[Cell], frame: LegendFrame, is_ordered:
 
 
 def _fitting(text: str, width: float) -> float:
-    """Height of an em at which a text is as wide as it may be."""
     return FULL * width / max(Pen.width(text, 1.0), 1e-9)
 
 
@@ -302,7 +300,6 @@ def _ramp(
 
 
 def _categories(pen: Pen, chart: Chart, y: float) -> None:
-    """Names beside marks in their colours, line by line."""
     frame, em = chart.frame, chart.frame.em
     marks, fills = chart.read.marks, dict(chart.colours.keys)
     first = next(iter(marks.values()))

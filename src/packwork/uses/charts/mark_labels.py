@@ -98,7 +98,6 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
 
 
 def _label(item: Item, ink: Outline, ems: FloatArray) -> list[Note]:
-    """A label where it is largest on an ink in place; nothing if it fits nowhere."""
     left, top, right, bottom = ink.bounds
     least = float(ems[-1])
     if right - left < least or bottom - top < least:

@@ -180,7 +180,6 @@ def read_chart(
 
 
 def _number_cells(table: Table, options: ChartOptions) -> Iterator[object]:
-    """Cells of columns that may be numbers."""
     columns = {getattr(options, key) for key in NUMBERS}
     return (row.get(column) for row in table.rows for column in columns if column is not None)
 

@@ -137,7 +137,6 @@ def with_room(job: Job, share: float) -> tuple[Job, float]:
 
 
 def _moved(one: ItemRules, container: Container, depth: float) -> ItemRules:
-    """Rules of an item, in lengths of the grown canvas."""
     wholes = {"x": container.width, "y": container.height, "size": container.side}
     pin = dict(one.pin)
     for key in wholes.keys() & pin.keys():

@@ -111,7 +111,6 @@ def spread_to(
 
 
 def _seen(whole: Region, window: Region) -> Region:
-    """Part of an item that shows in a window."""
     return whole if window.covers(whole) else intersection(whole, window)
 
 
