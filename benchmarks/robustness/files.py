@@ -43,9 +43,8 @@ from packwork.readers.regions import clean_union
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.render.compare import LEAST_AGREEMENT, iou, side_by_side
-from packwork.readers.svg.render.resvg import solid_twin
-from packwork.readers.svg.render.trace import needs_tracing
+from packwork.readers.svg.resvg import LEAST_AGREEMENT, iou, side_by_side, solid_twin
+from packwork.readers.svg.trace import needs_tracing
 from packwork.scene.item import Item
 
 SIDE_PX = 1_000

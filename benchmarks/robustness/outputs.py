@@ -28,7 +28,7 @@ import packwork as pw
 from benchmarks.kit.measuring import DOCS, markdown_table
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region, region, silhouette
-from packwork.readers.svg.render.compare import iou
+from packwork.readers.svg.resvg import iou
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

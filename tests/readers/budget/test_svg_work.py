@@ -15,7 +15,7 @@ from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.reading import TooRichError
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.render.trace import MAX_POINTS, MAX_RINGS, touched
+from packwork.readers.svg.trace import MAX_POINTS, MAX_RINGS, touched
 from packwork.readers.svg.walk import painted_shapes
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 1000">{}</svg>'

@@ -14,7 +14,7 @@ from packwork.errors import ReadError
 from packwork.readers.gate.door import document, parse_untrusted
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.render.resvg import render
+from packwork.readers.svg.resvg import render
 
 HANG_S = 5.0
 """Far more than any of these takes, far less than what they would take unbounded."""

@@ -8,8 +8,8 @@ import pytest
 
 from packwork.readers.budget.rendering import Work
 from packwork.readers.builtin import builtin_item, icon_names
+from packwork.readers.svg.art import paints_beyond, within_outline
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.overpaint import paints_beyond, within_outline
 from packwork.scene.item import VectorArt
 
 PAGE = (

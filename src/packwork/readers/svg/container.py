@@ -24,7 +24,7 @@ from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.regions import canvas_box, clean_union, tell_if_full
 from packwork.readers.svg.drawing import WHOLE_PAGE, PaintedDrawing, is_near_white, read_drawing
 from packwork.readers.svg.ink import Follower, Ink, TracedInk
-from packwork.readers.svg.render.resvg import TRACE_PX, page_picture
+from packwork.readers.svg.resvg import TRACE_PX, page_picture
 from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted, drawing_box, opacity
 from packwork.scene.container import Container, placed_container

@@ -21,10 +21,9 @@ from packwork.readers.pages import PageFate
 from packwork.readers.pictures.silhouette import LEAST_WHITE
 from packwork.readers.reading import TooRichError, UnfitError, notice, one_budget
 from packwork.readers.svg.ink import Ink, painted_ink
-from packwork.readers.svg.render.compare import LEAST_AGREEMENT, Comparison
-from packwork.readers.svg.render.lettering import set_in_outlines
-from packwork.readers.svg.render.resvg import View, solid_twin
-from packwork.readers.svg.render.trace import (
+from packwork.readers.svg.lettering import set_in_outlines
+from packwork.readers.svg.resvg import LEAST_AGREEMENT, Comparison, View, solid_twin
+from packwork.readers.svg.trace import (
     MAX_POINTS,
     MAX_RINGS,
     inked_part,

@@ -26,11 +26,10 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.pages import PageFate, Read, agreed
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
-from packwork.readers.svg.art import vector_art
+from packwork.readers.svg.art import FILTERED, vector_art, whole_reach, within_outline
 from packwork.readers.svg.drawing import LARGESSE, WHOLE_PAGE, PaintedDrawing, read_drawing
 from packwork.readers.svg.ink import TracedInk
-from packwork.readers.svg.overpaint import FILTERED, whole_reach, within_outline
-from packwork.readers.svg.render.compare import SIDES_PX, excess, side_by_side
+from packwork.readers.svg.resvg import SIDES_PX, excess, side_by_side
 from packwork.readers.svg_syntax.coordinates import parse_length
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import shape_pieces

@@ -20,7 +20,7 @@ from packwork.fonts import replaced_families
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.reading import left, notice, spend
-from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
+from packwork.readers.svg.resvg import FIND_PX, View, coverage, inked
 from packwork.readers.svg.walk import placed_texts
 from packwork.readers.svg_syntax.coordinates import Page, parse_length, parse_numbers
 from packwork.readers.svg_syntax.painted import PlacedText

@@ -7,12 +7,12 @@ import struct
 
 import pytest
 import shapely
+from packwork.readers.svg import lettering
 
 from made_fonts import renamed_font
 from packwork import fonts
 from packwork.readers.fonts.face import bundled_typeface
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.render import lettering
 from packwork.scene.item import VectorArt
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'

@@ -15,8 +15,7 @@ from packwork.readers.svg import drawing as drawing_module
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import PaintedInk, TracedInk
 from packwork.readers.svg.item import item_of_svg, read_svg
-from packwork.readers.svg.render.compare import Comparison, excess, side_by_side
-from packwork.readers.svg.render.resvg import solid_twin
+from packwork.readers.svg.resvg import Comparison, excess, side_by_side, solid_twin
 from packwork.readers.svg_syntax.coordinates import read_page
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'

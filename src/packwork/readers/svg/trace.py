@@ -20,7 +20,7 @@ from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.budget.rendering import LEAST_PX, Work
 from packwork.readers.options import HALF
 from packwork.readers.svg.ink import TracedInk
-from packwork.readers.svg.render.resvg import FIND_PX, TRACE_PX, View, coverage, inked, solid_twin
+from packwork.readers.svg.resvg import FIND_PX, TRACE_PX, View, coverage, inked, solid_twin
 from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.shapes import flattened_all

@@ -1,1 +1,0 @@
-"""Rendering of drawings by resvg, for comparison and for tracing."""
