@@ -87,8 +87,6 @@ def fonts_of(document: str) -> FontChoice | None:
     document
         One of ours or a cleaned one: families stand in attributes, no text in another.
 
-    Examples
-    --------
     >>> fonts_of("<svg><text font-family='Inter Display'>a</text></svg>").files[-1]
     '...InterDisplay-Black.otf'
     >>> fonts_of("<svg/>") is None
@@ -113,8 +111,6 @@ def fonts_for(wishes: Iterable[str], letters: str) -> FontChoice:
     wishes
         One list of families for each style of the document.
 
-    Examples
-    --------
     >>> fonts_for(["Inter Display"], "abc").files[-1]
     '...InterDisplay-Black.otf'
     """
@@ -135,8 +131,6 @@ def fonts_for(wishes: Iterable[str], letters: str) -> FontChoice:
 def with_stand_ins(document: str) -> str:
     """A document, families that are not there replaced by those that stand in for them.
 
-    Examples
-    --------
     >>> with_stand_ins("<text font-family='Inter Display, Arial'>a</text>")
     "<text font-family='Inter Display, Arial'>a</text>"
     """
@@ -152,8 +146,6 @@ def with_stand_ins(document: str) -> str:
 def replaced_families(wishes: Iterable[str]) -> dict[str, str]:
     """Families that are wished for and not there, each with the one that stands in for it.
 
-    Examples
-    --------
     >>> list(replaced_families(["'No Such Font'", "Inter Display"]))
     ['No Such Font']
     """
@@ -165,8 +157,6 @@ def replaced_families(wishes: Iterable[str]) -> dict[str, str]:
 def family_names(wish: str) -> list[str]:
     """Families of a ``font-family`` list, quotes taken off.
 
-    Examples
-    --------
     >>> family_names("'Gill Sans', Arial,sans-serif")
     ['Gill Sans', 'Arial', 'sans-serif']
     """
@@ -178,8 +168,6 @@ def installed_families() -> Mapping[str, tuple[str, ...]]:
 
     Looked up once. Files that are no fonts are passed over.
 
-    Examples
-    --------
     >>> "inter display" in installed_families()
     True
     """
@@ -198,8 +186,6 @@ def _families_in(folders: tuple[Path, ...]) -> Mapping[str, tuple[str, ...]]:
 def family_of(file: str) -> set[str]:
     """Families that a font file says it belongs to; none if it cannot be read.
 
-    Examples
-    --------
     >>> sorted(family_of(bundled_file()))
     ['Inter Display']
     """
@@ -253,8 +239,6 @@ def _is_generic(name: str) -> bool:
 def bundled_file() -> str:
     """Place of the bundled font.
 
-    Examples
-    --------
     >>> bundled_file()
     '...InterDisplay-Black.otf'
     """

@@ -7,11 +7,11 @@ import struct
 
 import pytest
 import shapely
-from packwork.readers.svg import lettering
 
 from made_fonts import renamed_font
 from packwork import fonts
 from packwork.readers.fonts.face import bundled_typeface
+from packwork.readers.svg import lettering
 from packwork.readers.svg.item import item_of_svg
 from packwork.scene.item import VectorArt
 

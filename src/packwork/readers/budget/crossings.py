@@ -22,15 +22,8 @@ _SAMPLED_RINGS = 60
 
 
 def check_nesting(rings: Sequence[LinearRing]) -> None:
-    """Refuse rings of which too many may lie in each other.
+    """Refuse rings of which too many may lie in each other: more than some seconds' work.
 
-    Raises
-    ------
-    TooRichError
-        If that is more than some seconds' work.
-
-    Examples
-    --------
     >>> square = LinearRing([(0, 0), (4, 0), (4, 4), (0, 4)])
     >>> check_nesting([square] * 2_000)
     Traceback (most recent call last):
@@ -55,9 +48,8 @@ MAX_UNION_CROSSINGS = 200_000
 """Places where shapes may cross each other, by estimate: as long. Chosen."""
 
 _SAMPLED, _COMPARED, _COMPARED_SHARE = 60, 5_000, 0.04
-"""Edges whose crossings are counted for the estimate, and those they are met with: so
-many at least, and that share where there are many. Fewer blur the estimate, more cost
-as much as the reading. Chosen."""
+"""Edges whose crossings are counted for the estimate, and those they are met with: so many
+at least, and that share of many. Fewer blur the estimate, more cost as much as reading. Chosen."""
 
 _ALL_NS = 4e9
 """For all the crossings that one allowance lets pass. Measured."""
@@ -67,15 +59,8 @@ _FREE = 2_000
 
 
 class Allowance:
-    """Crossings that may still be resolved.
+    """Crossings that may still be resolved, of all rings that are spent together.
 
-    Parameters
-    ----------
-    most
-        Of all rings that are spent together.
-
-    Examples
-    --------
     >>> Allowance(20_000).spend([np.random.default_rng(0).random((5000, 2))])
     Traceback (most recent call last):
     packwork.readers.reading.TooRichError: crosses itself about ... times; ...
@@ -86,13 +71,7 @@ class Allowance:
         self._spent = 0.0
 
     def spend(self, rings: Sequence[FloatArray]) -> None:
-        """Take off what closed rings ``(n, 2)`` need, by estimate.
-
-        Raises
-        ------
-        TooRichError
-            If that is more than is left.
-        """
+        """Take off what closed rings ``(n, 2)`` need, by estimate."""
         if sum(len(ring) for ring in rings) ** 2 / 2 <= _FREE:
             return
         met = estimated_crossings(rings)
@@ -105,8 +84,6 @@ class Allowance:
 def estimated_crossings(rings: Sequence[FloatArray]) -> float:
     """Number of crossings of closed rings ``(n, 2)`` with themselves and each other.
 
-    Examples
-    --------
     >>> bow_tie = np.array([[0, 0], [2, 2], [2, 0], [0, 2.0]])
     >>> estimated_crossings([bow_tie])
     1.0

@@ -43,8 +43,6 @@ def bound_dashes(root: ET.Element) -> bool:
 
     Those are the lines of text, and dashes in units of a font or a page.
 
-    Examples
-    --------
     >>> line = ET.Element("line", {"stroke-dasharray": "1e-9em"})
     >>> bound_dashes(line), line.attrib
     (False, {'stroke-dasharray': 'none'})
@@ -62,14 +60,7 @@ def bound_dashes(root: ET.Element) -> bool:
 
 
 def draw_solid(root: ET.Element) -> None:
-    """Take all dashes away, in place.
-
-    Examples
-    --------
-    >>> line = ET.Element("line", {"stroke-dasharray": "1"})
-    >>> draw_solid(line); line.attrib
-    {}
-    """
+    """Take all dashes away, in place."""
     for element in root.iter():
         element.attrib.pop(DASHES, None)
 
@@ -77,8 +68,6 @@ def draw_solid(root: ET.Element) -> None:
 def dashes_per_unit(element: ET.Element) -> float:
     """Dashes that the element's own style puts on a unit of line, gaps counted too.
 
-    Examples
-    --------
     >>> dashes_per_unit(ET.Element("g", {"stroke-dasharray": "3 1"}))
     0.5
     """
@@ -91,8 +80,6 @@ def dashes_per_unit(element: ET.Element) -> float:
 def line_length(element: ET.Element) -> float:
     """Length of a clean shape's line in its own units, at most; 0 for what is no shape.
 
-    Examples
-    --------
     >>> line_length(ET.Element("path", {"d": "M0 0h4v3z"}))
     12.0
     """
@@ -112,8 +99,6 @@ def line_length(element: ET.Element) -> float:
 def curve_length(element: ET.Element) -> float:
     """Length of a clean shape's line in its own units, its curves followed.
 
-    Examples
-    --------
     >>> circle = ET.Element("circle", {"r": "1"})
     >>> round(curve_length(circle), 3)
     6.283
@@ -145,16 +130,14 @@ MAX_DEPTH = 100
 people stay below 40; recursion over the tree stays far from Python's own limit. Chosen."""
 
 MAX_EXPANDED = 30_000
-"""Elements of a drawing after expansion. Icons have some tens, rich illustrations some
-thousands; each costs a tenth of a millisecond. Chosen."""
+"""Elements of a drawing after expansion, a tenth of a millisecond each. Rich illustrations
+have some thousands. Chosen."""
 
 MAX_LAYERS = 16
-"""Clips, masks and blended groups inside one another: each is a picture of its
-own while the drawing is rendered. Chosen."""
+"""Clips, masks and blended groups inside one another, each rendered as a picture. Chosen."""
 
 MAX_DASHES = 20_000
-"""Dashes of a drawing, or of one line: about ten milliseconds of each of its copies in a picture.
-Chosen."""
+"""Dashes of a drawing, or of a line: ten milliseconds of each copy in a picture. Chosen."""
 
 _PIXELS_PER_ELEMENT = 10_000
 _COUNTABLE = 10**15
@@ -167,17 +150,7 @@ _STEP_COST = 10
 
 
 def check_size(raw: ET.Element) -> None:
-    """Refuse a parsed document of too many shapes before each of them is looked at.
-
-    Raises
-    ------
-    UnfitError
-        If even without following references there are more than ``MAX_EXPANDED``.
-
-    Examples
-    --------
-    >>> check_size(ET.fromstring("<svg><g/></svg>"))
-    """
+    """Refuse a parsed document of too many shapes before each of them is looked at."""
     count = sum(str(element.tag).rpartition("}")[2] in SHAPES for element in raw.iter())
     if count > MAX_EXPANDED:
         raise UnfitError(
@@ -190,13 +163,6 @@ def bound_expansion(root: ET.Element) -> None:
 
     One of more than ``MAX_DASHES`` dashes is kept, its lines drawn solid, in place.
 
-    Raises
-    ------
-    UnfitError
-        Within milliseconds, even where the expanded count has twenty digits.
-
-    Examples
-    --------
     >>> loop = ET.fromstring('<svg><g id="a"><use xlink:href="#a" xmlns:xlink="x"/></g></svg>')
     >>> loop[0][0].attrib.clear(); loop[0][0].set("xlink:href", "#a")
     >>> bound_expansion(loop)
@@ -223,13 +189,10 @@ def bound_expansion(root: ET.Element) -> None:
 
 
 def count_expanded(root: ET.Element) -> tuple[int, float]:
-    """Elements of a clean drawing after expansion, and the layers that they need.
+    """Elements of a clean drawing after expansion, costly ones several times, and layers.
 
-    Costly elements are counted several times. Layers are clips, masks and blended groups,
-    each of which is a picture of its own while the drawing is rendered.
+    Layers are clips, masks and blended groups, each of which is rendered as a picture of its own.
 
-    Examples
-    --------
     >>> count_expanded(ET.fromstring('<svg><g opacity=".5"/><g opacity=".5"/></svg>'))
     (23, 2.0)
     """

@@ -36,17 +36,7 @@ be allocated. Chosen."""
 
 
 def check_tiles(root: ET.Element, shapes: Iterable[Painted], extent: float) -> None:
-    """Refuse a clean drawing that fills a shape with tiles far larger than ``extent``.
-
-    Raises
-    ------
-    UnfitError
-        Before a renderer tries to allocate them.
-
-    Examples
-    --------
-    >>> check_tiles(ET.Element("svg"), [], 100.0)
-    """
+    """Refuse a clean drawing that fills a shape with tiles far larger than ``extent``."""
     patterns = {k: e for k, e in elements_by_id(root).items() if e.tag == "pattern"}
     most = LARGEST_TILE * extent
     for shape in shapes if patterns else ():
@@ -106,8 +96,6 @@ _SIZES = ("width", "height")
 def drop_wild_filters(root: ET.Element) -> None:
     """Take out filters that are too large or too many, in place, and say so.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><filter id="f" width="9"/><g filter="url(#f)"/></svg>')
     >>> drop_wild_filters(root)
     >>> root[1].attrib
@@ -128,14 +116,7 @@ def drop_wild_filters(root: ET.Element) -> None:
 
 
 def drop_filters(root: ET.Element) -> None:
-    """Take all filters off, in place.
-
-    Examples
-    --------
-    >>> root = ET.fromstring('<svg><filter id="f"/><g filter="url(#f)"/></svg>')
-    >>> drop_filters(root); ET.tostring(root).decode()
-    '<svg><g /></svg>'
-    """
+    """Take all filters off, in place."""
     for element in root.iter():
         element.attrib.pop(FILTER, None)
         for child in element.findall(FILTER):
@@ -145,8 +126,6 @@ def drop_filters(root: ET.Element) -> None:
 def count_steps(root: ET.Element) -> int:
     """Steps of all filters, each counted wherever it is used.
 
-    Examples
-    --------
     >>> text = '<svg><filter id="f"><feOffset/></filter><g filter="url(#f)"/></svg>'
     >>> count_steps(ET.fromstring(text))
     1
@@ -207,12 +186,12 @@ _HIDDEN_SHARE = 0.05
 
 @dataclass(frozen=True)
 class Work:
-    """Counts of all that is to be rendered.
+    """Counts of all that is to be rendered, after expansion.
 
     Parameters
     ----------
-    elements, layers
-        After expansion: elements, and groups that are pictures of their own.
+    layers
+        Groups that are pictures of their own.
     depth
         How often shapes cover the page, by their boxes.
     hairs
@@ -234,17 +213,10 @@ class Work:
     page: float = 1.0
 
     def nanoseconds(self, side: int, part: float) -> float:
-        """Time for a picture of a part of the page, but for what its size does not change.
+        """Time for a picture ``side`` pixels long of a ``part`` of the page, in CSS pixels.
 
-        Parameters
-        ----------
-        side
-            Longer side of the picture, in pixels.
-        part
-            Longer side of what it shows, in CSS pixels.
+        What its size does not change is not counted.
 
-        Examples
-        --------
         >>> Work(elements=10, layers=0, depth=1.0).nanoseconds(100, 1.0)
         60000.0
         >>> Work(elements=10, layers=1, page=1e200).nanoseconds(100, 1e-9)
@@ -257,20 +229,8 @@ class Work:
         return pixels + side * (_HAIR_NS * self.hairs * zoom + _CROWD_NS * self.crowd)
 
     def side(self, longest_px: int, part: float) -> int:
-        """Longer side of a picture that takes a reasonable time, ``longest_px`` at most.
+        """Longer side of a picture of a part of the page that takes a reasonable time.
 
-        Parameters
-        ----------
-        part
-            Longer side of what it shows, in CSS pixels.
-
-        Raises
-        ------
-        TooRichError
-            If even the smallest one takes too long.
-
-        Examples
-        --------
         >>> Work(elements=10, layers=0).side(1000, 1.0)
         1000
         >>> Work(elements=10, layers=500).side(1000, 1.0) < 100
@@ -286,24 +246,12 @@ class Work:
         return int(side)
 
     def spend(self, side: int, part: float) -> None:
-        """Take a picture off the budget of the file, before it is made.
-
-        Raises
-        ------
-        TooRichError
-            If nothing is left for it.
-        """
+        """Take a picture off the budget of the file, before it is made."""
         spend(self.nanoseconds(side, part) + _ELEMENT_NS * self.elements, _TOO_MANY, "pictures")
 
 
 def work_of(root: ET.Element, shapes: Sequence[Painted], page: Page | None) -> Work:
-    """Counts of a clean drawing whose shapes are known.
-
-    Examples
-    --------
-    >>> work_of(ET.fromstring('<svg><g opacity=".5"/></svg>'), [], None).layers
-    1.0
-    """
+    """Counts of a clean drawing whose shapes are known."""
     width, height = _size(shapes, page)
     side = max(width, height)
     elements, layers = count_expanded(root)

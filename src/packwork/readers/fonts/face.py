@@ -52,12 +52,7 @@ _EMS = range(16, 16_385)
 
 
 def checked_face(data: bytes, index: int = 0) -> Face:
-    """Face of a TTF's or OTF's bytes, or of a collection's.
-
-    >>> checked_face(b"nonsense")
-    Traceback (most recent call last):
-    packwork.readers.reading.UnfitError: is not a font; give a TTF, an OTF or a TTC
-    """
+    """Face of a TTF's or OTF's bytes, or of a collection's."""
     import uharfbuzz as hb
 
     if data[:4] in _COMPRESSED:
@@ -99,12 +94,7 @@ def _check_numbers(face: Face) -> None:
 def check_drawing(count: int, points: FloatArray, em: float) -> None:
     """Refuse a glyph of too many lines and curves, or one that reaches too far.
 
-    Parameters
-    ----------
-    points
-        Ends and handles of the lines and curves that were kept.
-    em
-        In the units of the points.
+    ``points`` are ends and handles of those that were kept; ``em`` is in their units.
 
     >>> check_drawing(2, np.array([[0.0, 9.0], [1e9, 0.0]]), 1000.0)
     Traceback (most recent call last):
@@ -120,12 +110,7 @@ def check_drawing(count: int, points: FloatArray, em: float) -> None:
 
 
 def check_glyph(rings: Sequence[FloatArray]) -> None:
-    """Refuse a glyph whose flattened contours would take minutes, and all memory, to resolve.
-
-    >>> check_glyph([np.random.default_rng(0).random((1000, 2))])
-    Traceback (most recent call last):
-    packwork.readers.reading.UnfitError: is a font with a glyph whose lines cross ...
-    """
+    """Refuse a glyph whose flattened contours would take minutes, and all memory, to resolve."""
     points = sum(map(len, rings))
     if points > MAX_POINTS:
         raise UnfitError(f"is a font with a glyph of {points:,} points; give a plainer one")
@@ -173,15 +158,7 @@ class Glyph:
 
 @dataclass(frozen=True)
 class Shaped:
-    """Glyphs of a run, and where the next run would begin.
-
-    Parameters
-    ----------
-    glyphs
-        From left to right.
-    advance
-        In the font's units.
-    """
+    """Glyphs of a run from left to right, and where the next would begin, in the font's units."""
 
     glyphs: tuple[Glyph, ...]
     advance: float
@@ -189,13 +166,7 @@ class Shaped:
 
 @dataclass(frozen=True)
 class Bitmap:
-    """A glyph that is a picture.
-
-    Parameters
-    ----------
-    left, top, right, bottom
-        Its box about the glyph's origin, in the font's units, y down.
-    """
+    """A glyph that is a picture, its box about the glyph's origin in the font's units, y down."""
 
     png: bytes
     left: float
@@ -205,12 +176,7 @@ class Bitmap:
 
 
 class Typeface:
-    """One face of a font, at one weight.
-
-    Parameters
-    ----------
-    weight
-        For variable fonts: the weight axis.
+    """One face of a font, at one weight where it is variable.
 
     >>> Typeface(b"nonsense", "x.ttf")
     Traceback (most recent call last):

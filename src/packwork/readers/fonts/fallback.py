@@ -27,14 +27,8 @@ _PREFERRED = ("noto sans", "noto", "dejavu sans")
 class Fonts:
     """Typefaces in the order in which they are asked for a word.
 
-    Parameters
-    ----------
-    weight
-        Of installed families and variable fonts.
-    is_open
-        Whether installed fonts are asked where these lack a letter.
-    language
-        Of the words, where letters have forms of their own in some; empty if not known.
+    ``weight`` is of installed families and variable fonts. ``is_open`` lets installed fonts be
+    asked where these lack a letter. ``language`` matters where letters have forms of their own.
     """
 
     faces: list[Typeface]
@@ -46,13 +40,6 @@ class Fonts:
     def lettering(self, lines: Sequence[str]) -> Lettering:
         """Lines as a word of its own.
 
-        Raises
-        ------
-        UnfitError
-            If no font has one of the characters, or they draw nothing.
-
-        Examples
-        --------
         >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
         True
         """
@@ -63,13 +50,6 @@ class Fonts:
 
         Where none has all, each part is drawn by the first font that has it.
 
-        Raises
-        ------
-        UnfitError
-            If no font has one of the characters, naming those.
-
-        Examples
-        --------
         >>> [found] = Fonts([bundled_typeface()]).settings(["Кот"])
         >>> found[0].piece.text, found[0].face.name
         ('Кот', 'Inter Display')
@@ -131,8 +111,6 @@ class Fonts:
 def named(characters: Sequence[str]) -> str:
     """Characters as a person can find them again.
 
-    Examples
-    --------
     >>> named("aé")
     "'a' (U+0061), 'é' (U+00E9)"
     """
@@ -143,13 +121,6 @@ def named(characters: Sequence[str]) -> str:
 def open_fonts(names: Sequence[str], weight: int = 700, language: str = "") -> Fonts:
     """Fonts by file or by installed family; the bundled one, then any, if none is named.
 
-    Raises
-    ------
-    ReadError
-        If a file is no font, or no family of the name is installed: similar ones are named.
-
-    Examples
-    --------
     >>> open_fonts([]).faces[0].name, open_fonts(["Inter Display"]).is_open
     ('Inter Display', False)
     """
@@ -161,8 +132,6 @@ def open_fonts(names: Sequence[str], weight: int = 700, language: str = "") -> F
 def is_font_file(name: str) -> bool:
     """Whether a name is meant as that of a file, be it there or not.
 
-    Examples
-    --------
     >>> is_font_file("no such.ttf"), is_font_file("Inter Display")
     (True, False)
     """
@@ -172,13 +141,6 @@ def is_font_file(name: str) -> bool:
 def typeface_of_file(name: str, weight: int | None = None) -> Typeface:
     """First face of a font file, a variable one at its own weight if none is given.
 
-    Raises
-    ------
-    ReadError
-        If it cannot be read.
-
-    Examples
-    --------
     >>> typeface_of_file("no such.ttf")
     Traceback (most recent call last):
     packwork.errors.ReadError: no such.ttf: there is no such file

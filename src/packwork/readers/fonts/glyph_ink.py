@@ -25,8 +25,6 @@ from packwork.readers.fonts.face import Segment, Typeface, check_glyph
 def points_of(segment: Segment) -> FloatArray:
     """``(k, 2)`` points of a segment.
 
-    Examples
-    --------
     >>> points_of(("L", (1.0, 2.0))).tolist()
     [[1.0, 2.0]]
     """
@@ -36,8 +34,6 @@ def points_of(segment: Segment) -> FloatArray:
 def rings_of(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
     """Contours as rings whose chords lie within ``tolerance`` of the curves.
 
-    Examples
-    --------
     >>> rings_of([("M", (0.0, 0.0)), ("L", (2.0, 0.0)), ("L", (2.0, 1.0)), ("Z", ())], 0.1)
     [array([[0., 0.],
            [2., 0.],
@@ -76,12 +72,8 @@ MOST_KNOWN = 4096
 class ClearInk:
     """Regions of glyphs that stand clear of each other.
 
-    Parameters
-    ----------
-    places, sizes
-        ``(n, 2)`` of their origins, and ``(n, 1)`` factors on their own units.
-    clearance
-        Smallest distance of two glyphs, or clearance of one, as a share of the extent; at least.
+    ``places`` ``(n, 2)`` are their origins, ``sizes`` ``(n, 1)`` factors on their own units;
+    ``clearance`` is the smallest distance of two, or clearance of one, as a share of the extent.
     """
 
     glyphs: Sequence[GlyphInk]
@@ -113,12 +105,7 @@ class ClearInk:
 class GlyphPath:
     """A glyph's curves about its origin, in its font's units.
 
-    Parameters
-    ----------
-    template
-        SVG path data with a place for each number.
-    points
-        ``(n, 2)`` curves' ends and handles: the numbers.
+    ``template`` is SVG path data with a place for each number of ``points`` ``(n, 2)``.
     """
 
     template: str
@@ -134,8 +121,6 @@ class GlyphPath:
     def moved(self, x: float, y: float, size: float) -> str:
         """SVG path data with the origin at a place, as exact as the numbers are.
 
-        Examples
-        --------
         >>> GlyphPath("M{:.10g} {:.10g}Z", np.array([[1.0, -2.5]])).moved(1.0, 1.0, 2.0)
         'M3-4Z'
         """
@@ -156,13 +141,6 @@ def glyph_path(face: Typeface, number: int) -> GlyphPath:
 def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     """Region of a glyph, its curves followed to ``tolerance``.
 
-    Raises
-    ------
-    UnfitError
-        If the glyph is damaged.
-
-    Examples
-    --------
     >>> from packwork.readers.fonts.face import bundled_typeface
     >>> face = bundled_typeface()
     >>> [glyph] = face.shaped("o").glyphs
@@ -185,15 +163,7 @@ def _drawn(face: Typeface, number: int, tolerance: float) -> GlyphInk:
 
 
 def clear_ink(glyphs: Sequence[GlyphInk], places: FloatArray, sizes: FloatArray) -> ClearInk | None:
-    """Glyphs at their places as one; None where some are not simple, or meet.
-
-    Parameters
-    ----------
-    places
-        ``(n, 2)`` of their origins.
-    sizes
-        ``(n,)`` factors on their own units.
-    """
+    """Glyphs with origins ``(n, 2)`` and factors ``(n,)`` as one; None if they meet."""
     drawn = [k for k, glyph in enumerate(glyphs) if glyph.ink is not None]
     if not drawn:
         return None

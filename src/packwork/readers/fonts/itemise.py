@@ -24,15 +24,7 @@ _FIRST_FLAG, _LAST_FLAG = "\U0001f1e6", "\U0001f1ff"
 
 @dataclass(frozen=True)
 class Piece:
-    """Part of a line that is shaped at once.
-
-    Parameters
-    ----------
-    text
-        In the order in which it is read.
-    is_leftward
-        Whether it is read from right to left.
-    """
+    """Part of a line that is shaped at once, in the order in which it is read."""
 
     text: str
     is_leftward: bool = False
@@ -41,8 +33,6 @@ class Piece:
 def itemised(line: str) -> list[Piece]:
     """Pieces of a line in the order in which they are read.
 
-    Examples
-    --------
     >>> [piece.text for piece in itemised("Tōkyō東京")]
     ['Tōkyō', '東京']
     >>> [(piece.text, piece.is_leftward) for piece in itemised("كوفيد19")]
@@ -58,8 +48,6 @@ def itemised(line: str) -> list[Piece]:
 def visual_order(pieces: Sequence[Piece]) -> list[int]:
     """Numbers of the pieces from left to right: those read leftward come reversed.
 
-    Examples
-    --------
     >>> visual_order(itemised("كوفيد19")), visual_order(itemised("Tōkyō東京"))
     ([1, 0], [0, 1])
     """
@@ -77,8 +65,6 @@ def visual_order(pieces: Sequence[Piece]) -> list[int]:
 def clusters(text: str) -> list[str]:
     r"""Characters with all that belongs to them: marks, variants, joined emoji, flags.
 
-    Examples
-    --------
     >>> [len(cluster) for cluster in clusters("e\u0301a👍🏽🇩🇪")]
     [2, 1, 2, 2]
     """
@@ -95,8 +81,6 @@ def clusters(text: str) -> list[str]:
 def script_of(text: str) -> str:
     """Script of the first character that is of one, by its four letters; empty if none is.
 
-    Examples
-    --------
     >>> [script_of(text) for text in ("a", "(я)", "漢", "हि", "2!")]
     ['Latn', 'Cyrl', 'Hani', 'Deva', '']
     """

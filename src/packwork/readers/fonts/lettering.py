@@ -38,13 +38,7 @@ MOST_PX = 1_024
 
 @dataclass(frozen=True, eq=False)
 class GlyphPicture:
-    """A glyph's picture in place.
-
-    Parameters
-    ----------
-    matrix
-        2 x 3 map from pixels to the word's units.
-    """
+    """A glyph's picture in place; ``matrix`` maps (2 x 3) pixels to the word's units."""
 
     png: bytes
     width: int
@@ -56,13 +50,6 @@ class GlyphPicture:
 def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> GlyphPicture:
     """Picture of a glyph whose origin stands there, its font's units that large.
 
-    Raises
-    ------
-    UnfitError
-        If the font's picture is broken or shows nothing.
-
-    Examples
-    --------
     >>> made = BytesIO()
     >>> Image.new("RGBA", (4, 2), "teal").save(made, format="png")
     >>> picture = picture_of(Bitmap(made.getvalue(), 0, -100, 200, 0), (10.0, 0.0), 1.0)
@@ -161,13 +148,6 @@ def lettering_of(
 
     Curves are followed to ``FLATTENING`` of the word's extent.
 
-    Raises
-    ------
-    UnfitError
-        If it draws nothing, or one of its glyphs is damaged.
-
-    Examples
-    --------
     >>> from packwork.readers.fonts.face import bundled_typeface
     >>> face = bundled_typeface()
     >>> word = lettering_of([[TypeSetting(Piece("o"), face), TypeSetting(Piece("x"), face)]])

@@ -45,8 +45,6 @@ def fill_box(element: ET.Element, by_id: dict[str, ET.Element], viewport: Viewpo
 
     Text counts for nothing.
 
-    Examples
-    --------
     >>> group = ET.fromstring('<g><rect width="4" height="2" transform="scale(2)"/></g>')
     >>> fill_box(group, {}, (9.0, 9.0))
     (0.0, 0.0, 8.0, 4.0)
@@ -61,8 +59,6 @@ def fill_box(element: ET.Element, by_id: dict[str, ET.Element], viewport: Viewpo
 def place_in(box: Box, words: Sequence[str]) -> tuple[float, float]:
     """Point of a box that CSS names by up to two words, across and down, or the other way round.
 
-    Examples
-    --------
     >>> place_in((10.0, 0.0, 4.0, 8.0), ["top"]), place_in((10.0, 0.0, 4.0, 8.0), ["25%", "1"])
     ((12.0, 0.0), (11.0, 1.0))
     """
@@ -128,8 +124,6 @@ _ROUND_LINES = frozenset({"", "border-box", "stroke-box", "margin-box"})
 def resolve_clip_shapes(root: ET.Element, page: Page | None) -> None:
     """Give every shape that CSS cuts with an element of its own, in place.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><rect width="9" height="9" clip-path="circle(4px)"/></svg>')
     >>> resolve_clip_shapes(root, None)
     >>> ET.tostring(root[1][0]).decode(), root[0].get("clip-path")
@@ -159,8 +153,6 @@ def resolve_clip_shapes(root: ET.Element, page: Page | None) -> None:
 def prune_clip_paths(root: ET.Element) -> None:
     """Take out of clip paths what browsers pass over there, in place: groups, and uses of these.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><clipPath id="c"><g/><path/></clipPath></svg>')
     >>> prune_clip_paths(root)
     >>> [child.tag for child in root[0]]
@@ -269,8 +261,6 @@ _SIZES = ("width", "height")
 def resolve_symbols(root: ET.Element) -> None:
     """Give uses of symbols what these say of place and size, in place; drop those without area.
 
-    Examples
-    --------
     >>> text = '<symbol id="s" width="3" x="1" transform="scale(2)"><path/></symbol>'
     >>> root = ET.fromstring(f'<svg xmlns:xlink="l">{text}</svg>')
     >>> root.append(ET.Element("use", {"xlink:href": "#s", "x": "5"}))
@@ -328,8 +318,6 @@ _OWN_BOXES = frozenset({"fill-box", "stroke-box", "content-box", "border-box"})
 def resolve_transforms(root: ET.Element, page: Page | None) -> None:
     """Write every transform of a clean drawing as one attribute, in place.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><g transform-origin="2 0" transform="scale(2)"/></svg>')
     >>> resolve_transforms(root, None); root[0].attrib
     {'transform': 'matrix(2 0 0 2 -2 0)'}

@@ -51,19 +51,8 @@ MAX_REPLACED = 2_000_000
 def parse_xml(data: bytes) -> ET.Element:
     """Root of a document, without default attributes and all but the plainest entities.
 
-    A ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. Its own entities
-    pass if each is a short plain text, so that none can multiply, and a few lists of attributes,
-    whose defaults are not taken.
-
-    Raises
-    ------
-    UnfitError
-        If it is not well-formed, too deep, too large or declares other entities.
-
-    Examples
-    --------
-    >>> parse_xml(b"<svg><g/></svg>").tag
-    'svg'
+    A ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. Its own entities pass if each
+    is a short plain text, so that none can multiply; the defaults of attributes are not taken.
     """
     parser = XMLParser(target=_BoundedBuilder(), forbid_entities=False)
     references = data.count(b"&")
@@ -160,17 +149,9 @@ def parse_untrusted(data: bytes) -> ET.Element:
     styles are attributes, its references are local and lead somewhere, and following them all
     leaves it at a sane size.
 
-    Raises
-    ------
-    UnfitError
-        If the bytes are no SVG or pass a limit.
-
-    Examples
-    --------
-    >>> text = b'<svg><style>.a{fill:red}</style><path class="a" d="M0 0h9v9z"/></svg>'
-    >>> root = parse_untrusted(text)
+    >>> root = parse_untrusted(b'<svg><style>.a{fill:red}</style><g class="a"><path/></g></svg>')
     >>> root[0].attrib
-    {'d': 'M0 0h9v9z', 'fill': 'red'}
+    {'fill': 'red'}
     """
     data = unpacked(data)
     with one_budget():
@@ -194,18 +175,7 @@ def parse_untrusted(data: bytes) -> ET.Element:
 
 
 def unpacked(data: bytes) -> bytes:
-    """The same bytes, unpacked if they are compressed.
-
-    Raises
-    ------
-    UnfitError
-        If there are none, or too many.
-
-    Examples
-    --------
-    >>> unpacked(b"<svg/>")
-    b'<svg/>'
-    """
+    """The same bytes, unpacked if they are compressed."""
     if not data.strip():
         raise UnfitError("is empty; give a drawing with at least one shape")
     if data.startswith(_GZIP):
@@ -232,8 +202,6 @@ def _unpacked(data: bytes) -> bytes:
 def serialised(element: ET.Element) -> str:
     r"""Markup of a clean element, no namespaces declared: a fragment of a document.
 
-    Examples
-    --------
     >>> serialised(ET.Element("g", {"id": 'a"b'}))
     '<g id=\'a"b\'/>'
     """
@@ -249,35 +217,17 @@ def serialised(element: ET.Element) -> str:
 
 
 def document(root: ET.Element) -> str:
-    """Complete SVG document of a clean ``<svg>`` element.
-
-    Examples
-    --------
-    >>> document(ET.Element("svg", {"width": "9"}))
-    '<svg xmlns="http://www.w3.org/2000/svg" width="9"/>'
-    """
+    """Complete SVG document of a clean ``<svg>`` element."""
     spaces = f"{_NAMESPACES} {_LINKS}" if uses_links(root) else _NAMESPACES
     return serialised(root).replace("<svg", f"<svg {spaces}", 1)
 
 
 def uses_links(element: ET.Element) -> bool:
-    """Whether anything inside needs the ``xlink`` prefix.
-
-    Examples
-    --------
-    >>> uses_links(ET.Element("use", {"xlink:href": "#a"}))
-    True
-    """
+    """Whether anything inside needs the ``xlink`` prefix."""
     return any(HREF in e.attrib for e in element.iter())
 
 
 def link_declaration() -> tuple[str, str]:
-    """Attribute, as name and value, that declares the ``xlink`` prefix.
-
-    Examples
-    --------
-    >>> link_declaration()[0]
-    'xmlns:xlink'
-    """
+    """Attribute, as name and value, that declares the ``xlink`` prefix."""
     name, _, value = _LINKS.partition("=")
     return name, value.strip('"')

@@ -29,8 +29,6 @@ PATH_LENGTH, OFFSET = "pathLength", "stroke-dashoffset"
 def resolve_dash_lengths(root: ET.Element) -> None:
     """Scale the dashes of shapes that state a ``pathLength``, in place.
 
-    Examples
-    --------
     >>> text = '<svg><path d="M0 0h8" pathLength="4" stroke-dasharray="1 .5"/></svg>'
     >>> root = ET.fromstring(text); resolve_dash_lengths(root)
     >>> root[0].get("stroke-dasharray"), root[0].get("pathLength")
@@ -94,13 +92,7 @@ class Context:
     window: tuple[float, float]
 
     def factor(self, unit: str, whole: float) -> float:
-        """User units to one of ``unit``.
-
-        Raises
-        ------
-        KeyError
-            If there is no such unit.
-        """
+        """User units to one of ``unit``."""
         if unit == "%":
             return whole / 100
         if unit in {"em", "rem", "rlh"}:
@@ -119,8 +111,6 @@ class Context:
 def resolve_lengths(root: ET.Element, page: Page | None) -> None:
     """Turn lengths that need a font or a window into numbers, in place.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg font-size="10"><g font-size="2em"><rect width="3em"/></g></svg>')
     >>> resolve_lengths(root, None)
     >>> root[0].attrib, root[0][0].attrib
@@ -134,8 +124,6 @@ def resolve_lengths(root: ET.Element, page: Page | None) -> None:
 def resolve_page_size(root: ET.Element) -> None:
     """The same for the size of the page itself, in place; where it lies in a window is forgotten.
 
-    Examples
-    --------
     >>> root = ET.Element("svg", {"width": "2em", "height": "calc(1in + 4px)"})
     >>> resolve_page_size(root); root.attrib
     {'width': '32', 'height': '100'}
@@ -156,8 +144,6 @@ def resolve_page_size(root: ET.Element) -> None:
 def resolved(name: str, text: str, context: Context) -> str:
     """Value of an attribute with its relative lengths as numbers.
 
-    Examples
-    --------
     >>> resolved("x", "calc(50% - 1em) 2rem", Context(10.0, 8.0, (100.0, 40.0), (1.0, 1.0)))
     '40 16'
     """

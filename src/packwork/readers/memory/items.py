@@ -29,13 +29,7 @@ _FORMS = "give (rows, columns), or (rows, columns, 3 or 4) of colours"
 
 @dataclass(frozen=True, eq=False)
 class CoverageArray:
-    """Share of each pixel that is inside.
-
-    Parameters
-    ----------
-    shares
-        ``[row, col]``, 0 to 1.
-    """
+    """Share 0..1 of each pixel ``[row, col]`` that is inside."""
 
     name: str
     shares: FloatArray
@@ -47,13 +41,6 @@ def coverage_of_array(array: Any, name: str) -> CoverageArray | bytes:
     True, and 1.0, is inside. Whole numbers from 0 to 255 are grey or colours, as in a picture
     file, where dark is inside; if all of them are 0 or 1, they are bools.
 
-    Raises
-    ------
-    UnfitError
-        If its shape or its numbers are those of no picture.
-
-    Examples
-    --------
     >>> float(coverage_of_array(np.ones((9, 9), bool), "all").shares.mean())
     1.0
     >>> coverage_of_array(np.full((9, 9, 3), 99, np.uint8), "grey")[:4]
@@ -80,13 +67,6 @@ def coverage_of_array(array: Any, name: str) -> CoverageArray | bytes:
 def picture_of_array(array: Any) -> Image.Image:
     """Picture of an array of light or colours: shares from 0 to 1, or whole numbers to 255.
 
-    Raises
-    ------
-    UnfitError
-        If its shape or its numbers are those of no picture.
-
-    Examples
-    --------
     >>> picture_of_array(np.ones((2, 3))).size
     (3, 2)
     """
@@ -107,13 +87,6 @@ def picture_of_array(array: Any) -> Image.Image:
 def png_of_picture(picture: Image.Image) -> bytes:
     r"""PNG file of a picture, turned upright as files are.
 
-    Raises
-    ------
-    UnfitError
-        If it has too many pixels, or they cannot be had.
-
-    Examples
-    --------
     >>> png_of_picture(Image.new("CMYK", (3, 2)))[:4]
     b'\x89PNG'
     """
@@ -155,19 +128,6 @@ def container_in_memory(
     """Container of a value on the shelf, its longer side ``side``; None of a file's bytes.
 
     The canvas of an array is the array; that of geometries is their box.
-
-    Raises
-    ------
-    ReadError
-        About ``source``, if it is none.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> mask = CoverageArray("half", np.arange(20) < np.full((10, 1), 10))
-    >>> half = container_in_memory(mask, "memory:half", 600.0, ReadOptions())
-    >>> half.width, half.height, [round(side) for side in half.outline.bounds]
-    (600.0, 300.0, [0, 0, 300, 300])
     """
     with reading_file(source):
         if isinstance(value, Item):
@@ -199,19 +159,7 @@ item is moved there. Below lie items whose lines have become thinner. Chosen."""
 
 
 def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | None:
-    """Items of a value on the shelf; None of one that readers of files understand.
-
-    Raises
-    ------
-    ReadError
-        About ``source``, if it is none.
-
-    Examples
-    --------
-    >>> mask = CoverageArray("all", np.ones((10, 10)))
-    >>> [item.name for item in items_in_memory(mask, "memory:all", "fill")]
-    ['all']
-    """
+    """Items of a value on the shelf; None of one that readers of files understand."""
     with reading_file(source):
         if isinstance(value, Item):
             return [recentred(value)]
@@ -230,8 +178,6 @@ def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | No
 def recentred(item: Item) -> Item:
     """The item with its outline's centroid at the origin; itself, if it is there.
 
-    Examples
-    --------
     >>> import shapely
     >>> from packwork.geometry.outline import Outline
     >>> far = Outline.from_region(shapely.box(10, 10, 12, 12))

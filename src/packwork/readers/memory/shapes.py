@@ -52,10 +52,7 @@ _COLOURS = ("fill", "color", "colour")
 class Columns:
     """Columns of frames, or properties of features, that say what is not geometry.
 
-    Parameters
-    ----------
-    name, weight
-        None for one that is called ``name`` or so, or ``weight``, where there is one.
+    None stands for one that is called ``name`` or so, or ``weight``, where there is one.
     """
 
     name: str | None = None
@@ -94,8 +91,6 @@ class GivenShapes:
 def is_geometry(value: object) -> bool:
     """Whether a value is a geometry, or several with what is said of them.
 
-    Examples
-    --------
     >>> is_geometry(shapely.box(0, 0, 1, 1)), is_geometry({"type": "Polygon"}), is_geometry("star")
     (True, True, False)
     """
@@ -109,8 +104,6 @@ def is_geometry(value: object) -> bool:
 def points_up(value: object) -> bool:
     """Whether y points up in it for sure: a frame says which reference system it is in.
 
-    Examples
-    --------
     >>> points_up(shapely.box(0, 0, 1, 1))
     False
     """
@@ -123,20 +116,9 @@ def shapes_of(
     """Regions of a geometry, a frame, a row of one, or GeoJSON; y down.
 
     Rows without area are left out with a notice, if others have some. Coordinates that are no px
-    (degrees, metres, shares) are scaled, all of one value alike.
+    (degrees, metres, shares) are scaled, all of one value alike. ``name`` is what people call it,
+    where it does not say.
 
-    Parameters
-    ----------
-    name
-        What people call it, where it does not say.
-
-    Raises
-    ------
-    UnfitError
-        If nothing has an area, or there is too much of it.
-
-    Examples
-    --------
     >>> feature = {
     ...     "type": "Feature", "properties": {"name": "lake", "weight": 3},
     ...     "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 2], [0, 0]]]},

@@ -25,18 +25,9 @@ from packwork.shelf import MEMORY, Shelf
 
 @dataclass(frozen=True, eq=False)
 class GivenVectors:
-    """Rows of numbers from memory.
+    """Rows of numbers ``(n, d)`` from memory.
 
-    Parameters
-    ----------
-    names
-        One per row; None where they have none.
-    rows
-        ``(n, d)``.
-    columns
-        What their numbers are called, where that is said.
-    groups
-        Of what group each row is, where a column of texts says so.
+    Names of rows and columns, and the group of each row, stand where they are said.
     """
 
     names: tuple[str, ...] | None
@@ -51,13 +42,6 @@ def vectors_of(value: Any) -> GivenVectors:
     Where a data frame's index only counts, a first column of texts, none twice, has the names, as
     in a file. Another column of texts says of what group each is.
 
-    Raises
-    ------
-    UnfitError
-        If they are no rows of numbers.
-
-    Examples
-    --------
     >>> vectors_of({"bear": [1, 0], "fox": [0, 1]}).names
     ('bear', 'fox')
     >>> vectors_of(np.eye(3)).rows.shape
@@ -152,10 +136,7 @@ _MOST_BLANKS = 1_000
 class Handed:
     """Names under which values given in Python are put into memory.
 
-    Parameters
-    ----------
-    y_up
-        Whether the y of geometries points up; None: where they say their reference system.
+    ``y_up``: whether the y of geometries points up; None: where they say their reference system.
     """
 
     shelf: Shelf
@@ -164,22 +145,8 @@ class Handed:
     texts: set[str] = field(default_factory=set)
 
     def name_of(self, value: Any, key: str, name: str | None = None) -> str:
-        """Name of one value: itself, if it is one.
+        """Name of one value: itself, if it is one; ``name`` is what people call it.
 
-        Parameters
-        ----------
-        name
-            What people call it; None for what it is.
-
-        Raises
-        ------
-        ReadError
-            If it is damaged.
-        RecipeError
-            If it is nothing that could be read.
-
-        Examples
-        --------
         >>> handed = Handed(Shelf())
         >>> handed.name_of("star", "items"), handed.name_of(np.eye(9) > 0, "items")
         ('star', 'memory:array')
@@ -203,8 +170,6 @@ class Handed:
     def names_of(self, values: Any, key: str) -> list[str]:
         """Names of one value or of several, or of values by what people call them.
 
-        Examples
-        --------
         >>> Handed(Shelf()).names_of({"dot": b"<svg/>", "old": "star"}, "items")
         ['memory:dot.svg', 'star']
         """
@@ -222,15 +187,6 @@ class Handed:
     def picture_name_of(self, value: Any, key: str) -> str:
         """Name of a picture, whose arrays are light or colours, not shares of a shape.
 
-        Raises
-        ------
-        ReadError
-            If it is damaged.
-        RecipeError
-            If it is no picture.
-
-        Examples
-        --------
         >>> Handed(Shelf()).picture_name_of(np.zeros((9, 9, 3)), "picture")
         'memory:picture.png'
         """
@@ -244,13 +200,6 @@ class Handed:
     def vectors_name_of(self, value: Any, key: str) -> str:
         """Name of vectors: a file's, or that of an array, a dict by name or a data frame.
 
-        Raises
-        ------
-        ReadError
-            If they are no rows of numbers.
-
-        Examples
-        --------
         >>> Handed(Shelf()).vectors_name_of(np.eye(3), "embeddings")
         'memory:embeddings'
         """

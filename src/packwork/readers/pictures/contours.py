@@ -18,9 +18,8 @@ from packwork.geometry.polygon import Region, oriented_rings, region, signed_are
 from packwork.readers.reading import UnfitError
 
 STAIR_PX = 1.0
-"""Distance within which the stairs of a straight edge lie from a chord between two of
-them: half a pixel on either side of the edge. Larger swallows shallow corners, smaller
-leaves stairs. Derived."""
+"""Distance within which the stairs of a straight edge lie from a chord between two of them:
+half a pixel on either side. Larger swallows shallow corners, smaller leaves stairs. Derived."""
 
 _FARTHEST_PX = 1.5
 """How far a corner may move from where the contour turned. Chosen."""
@@ -34,8 +33,6 @@ def without_stairs(ring: FloatArray) -> FloatArray:
 
     Rings too small to have edges come back as they are.
 
-    Examples
-    --------
     >>> side = np.arange(1.0, 10.0)
     >>> zero, ten = np.zeros(9), np.full(9, 10.0)
     >>> x = np.concatenate([side, ten, side[::-1], zero])
@@ -92,8 +89,8 @@ MAX_CONTOURS = 5_000
 """Closed curves in one picture, specks left out. Noise has more, shapes fewer. Chosen."""
 
 MAX_CROSSINGS = 1_000_000
-"""Neighbouring pixels between which a picture passes one half. Each costs some 300 bytes while
-contours are joined. Larger takes more memory for noise, smaller refuses fine patterns. Chosen."""
+"""Neighbouring pixels between which a picture passes one half, 300 bytes each while contours
+are joined. Larger takes memory for noise, smaller refuses fine patterns. Chosen."""
 
 SMALLEST_PX = 4.0
 """Area of a contour, in square pixels, below which it is a speck. Chosen."""
@@ -103,26 +100,12 @@ _STEP = 0.8
 
 
 def contour_region(coverage: FloatArray, simplify_px: float) -> Region:
-    """Region where ``coverage`` is above one half; valid, possibly empty.
+    """Region in pixels where ``coverage`` ``[row, col]`` is above one half; valid, possibly empty.
 
-    Where nearly all edges are hard, their stairs are taken for the lines they stand for
-    (see ``stairs``); else the contour runs where the grey passes one half.
+    Where nearly all edges are hard, their stairs are taken for the lines they stand for; else the
+    contour runs where the grey passes one half, simplified by ``simplify_px`` at most. Outside the
+    picture coverage is 0, so a picture that is full to its border gives that border.
 
-    Parameters
-    ----------
-    coverage
-        ``[row, col]``, 0..1; outside the picture it is 0, so a picture that is full to
-        its border gives that border.
-    simplify_px
-        Largest distance the simplified contour may have from a soft edge.
-
-    Returns
-    -------
-    Region
-        In pixels: ``x`` right, ``y`` down, pixel ``(0, 0)`` spans 0..1.
-
-    Examples
-    --------
     >>> mask = np.zeros((20, 20)); mask[5:15, 5:15] = 1.0
     >>> contour_region(mask, simplify_px=0.1).area.__round__(6)
     100.0
@@ -159,8 +142,6 @@ def _noisy(met: str) -> UnfitError:
 def has_hard_edges(coverage: FloatArray) -> bool:
     """Whether a mask goes from nothing to full within a pixel nearly everywhere.
 
-    Examples
-    --------
     >>> mask = np.zeros((9, 9)); mask[3:6, 3:6] = 1.0
     >>> has_hard_edges(mask)
     True

@@ -42,17 +42,9 @@ def shrunk(
 ) -> Image.Image:
     """Picture of a smaller size, each of whose pixels is the mean of what it stands for.
 
-    Parameters
-    ----------
-    image
-        At full size, in the file's own mode.
-    size
-        Width and height, no larger than the image's.
-    convert
-        To a mode whose values may be averaged; is given bands of whole rows.
+    ``convert`` is given bands of whole rows in the file's own mode, and makes their values such
+    that they may be averaged.
 
-    Examples
-    --------
     >>> striped = Image.new("1", (4, 9)); striped.paste(1, (0, 0, 4, 3))
     >>> small = shrunk(striped, (1, 3), lambda band: band.convert("L"))
     >>> [small.getpixel((0, row)) for row in range(3)]
@@ -89,8 +81,6 @@ def is_sideways(lies: int) -> bool:
 def upright(image: Image.Image, lies: int) -> Image.Image:
     """Picture turned as it is to be seen.
 
-    Examples
-    --------
     >>> upright(Image.new("L", (3, 2)), 6).size
     (2, 3)
     """
@@ -100,17 +90,8 @@ def upright(image: Image.Image, lies: int) -> Image.Image:
 def as_it_lies(
     window: tuple[float, float, float, float], size: tuple[int, int], lies: int
 ) -> tuple[float, float, float, float]:
-    """Window of an upright picture, where it lies in the file's.
+    """Window of an upright picture, where it lies in the file's picture of ``size``.
 
-    Parameters
-    ----------
-    window
-        Left, top, right and bottom, upright.
-    size
-        Width and height of the file's picture.
-
-    Examples
-    --------
     >>> as_it_lies((0, 0, 2, 1), (30, 20), 6)
     (0, 18, 1, 20)
     """
@@ -187,13 +168,7 @@ Pixels = npt.NDArray[np.uint8]
 
 
 def picture_size(data: bytes) -> tuple[int, int] | None:
-    """Width and height from the header of a picture fit to be embedded, else None.
-
-    Examples
-    --------
-    >>> picture_size(b"no picture") is None
-    True
-    """
+    """Width and height from the header of a picture fit to be embedded, else None."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -205,14 +180,9 @@ def picture_size(data: bytes) -> tuple[int, int] | None:
 
 @dataclass(frozen=True, eq=False)
 class DecodedPicture:
-    """Decoded pixels.
+    """Decoded pixels ``(rows, columns, 4)`` RGBA, upright.
 
-    Parameters
-    ----------
-    pixels
-        ``(rows, columns, 4)`` RGBA, upright.
-    unit
-        Pixels of the file per pixel here; above 1 if it was shrunk.
+    ``unit`` is how many pixels of the file one is; above 1 if it was shrunk.
     """
 
     pixels: Pixels
@@ -220,17 +190,8 @@ class DecodedPicture:
 
 
 def decode_picture(data: bytes, longest_px: int) -> DecodedPicture:
-    """Picture of a file's bytes, shrunk to ``longest_px`` at most.
+    """Picture of a file's bytes, shrunk to ``longest_px`` at most; the first frame if it moves.
 
-    The first frame of an animation is taken.
-
-    Raises
-    ------
-    UnfitError
-        If it has too many pixels, is cut short or is no picture at all.
-
-    Examples
-    --------
     >>> file = BytesIO()
     >>> Image.new("L", (30, 20)).save(file, "PNG")
     >>> picture = decode_picture(file.getvalue(), 15)
@@ -255,25 +216,8 @@ def decode_picture(data: bytes, longest_px: int) -> DecodedPicture:
 def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
     """Picture of a file's bytes, not yet decoded, its size checked.
 
-    Whatever goes wrong inside the block is told as what is wrong with the file.
-
-    Parameters
-    ----------
-    shrinking
-        Whether a JPEG will be decoded no larger than it is needed, so may be larger.
-
-    Raises
-    ------
-    UnfitError
-        If it has too many pixels, is cut short or is no picture at all.
-
-    Examples
-    --------
-    >>> file = BytesIO()
-    >>> Image.new("L", (30, 20)).save(file, "PNG")
-    >>> with opened(file.getvalue()) as image:
-    ...     image.size
-    (30, 20)
+    Whatever goes wrong inside the block is told as what is wrong with the file. With ``shrinking``
+    a JPEG will be decoded no larger than it is needed, so it may be larger.
     """
     most = MAX_PIXELS
     try:
@@ -316,8 +260,6 @@ def _too_large(met: str, most_pixels: int) -> str:
 def eight_bit(image: Image.Image, mode: str = "RGBA") -> Image.Image:
     """Picture in a mode; grey of one with deep numbers.
 
-    Examples
-    --------
     >>> eight_bit(Image.new("1", (2, 2))).mode, eight_bit(Image.new("I;16", (2, 2))).mode
     ('RGBA', 'L')
     """
@@ -336,8 +278,6 @@ def eight_bit(image: Image.Image, mode: str = "RGBA") -> Image.Image:
 def fitting(size: tuple[int, int], longest_px: int) -> tuple[int, int]:
     """Width and height of a picture that is ``longest_px`` long at most.
 
-    Examples
-    --------
     >>> fitting((300, 2), 100), fitting((30, 20), 100)
     ((100, 1), (30, 20))
     """

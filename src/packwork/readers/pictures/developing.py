@@ -47,13 +47,6 @@ class Negative:
 def inspected(data: bytes) -> Negative:
     """Size, as it is seen upright, and kind of a photo, without decoding it.
 
-    Raises
-    ------
-    UnfitError
-        If it is no picture, or too large.
-
-    Examples
-    --------
     >>> file = BytesIO()
     >>> exif = Image.Exif(); exif[0x0112] = 6
     >>> Image.new("RGB", (30, 20)).save(file, "JPEG", exif=exif)
@@ -68,27 +61,10 @@ def inspected(data: bytes) -> Negative:
 
 
 def developed(data: bytes, window: Window, size: tuple[int, int]) -> Image.Image:
-    """Part of a photo, upright, in sRGB, re-sampled once.
+    """Part of a photo, upright, in sRGB, re-sampled once; RGBA of one that may be clear.
 
-    Parameters
-    ----------
-    window
-        The part; sides need not be whole.
-    size
-        Width and height of the result; no JPEG is decoded much finer than that.
+    Sides of the window need not be whole. No JPEG is decoded much finer than ``size`` needs.
 
-    Returns
-    -------
-    Image
-        RGB, or RGBA of a photo that may be clear.
-
-    Raises
-    ------
-    UnfitError
-        If the file is cut short or broken.
-
-    Examples
-    --------
     >>> file = BytesIO()
     >>> Image.new("RGB", (300, 200), "teal").save(file, "JPEG")
     >>> print_ = developed(file.getvalue(), (0, 0, 150, 200), (15, 20))
@@ -158,7 +134,7 @@ _PNG_EFFORT = 4
 
 @dataclass(frozen=True)
 class Photograph:
-    """A photo on disk, and what of it is printed.
+    """A photo on disk, or in memory as ``data``, and what of it is printed.
 
     Parameters
     ----------
@@ -171,8 +147,6 @@ class Photograph:
         the window.
     origin
         Where the photo's top left corner lies in item units.
-    data
-        Its content, if it was in memory; None to read the file.
     """
 
     file: str
@@ -185,13 +159,7 @@ class Photograph:
     data: bytes | None = None
 
     def printed(self, px_per_unit: float) -> VectorArt:
-        """The photo with that many pixels per item unit, never more than it has.
-
-        Raises
-        ------
-        ReadError
-            If the file is no longer there, or broken.
-        """
+        """The photo with that many pixels per item unit, never more than it has."""
         data = read_bytes(self.file, MAX_PICTURE_BYTES) if self.data is None else self.data
         return self.drawn(self.developed(data, px_per_unit))
 

@@ -30,18 +30,15 @@ SMALL_PX = 256
 """Longer side at which texture is looked for: noise and JPEG blocks are gone there. Chosen."""
 
 LEAST_MID = 0.3
-"""Share of mid-tones in a photograph. Masks have them along their edges only; 15 of 18
-photographs tried had 0.75 or more, soft masks up to 0.6. Chosen."""
+"""Share of mid-tones in a photograph. Masks have them along their edges only. Chosen."""
 
 LEAST_TURNS = 0.07
 """Share of pixels where a photograph turns from brighter to darker or back, of those that are
-mid-tones. Tried: photographs 0.07 to 0.66, masks of every kind 0.06 at most (twelve flat greys
-as a poor JPEG)."""
+mid-tones. Tried: masks of every kind have 0.06 at most."""
 
 LEAST_GREYS = 48.0
 """Greys that the mid-tones of a photograph spread over, as the exponential of their entropy.
-Tried: photographs 62 or more, shaded logos 39 at most; a photograph of few greys has hardly
-anything but mid-tones (``ALL_MID``)."""
+Tried: shaded logos have 39 at most; a photograph of fewer has hardly anything but mid-tones."""
 
 ALL_MID = 0.9
 """Share of mid-tones from which few greys are no sign of a drawing. Chosen."""
@@ -51,15 +48,8 @@ _STEP = 1.5 / 255
 
 
 def looks_photographic(darkness: FloatArray) -> bool:
-    """Whether a picture has mid-tones all over, of many greys, that go up and down.
+    """Whether darkness ``[row, col]`` has mid-tones all over, of many greys, up and down.
 
-    Parameters
-    ----------
-    darkness
-        ``[row, col]``, 0..1.
-
-    Examples
-    --------
     >>> rng = np.random.default_rng(0)
     >>> looks_photographic(rng.uniform(0, 1, (200, 200))), looks_photographic(np.eye(200))
     (True, False)
@@ -132,33 +122,12 @@ class TracedMask:
 def trace_mask(path: str | Path, alpha_threshold: float = HALF) -> TracedMask:
     """Region of a picture that says inside (dark) or outside (light).
 
-    Where a real share of it is clear, that decides instead: opaque is inside, but for white
-    patches within a dark shape; a few
-    translucent pixels count as the light page behind them. An all-dark mask is the whole
-    canvas. The contour follows the half-way level to a fraction of a pixel and is simplified
-    to 0.2 px; the stairs of hard-edged masks are taken for the straight edges within a pixel
-    of them. A notice tells of a mask that fills nearly all of its page, is dark all along its
-    edge or looks like a photograph.
-
-    Parameters
-    ----------
-    alpha_threshold
-        Opacity from which a pixel is inside, where transparency decides.
-
-    Raises
-    ------
-    ReadError
-        If the file cannot be read, is too small or has no dark part.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from PIL import Image
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder, "all.png")
-    ...     Image.new("L", (30, 20)).save(file)
-    ...     trace_mask(file).region.area
-    600.0
+    Where a real share of it is clear, that decides instead: from ``alpha_threshold`` on it is
+    inside, but for white patches within a dark shape; a few translucent pixels count as the light
+    page behind them. An all-dark mask is the whole canvas. The contour follows the half-way level
+    to a fraction of a pixel and is simplified to 0.2 px; the stairs of hard-edged masks are taken
+    for straight edges. A notice tells of a mask that fills nearly all of its page, is dark all
+    along its edge or looks like a photograph.
     """
     data = read_bytes(path, MAX_PICTURE_BYTES)
     with reading_file(str(path)):
@@ -168,13 +137,6 @@ def trace_mask(path: str | Path, alpha_threshold: float = HALF) -> TracedMask:
 def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
     """Region of decoded RGBA pixels.
 
-    Raises
-    ------
-    UnfitError
-        If they are too few or none is dark.
-
-    Examples
-    --------
     >>> pixels = np.full((20, 20, 4), 255, np.uint8); pixels[5:15, 5:15, :3] = 0
     >>> [round(side) for side in mask_of_pixels(pixels).region.bounds]
     [5, 5, 15, 15]
@@ -203,8 +165,6 @@ def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
 def mask_of_shares(inside: FloatArray) -> TracedMask:
     """Region of ``(rows, columns)`` shares of pixels that are inside, some half or more.
 
-    Examples
-    --------
     >>> shares = np.zeros((20, 20)); shares[5:15, 5:15] = 1
     >>> [round(side) for side in mask_of_shares(shares).region.bounds]
     [5, 5, 15, 15]

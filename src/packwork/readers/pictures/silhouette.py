@@ -36,15 +36,8 @@ in outlines. Chosen."""
 
 
 def without_enclosed_white(pixels: Pixels, solid: FloatArray) -> FloatArray:
-    """Opacities, those of white patches that other paint surrounds brought to nothing.
+    """Opacities 0..1, those of white patches that other paint surrounds brought to nothing.
 
-    Parameters
-    ----------
-    solid
-        Opacities of the pixels, 0..1.
-
-    Examples
-    --------
     >>> seal = np.zeros((9, 9, 4), np.uint8); seal[1:8, 1:8, 3] = 255; seal[4, 4, :3] = 255
     >>> float(without_enclosed_white(seal, seal[:, :, 3] / 255).sum())
     48.0
@@ -74,17 +67,16 @@ def without_enclosed_white(pixels: Pixels, solid: FloatArray) -> FloatArray:
 
 LEAST_CLEAR_OF_ITEM = 0.001
 """Share of an item's picture that is clear where its transparency decides. Larger takes the
-rounded corners of a playing card, 0.15 % of it, for an accident, and its white rim for paper;
-smaller lets a few translucent pixels keep the paper round a drawing. Chosen."""
+rounded corners of a playing card, 0.15 % of it, for an accident; smaller lets a few translucent
+pixels keep the paper round a drawing. Chosen."""
 
 LEAST_CLEAR_OF_MASK = 0.01
 """The same of a mask. Larger passes over small windows in a plate; smaller lets the rounded
 corners of a page hide what is painted on it. Chosen."""
 
 FAINT_SHARE = 0.05
-"""Painted area that is fainter than the threshold, edges left out, as a share of what is
-inside, from which it is told. Larger is silent about shadows, smaller speaks of soft edges.
-Chosen."""
+"""Painted area that is fainter than the threshold, edges left out, as a share of what is inside,
+from which it is told. Larger is silent about shadows, smaller speaks of soft edges. Chosen."""
 
 _FAINTEST = 1 / 255
 _SEEN = 10 / 255
@@ -94,8 +86,6 @@ _EDGE_PX = 3
 def solidity(pixels: Pixels) -> FloatArray:
     """Opacity 0..1 of RGBA pixels, the most opaque one taken for 1: a faint shape is a shape.
 
-    Examples
-    --------
     >>> solidity(np.array([[[0, 0, 0, 100], [0, 0, 0, 50]]], np.uint8)).tolist()
     [[1.0, 0.5]]
     """
@@ -104,17 +94,8 @@ def solidity(pixels: Pixels) -> FloatArray:
 
 
 def decides(solid: FloatArray, least_clear: float) -> bool:
-    """Whether a real share of a picture is clear.
+    """Whether at least a share of the pixels is less than half as opaque as the most opaque one.
 
-    Parameters
-    ----------
-    solid
-        As :func:`solidity` gave it.
-    least_clear
-        Share of the pixels that are less than half as opaque as the most opaque one.
-
-    Examples
-    --------
     >>> page = np.ones((20, 20)); page[0, 0] = 0
     >>> decides(page, LEAST_CLEAR_OF_ITEM), decides(page, LEAST_CLEAR_OF_MASK)
     (True, False)
@@ -125,8 +106,6 @@ def decides(solid: FloatArray, least_clear: float) -> bool:
 def raised(solid: FloatArray, threshold: float) -> FloatArray:
     """Opacities ``[row, col]`` with the threshold brought to one half, where contours run.
 
-    Examples
-    --------
     >>> raised(np.array([0.0, 0.1, 0.2, 1.0]), 0.2).tolist()
     [0.0, 0.25, 0.5, 1.0]
     """
@@ -178,20 +157,6 @@ def read_picture(
 
     Where a real share of the picture is clear, that decides; else a plain background is taken
     away, flooding from the border; else the whole rectangle is the item, as for photos.
-
-    Raises
-    ------
-    ReadError
-        If it is missing, broken, larger than the limits or shows nothing.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder, "photo.png")
-    ...     Image.linear_gradient("L").save(file)
-    ...     read_picture(file).item.outline.area
-    65536.0
     """
     data, options = read_bytes(path, MAX_PICTURE_BYTES), reading or ReadOptions()
     read = _read(data, stem(path), str(path), holes, options)
@@ -205,19 +170,7 @@ def read_picture(
 
 
 def item_of_picture(data: bytes, name: str, source: str, holes: Holes = "fill") -> Item:
-    """Item of a picture's bytes.
-
-    Raises
-    ------
-    ReadError
-        About ``source``, as for ``read_picture``.
-
-    Examples
-    --------
-    >>> item_of_picture(b"GIF89a", "a", "a.gif")
-    Traceback (most recent call last):
-    packwork.errors.ReadError: a.gif: is ...
-    """
+    """Item of a picture's bytes."""
     return _read(data, name, source, holes, ReadOptions()).item
 
 
@@ -246,22 +199,8 @@ def _read(data: bytes, name: str, source: str, holes: Holes, options: ReadOption
 def outline_of_cut_out(pixels: Pixels, threshold: float = HALF) -> Region:
     """Region, in pixels, that a picture shows whose opacity says what is its object.
 
-    Parameters
-    ----------
-    pixels
-        As :func:`cut_out` gave them, or what is left of them once clear borders are off.
-    threshold
-        Opacity from which a pixel is inside, as a share of the most opaque one's.
-
-    Raises
-    ------
-    UnfitError
-        If that is no more than a few pixels, noise, or clear all over.
-
-    Examples
-    --------
-    >>> outline_of_cut_out(np.full((4, 6, 4), 200, np.uint8)).area
-    24.0
+    Clear borders may be off. From ``threshold``, a share of the most opaque one's opacity, a
+    pixel is inside.
     """
     alpha = pixels[:, :, 3].astype(np.float64)
     if not alpha.any():
@@ -272,18 +211,7 @@ def outline_of_cut_out(pixels: Pixels, threshold: float = HALF) -> Region:
 
 
 def outline_of_coverage(coverage: FloatArray) -> Region:
-    """Region, in pixels, that a picture of opacities 0..1 covers.
-
-    Raises
-    ------
-    UnfitError
-        If that is no more than a few pixels, or noise.
-
-    Examples
-    --------
-    >>> outline_of_coverage(np.ones((4, 6))).area
-    24.0
-    """
+    """Region, in pixels, that a picture of opacities 0..1 covers."""
     if coverage.min() > 0.5:
         return shapely.box(0, 0, coverage.shape[1], coverage.shape[0])
     traced = contour_region(coverage, SIMPLIFY_PX)
@@ -295,13 +223,6 @@ def outline_of_coverage(coverage: FloatArray) -> Region:
 def cut_out(pixels: Pixels) -> Pixels:
     """Picture with all but its object made transparent.
 
-    Raises
-    ------
-    UnfitError
-        If the picture is fully transparent or all background.
-
-    Examples
-    --------
     >>> paper = np.full((9, 9, 4), 255, np.uint8); paper[3:6, 3:6, :3] = 0
     >>> int(np.count_nonzero(cut_out(paper)[:, :, 3]))
     9

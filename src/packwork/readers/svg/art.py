@@ -48,15 +48,9 @@ def vector_art(
 ) -> VectorArt:
     """Fragment of a clean drawing, its ids unlike those of any other drawing.
 
-    Parameters
-    ----------
-    is_cut
-        Whether the page cuts into the drawing, so that the fragment has to as well.
-    place
-        2 x 3 map from CSS pixels to the item's own units.
+    ``is_cut`` says whether the page cuts into it; ``place`` maps (2 x 3) CSS pixels to the item's
+    own units.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><path d="M0 0h9v9z"/></svg>')
     >>> vector_art(root, None, is_cut=False, place=affine.identity()).markup
     '<path d="M0 0h9v9z"/>'
@@ -80,18 +74,8 @@ def vector_art(
 def kept_art(markup: str, place: FloatArray, *, is_traced: bool = False) -> VectorArt:
     """Art of a fragment out of a file of ours: as it is if the gate has nothing to change in it.
 
-    Parameters
-    ----------
-    place
-        2 x 3 map from the fragment's units to the item's own.
+    ``place`` maps (2 x 3) the fragment's units to the item's own.
 
-    Raises
-    ------
-    UnfitError
-        If it is no drawing.
-
-    Examples
-    --------
     >>> kept_art('<path d="M0 0h9v9z" />', affine.identity()).markup
     '<path d="M0 0h9v9z" />'
     >>> kept_art('<path onclick="a()" d="M0 0h9v9z"/>', affine.identity()).markup
@@ -181,9 +165,9 @@ OUTLINE_PX = 400
 """Pixels of the outline's longer side. Half of one beyond the outline is let pass."""
 
 FAINT, SOLID, SOLID_TRACED = 0.1, 0.3, 0.6
-"""Opacity that counts as paint in four pixels together, and in one: softened edges leave up to .15
-in single ones. Of what is traced the outline lies where the picture is half opaque, and what is
-fainter was told. Tried on 400 px of icons and maps."""
+"""Opacity that counts as paint in four pixels together, and in one: softened edges leave up
+to .15 in single ones. Of what is traced the outline lies where the picture is half opaque. Tried
+on 400 px of icons and maps."""
 
 MARGIN, FARTHEST = 0.25, 25.0
 """What is looked at around the outline, and how far what shapes reach is followed, as shares of its
@@ -221,17 +205,7 @@ def within_outline(
 ) -> VectorArt:
     """The first of some arts of a drawing that paints nothing beyond its outline; else one cut.
 
-    Parameters
-    ----------
-    arts
-        The same drawing as it is, and as its page cuts it.
-    reach
-        What its shapes reach, also where no page shows them.
-
-    Raises
-    ------
-    UnfitError
-        If resvg cannot render it, or what it paints cannot be cut off.
+    ``reach`` is the box of what its shapes reach, also where no page shows them.
     """
     art = None
     with contextlib.suppress(TooRichError):
@@ -250,15 +224,6 @@ def within_outline(
 def paints_beyond(art: VectorArt, outline: Outline, reach: Box | None, work: Work) -> bool:
     """Whether art leaves paint outside an outline, by more than half a pixel of 400.
 
-    Raises
-    ------
-    UnfitError
-        If resvg cannot render it.
-    TooRichError
-        If that takes longer than is left for the drawing.
-
-    Examples
-    --------
     >>> square, work = Outline.box(0, 0, 10, 10), Work(1, 0)
     >>> inside = VectorArt('<rect width="10" height="10"/>', affine.identity())
     >>> beside = VectorArt('<rect width="10" height="10"/><path d="M12 0h1v9h-1z"/>', inside.matrix)
@@ -301,8 +266,6 @@ def _wider(near: Box, reach: Box) -> Box:
 def cut_by_outline(art: VectorArt, outline: Outline) -> VectorArt:
     """Art clipped to the outline.
 
-    Examples
-    --------
     >>> art = VectorArt('<rect width="20" height="10"/>', affine.identity())
     >>> square = Outline.box(0, 0, 10, 10)
     >>> paints_beyond(cut_by_outline(art, square), square, None, Work(1, 0))

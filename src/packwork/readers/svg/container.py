@@ -39,28 +39,17 @@ _SPECIAL = frozenset({"mask", "filter"})
 
 @dataclass(frozen=True, eq=False)
 class _Layer:
-    """Region that one shape paints in one colour.
-
-    Parameters
-    ----------
-    region
-        In CSS pixels.
-    """
+    """Region, in CSS pixels, that one shape paints in one colour."""
 
     region: Region
     is_white: bool
 
 
 def without_whites(drawing: PaintedDrawing, region: Region) -> Region:
-    """Region less what white paint covers of dark fills below it.
+    """Region of a drawing less what white paint covers of dark fills below it.
 
     White on nothing counts, as a panda's face does and a drawing in white alone; so does what
     is painted over in turn.
-
-    Parameters
-    ----------
-    region
-        What all shapes of the drawing cover.
     """
     holes = [hole for hole in _holes(drawing) if hole.area > 0]
     return difference(region, union(holes)) if holes else region
@@ -155,19 +144,8 @@ def container_of_svg(
     Filled shapes count, with their holes and parts, and of shapes drawn as lines the
     inside; nearly white paint over dark fills is a hole. Where that is the whole page, as
     with a white sheet behind the drawing, its picture is taken for a mask: dark is inside.
-    Without a page the canvas is the region's box; with one, as ``trimming.canvas_box`` has it.
+    Without a page the canvas is the region's box; with one, as ``canvas_box`` has it.
 
-    Raises
-    ------
-    ReadError
-        If it is no SVG, passes a limit or paints nothing.
-
-    Examples
-    --------
-    >>> data = b'<svg viewBox="0 0 20 10"><rect width="10" height="10"/></svg>'
-    >>> container = container_of_svg(data, "half", "half.svg", 600.0)
-    >>> container.width, container.height, container.outline.bounds
-    (600.0, 300.0, (0.0, 0.0, 300.0, 300.0))
     >>> data = b'<svg width="4cm" viewBox="0 0 20 10"><rect width="10" height="10"/></svg>'
     >>> container = container_of_svg(data, "half", "half.svg")
     >>> container.width, container.height, container.unit
@@ -197,11 +175,6 @@ def parts_of_svg(data: bytes, container: Container) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of the SVG that a container was read from.
 
     Parts that paint nothing are left out.
-
-    Raises
-    ------
-    ReadError
-        If it is no SVG or passes a limit.
     """
     with reading_file(container.source):
         found = []
@@ -228,8 +201,6 @@ def stated_unit(root: ET.Element) -> Unit | None:
 
     Where width and height have different ones, the width's.
 
-    Examples
-    --------
     >>> stated_unit(ET.Element("svg", {"width": "20mm"})), stated_unit(ET.Element("svg"))
     ('mm', None)
     """
@@ -290,18 +261,11 @@ _UNSEEN = frozenset({"defs", "style", "symbol", "clipPath", "mask", "linearGradi
 
 
 def named_parts(data: bytes) -> list[tuple[str, bytes]]:
-    """Names of the parts of an SVG, and documents that show nothing else.
+    """Names of at most ``MOST_PARTS`` parts of an SVG, and documents that show nothing else.
 
     They are the children of one element, the first inwards from the root that has two with
     names: of a layer of Inkscape, a title, an attribute for names, or an id that no program made.
 
-    Raises
-    ------
-    UnfitError
-        If the bytes are no SVG or pass a limit.
-
-    Examples
-    --------
     >>> data = b'<svg><g><path id="Peru" d="M0 0h9v9z"/><path id="Chile" d="M9 0h2v9z"/></g></svg>'
     >>> [(name, len(document) < 90) for name, document in named_parts(data)]
     [('Peru', True), ('Chile', True)]
@@ -343,8 +307,6 @@ def _name(element: ET.Element) -> str:
 def _own(name: str) -> str:
     """An id as a name; empty for one that a program gave.
 
-    Examples
-    --------
     >>> _own("New_Zealand"), _own("path4092"), _own("g")
     ('New Zealand', '', '')
     """

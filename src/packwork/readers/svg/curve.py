@@ -30,12 +30,9 @@ CLOSED = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class PathLine:
-    """One connected piece of a path.
+    """One connected piece of a path: ``(n, 2)`` points in CSS pixels of the page.
 
-    Parameters
-    ----------
-    points
-        ``(n, 2)`` in CSS pixels of the page; the first is repeated at the end if closed.
+    The first is repeated at the end if it is closed.
     """
 
     points: FloatArray
@@ -43,13 +40,7 @@ class PathLine:
 
 
 def lines_of(drawing: PaintedDrawing, extent: float) -> list[PathLine]:
-    """Every piece of every path that a drawing shows.
-
-    Parameters
-    ----------
-    extent
-        Longer side of the page: how fine curves are followed.
-    """
+    """Every piece of every path that a drawing shows, as fine as a page of ``extent`` needs."""
     found = []
     for shape in drawing.shapes:
         pieces = [piece for piece in shape.pieces if len(piece.segments)]
@@ -69,11 +60,6 @@ def read_curve(file: str, width: float, height: float) -> tuple[FloatArray, Floa
     """Straight pieces ``(m, 2)`` and ``(m, 2)`` of all that an SVG draws.
 
     Its page is fitted into the canvas, so that what was drawn on the container lies there.
-
-    Raises
-    ------
-    ReadError
-        If the file cannot be used, or draws nothing that has a length.
     """
     with reading_file(file):
         drawing = read_drawing(read_bytes(file, MAX_BYTES))
@@ -99,17 +85,8 @@ def walled_container(
     """Container of an SVG's open paths, and its openings; None if it draws none.
 
     What an open path and the straight line between its ends surround is the container; that
-    line is the opening. Closed paths beside it count as they are.
-
-    Parameters
-    ----------
-    side
-        Longer side of the canvas; None leaves it to the file.
-
-    Returns
-    -------
-    tuple of Container and FloatArray
-        Openings as ``(m, 2, 2)``: their ends, canvas units.
+    line is the opening, ``(2, 2)`` in canvas units. Closed paths beside it count as they are. A
+    ``side`` of None leaves the canvas's longer side to the file.
     """
     with reading_file(source):
         drawing = read_drawing(read_bytes(source, MAX_BYTES))

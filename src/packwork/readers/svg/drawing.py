@@ -49,26 +49,13 @@ _SPECIAL = frozenset({"id", "opacity", "mask", "filter", "style", "clip-path"})
 def drop_sheet(
     root: ET.Element, page: Page | None, shapes: Sequence[Painted], keep_page: bool | None = None
 ) -> tuple[list[Painted], PageFate]:
-    """Take the sheet out of a clean drawing, in place.
+    """Take the sheet out of a clean drawing, in place; the shapes that are left, and its fate.
 
     A sheet is what is painted first, covers the page in one opaque near-white, has no line
     and no effect on it, and has more painted on it, which stays clear of the page's edges: what
-    reaches them is printed on a card or a flag. A coloured tile stays.
+    reaches them is printed on a card or a flag. A coloured tile stays. ``keep_page`` keeps it, or
+    drops it whatever is on it; None: as it looks.
 
-    Parameters
-    ----------
-    keep_page
-        Whether the sheet is to stay; None: as it looks; False drops it whatever is on it.
-
-    Returns
-    -------
-    tuple of list of Painted and PageFate
-        The shapes that are left, and what became of the sheet.
-
-    Examples
-    --------
-    >>> from packwork.readers.svg_syntax.coordinates import read_page
-    >>> from packwork.readers.svg.walk import painted_shapes
     >>> paper = '<rect width="9" height="9" fill="white"/>'
     >>> root = ET.fromstring(f'<svg viewBox="0 0 9 9">{paper}<circle r="3"/></svg>')
     >>> page = read_page(root)
@@ -123,8 +110,6 @@ def _is_paper(shape: Painted, page: Page) -> bool:
 def is_near_white(fill: str) -> bool:
     """Whether a paint is opaque and nearly white.
 
-    Examples
-    --------
     >>> is_near_white("#fffff0"), is_near_white("#fd7"), is_near_white("none")
     (True, False, False)
     """
@@ -162,10 +147,7 @@ LARGESSE = 20.0
 class PaintedDrawing:
     """An SVG that has been through the gate, and what it paints.
 
-    Parameters
-    ----------
-    ink
-        In CSS pixels, right and down from the page's corner.
+    ``ink`` is in CSS pixels, right and down from the page's corner.
     """
 
     root: ET.Element
@@ -206,13 +188,6 @@ def read_drawing(
         Largest distance of a curve from its chords, in CSS pixels, where that is to be
         finer than for placing; not of what is compared.
 
-    Raises
-    ------
-    UnfitError
-        If it is no SVG, passes a limit or paints nothing.
-
-    Examples
-    --------
     >>> drawing = read_drawing(b'<svg viewBox="0 0 9 9"><rect width="4" height="2"/></svg>')
     >>> drawing.ink.fills.area
     8.0
@@ -273,13 +248,8 @@ def _traced(
 ) -> PaintedDrawing:
     """Drawing as its picture shows it.
 
-    Parameters
-    ----------
-    threshold
-        Opacity from which what is traced is inside, as a share of the most opaque place's.
-    is_sure
-        Whether ``shapes`` are all that it paints, so that what is too thin for a coarse
-        picture is known from them.
+    ``is_sure`` says that ``shapes`` are all that it paints, so that what is too thin for a coarse
+    picture is known from them.
     """
     if page is None:
         root = copy.copy(root)

@@ -219,12 +219,7 @@ that they have to cover. More tries cost time where nothing is hidden. Chosen.""
 class TracedInk:
     """Region of a drawing traced from a picture, fills and strokes not told apart.
 
-    Parameters
-    ----------
-    body
-        The same with its lines drawn solid.
-    is_cut
-        Whether the drawing was shown on its page.
+    ``body`` is the same with its lines drawn solid.
     """
 
     whole: Region

@@ -51,8 +51,6 @@ def with_short_arcs(root: ET.Element) -> ET.Element:
     Shapes whose size is a share of the page keep their form, as do the paths of drawings
     with markers, which would gain corners to mark.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><circle r="3" fill="red"/><rect width="2" height="2"/></svg>')
     >>> [shape.tag for shape in with_short_arcs(root)]
     ['path', 'rect']
@@ -129,25 +127,11 @@ def _numbers(points: FloatArray, digits: int) -> str:
 
 MOST_GLOW = 0.02
 """What filters may add beyond the ink, as a share of it. Larger lets shadows fall on
-neighbours, smaller takes the shading off drawings whose edges it softens. Tried: the
-shading of four public collections stays below 0.003, shadows come to 0.05 and more."""
+neighbours, smaller takes the shading off drawings whose edges it softens. Tried."""
 
 
 def without_glow(drawing: PaintedDrawing) -> ET.Element:
-    """Tree of a drawing, its filters taken off if they paint beyond its ink, which is said.
-
-    Raises
-    ------
-    UnfitError
-        If its filters leave nothing to be seen.
-
-    Examples
-    --------
-    >>> from packwork.readers.svg.drawing import read_drawing
-    >>> data = b'<svg viewBox="0 0 9 9"><rect width="4" height="2"/></svg>'
-    >>> len(without_glow(read_drawing(data)))
-    1
-    """
+    """Tree of a drawing, its filters taken off if they paint beyond its ink, which is said."""
     root, ink = drawing.root, drawing.ink.whole
     if not any(FILTER in element.attrib for element in root.iter()):
         return root
@@ -171,20 +155,6 @@ def read_svg(path: str | Path, holes: Holes = "fill", reading: ReadOptions | Non
     Curves and round strokes are flattened to ``bezier.FLATTENING`` of the drawing's
     extent. Text, clips, masks and pictures are rendered and traced. A white page behind
     all else is left out, unless something on it touches its edges or it is to stay.
-
-    Raises
-    ------
-    ReadError
-        If the file cannot be read, is no SVG, passes a limit or paints nothing.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder, "tile.svg")
-    ...     _ = file.write_text('<svg viewBox="0 0 9 9"><rect width="4" height="2"/></svg>')
-    ...     read_svg(file).item.outline.bounds
-    (-2.0, -1.0, 2.0, 1.0)
     """
     data, options = read_bytes(path, MAX_BYTES), reading or ReadOptions()
     read = _read(data, stem(path), str(path), holes, options, is_compared=True)
@@ -207,20 +177,8 @@ def item_of_svg(
     *,
     is_compared: bool = False,
 ) -> Item:
-    """Item of an SVG's bytes.
+    """Item of an SVG's bytes, compared with a rendering as strangers' files should be.
 
-    Parameters
-    ----------
-    is_compared
-        Whether the ink is held against a rendering, as strangers' files should be.
-
-    Raises
-    ------
-    ReadError
-        About ``source``, as for ``read_svg``.
-
-    Examples
-    --------
     >>> data = b'<svg><circle r="5" fill="none" stroke="red" stroke-width="2"/></svg>'
     >>> item = item_of_svg(data, "ring", "ring.svg")
     >>> len(item.outline.rings), len(item.ink.rings)

@@ -51,8 +51,6 @@ Paint: TypeAlias = tuple[tuple[str, str], ...]
 def paints_of(text: ET.Element) -> list[Paint]:
     """Distinct paints of a text's letters, in their order.
 
-    Examples
-    --------
     >>> paints_of(ET.fromstring('<text fill="red">a<tspan fill="blue">b</tspan>c</text>'))
     [(), (('fill', 'blue'),)]
     """
@@ -62,8 +60,6 @@ def paints_of(text: ET.Element) -> list[Paint]:
 def stage_of(text: PlacedText, paint: Paint, by_id: dict[str, ET.Element]) -> ET.Element:
     """Drawing of the letters of one paint of a text in black, in the text's own units.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> text = ET.fromstring('<text x="1" fill="red">a<tspan fill="blue">b</tspan></text>')
     >>> placed = PlacedText(text, np.eye(2, 3), (9.0, 9.0), ())
@@ -109,9 +105,8 @@ MAX_LETTERS = 2_000
 """Letters that become paths, spaces counted. Chosen."""
 
 LETTER_PX = 400
-"""Side of the square of pixels that each letter gets: larger costs time by its square,
-smaller shows, on a letter drawn large, the renderer's rounding of coverages as a wobble.
-Tried: an O lies within 0.04 % of the font's size of its curves, with 100 px 0.16 %."""
+"""Side of the square of pixels that each letter gets: larger costs time by its square, smaller
+shows the renderer's rounding as a wobble. Tried."""
 
 MAX_PIXELS = 4_000_000
 """Pixels of all letters together: about half a second's work. Chosen."""
@@ -139,13 +134,6 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     Texts inside masks and patterns, those in ``defs``, and where there are more than
     ``MAX_TEXTS`` or ``MAX_LETTERS`` all of them, stay as they are, which is said too.
 
-    Raises
-    ------
-    UnfitError
-        If resvg cannot render one of them.
-
-    Examples
-    --------
     >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> root = ET.fromstring('<svg viewBox="0 0 9 9"><text y="8" fill="red">a</text></svg>')
     >>> set_in_outlines(root, read_page(root))
@@ -224,8 +212,6 @@ def _outlines(stage: ET.Element, text: PlacedText, view: View | None, letter_px:
 def path_data(region: Region, step: float) -> str:
     """Path data of a region's rings, rounded to about ``step``.
 
-    Examples
-    --------
     >>> path_data(shapely.box(0, 0, 1, 2.004), 0.01)
     'M1 0 1 2 0 2 0 0z'
     """

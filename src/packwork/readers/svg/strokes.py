@@ -39,15 +39,9 @@ def stroke_region(
 ) -> Region:
     """Region that ``pen`` paints along a polyline; valid, empty for an invisible dot.
 
-    Parameters
-    ----------
-    points
-        ``(n, 2)``, not closed by repetition.
-    tolerance
-        Largest distance of a round cap or join from its chords.
+    ``points`` are ``(n, 2)``, not closed by repetition; ``tolerance`` is the largest distance of a
+    round cap or join from its chords.
 
-    Examples
-    --------
     >>> stroke_region(np.array([[0.0, 0], [10, 0]]), False, StrokeStyle(2.0, "square"), 0.01).area
     24.0
     """
@@ -128,21 +122,11 @@ square caps need."""
 def dashed(
     line: FloatArray, is_closed: bool, dashes: Sequence[float], offset: float
 ) -> list[FloatArray]:
-    """Open polylines ``(k, 2)`` of the dashes along a polyline.
+    """Open polylines ``(k, 2)`` of the dashes along a polyline that is not closed by repetition.
 
-    On a closed one a dash that ends where another begins goes on in it.
+    On a closed one a dash that ends where another begins goes on in it. ``dashes`` are dashes and
+    gaps in turn, an even number of them, not all zero; the line begins at ``offset`` of them.
 
-    Parameters
-    ----------
-    line
-        ``(n, 2)``, not closed by repetition.
-    dashes
-        Lengths of dashes and gaps in turn, an even number of them, not all zero.
-    offset
-        Where in the pattern the line begins.
-
-    Examples
-    --------
     >>> line = np.array([[0.0, 0.0], [10.0, 0.0]])
     >>> [part[:, 0].tolist() for part in dashed(line, False, (3.0, 2.0), 1.0)]
     [[0.0, 2.0], [4.0, 7.0], [9.0, 10.0]]
@@ -187,7 +171,7 @@ def _between(path: FloatArray, along: FloatArray, begin: float, end: float) -> F
 FINER = 4_096.0
 """Factor in tolerance by which pieces that end are followed: a 64th of a chord's length, so
 of its error in direction. Larger costs time on dashed lines, smaller leaves corners of caps
-off. Tried: with 256, those of wide pens were off by 2e-4 of a drawing's extent."""
+off. Tried."""
 
 
 MAX_FINE_POINTS = 1_000_000
@@ -198,8 +182,6 @@ them is followed as any curve. Larger lets rich drawings take seconds. Chosen.""
 class FinePoints:
     """Number of ``MAX_FINE_POINTS`` that are left for a drawing.
 
-    Examples
-    --------
     >>> left = FinePoints()
     >>> left.factor(100), left.factor(1e9), left.factor(100)
     (4096.0, 1.0, 1.0)
@@ -218,17 +200,8 @@ class FinePoints:
 def piece_strokes(
     pieces: Sequence[SubPath], pen: StrokeStyle, tolerance: float, points: FinePoints
 ) -> list[Region]:
-    """Regions of all pieces of a path, or of their dashes.
+    """Regions of all pieces of a path, or of their dashes, in the unit of the pen.
 
-    Parameters
-    ----------
-    pieces, pen
-        In one unit.
-    tolerance
-        Largest distance of a curve from its chords, and of a round cap or join.
-
-    Examples
-    --------
     >>> from packwork.readers.svg_syntax.path_data import parse_path
     >>> pieces = parse_path("M0 0h4 M0 9h2")
     >>> [r.area for r in piece_strokes(pieces, StrokeStyle(2), 0.1, FinePoints())]
@@ -256,8 +229,6 @@ def piece_strokes(
 def open_stroke(fine: FloatArray, pen: StrokeStyle, tolerance: float) -> Region:
     """Stroke of a line of many more points than it takes, its caps across its very ends.
 
-    Examples
-    --------
     >>> turns = np.linspace(0, np.pi / 2, 5_000)
     >>> arc = 10 * np.column_stack([np.cos(turns), np.sin(turns)])
     >>> corners = shapely.get_coordinates(open_stroke(arc, StrokeStyle(4.0), 1e-3))

@@ -47,13 +47,7 @@ _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 
 @dataclass(frozen=True, eq=False)
 class LineDrawing:
-    """An item that is drawn in lines.
-
-    Parameters
-    ----------
-    width
-        Of most of its lines, in the item's own units.
-    """
+    """An item drawn in lines, most of them of ``width``, in the item's own units."""
 
     item: Item
     width: float
@@ -61,14 +55,9 @@ class LineDrawing:
     _drawing: PaintedDrawing
 
     def thinner(self, factor: float, holes: Holes) -> Item | None:
-        """The item with all its lines ``factor`` times as wide; None where that cannot be told.
+        """The item with its lines ``factor`` times as wide; None where that cannot be told.
 
-        Its origin stays, and its outline lies within the one it had.
-
-        Parameters
-        ----------
-        factor
-            More than 0, less than 1.
+        The factor is below 1. The origin stays, and the outline lies within the one it had.
         """
         found: Item | None = None
         for nudges in range(MOST_NUDGES):
@@ -103,8 +92,6 @@ class LineDrawing:
 def line_drawing(item: Item) -> LineDrawing | None:
     """An item as a drawing in lines; None if it is none.
 
-    Examples
-    --------
     >>> from packwork.readers.svg.item import item_of_svg
     >>> data = b'<svg><path d="M0 0h20" stroke="red" stroke-width="4"/></svg>'
     >>> line = line_drawing(item_of_svg(data, "line", "line.svg"))
@@ -133,15 +120,7 @@ def line_drawing(item: Item) -> LineDrawing | None:
 
 
 def has_traced_lines(item: Item) -> bool:
-    """Whether an item is a drawing with lines that its shapes do not tell.
-
-    Examples
-    --------
-    >>> from packwork.readers.svg.item import item_of_svg
-    >>> data = b'<svg><path d="M0 0h20" stroke="red" stroke-width="4"/></svg>'
-    >>> has_traced_lines(item_of_svg(data, "line", "line.svg"))
-    False
-    """
+    """Whether an item is a drawing with lines that its shapes do not tell."""
     art = item.art
     if item.text is not None or not isinstance(art, VectorArt) or not art.is_traced:
         return False

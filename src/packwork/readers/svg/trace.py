@@ -37,19 +37,8 @@ def touched(
 ) -> BoolArray:
     """Pixels that the edges of shapes pass through, clips passed over.
 
-    Parameters
-    ----------
-    shapes
-        In CSS pixels once placed.
-    part
-        Left, top, width and height of what the picture shows, in CSS pixels.
-    shape
-        Rows and columns of the picture.
-
-    Examples
-    --------
-    >>> touched([], (0.0, 0.0, 4.0, 2.0), (2, 4)).tolist()
-    [[False, False, False, False], [False, False, False, False]]
+    ``part`` is left, top, width and height of what the picture shows, in CSS pixels, ``shape`` its
+    rows and columns.
     """
     found = np.zeros(shape[:2], dtype=bool)
     px = max(part[2:]) / max(shape)
@@ -105,13 +94,7 @@ _FAINTEST = 0.5 / 255
 
 
 def needs_tracing(root: ET.Element) -> bool:
-    """Whether a clean drawing uses anything that shapes and plain clips do not tell.
-
-    Examples
-    --------
-    >>> needs_tracing(ET.fromstring("<svg><g><text>a</text></g></svg>"))
-    True
-    """
+    """Whether a clean drawing uses anything that shapes and plain clips do not tell."""
     return any(
         element.tag in TRACED or (element.tag == "clipPath" and not _is_plain(element))
         for element in root.iter()
@@ -128,30 +111,9 @@ def traced_ink(
 ) -> TracedInk:
     """Region in which a clean drawing is more opaque than not, in CSS pixels; possibly empty.
 
-    Opacities above zero count as full: a faint shape is a shape.
-
-    Parameters
-    ----------
-    threshold
-        Opacity from which what is traced is inside, as a share of the most opaque place's.
-    shapes
-        What it paints, as far as known: lines of them that a coarse picture is too coarse
-        to show count as shown.
-
-    Raises
-    ------
-    UnfitError
-        If resvg cannot render the drawing, or not in reasonable time.
-
-    Examples
-    --------
-    >>> from packwork.readers.svg_syntax.coordinates import read_page
-    >>> from packwork.readers.budget.rendering import work_of
-    >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
-    >>> page = read_page(root)
-    >>> part = (0.0, 0.0, 20.0, 20.0)
-    >>> round(traced_ink(root, page, part, work_of(root, [], page)).whole.area)
-    100
+    Opacities above zero count as full: a faint shape is a shape. From ``threshold``, a share of the
+    most opaque place's opacity, it is inside. Of ``shapes``, which it is known to paint, lines that
+    a coarse picture is too coarse to show count as shown.
     """
     if part is None:
         return TracedInk(Polygon(), Polygon())
@@ -163,13 +125,7 @@ def traced_ink(
 
 
 def is_plain_enough(region: Region) -> bool:
-    """Whether an outline has no more points and rings than an item may have.
-
-    Examples
-    --------
-    >>> is_plain_enough(shapely.box(0, 0, 1, 1))
-    True
-    """
+    """Whether an outline has no more points and rings than an item may have."""
     rings = shapely.get_rings(polygon_parts(region))
     points = int(shapely.get_num_coordinates(rings).sum())
     return points <= MAX_POINTS and len(rings) <= MAX_RINGS
@@ -178,13 +134,6 @@ def is_plain_enough(region: Region) -> bool:
 def inked_part(root: ET.Element, page: Page, work: Work) -> View | None:
     """Box of what a clean drawing shows on its page, with a margin; None if nothing.
 
-    Raises
-    ------
-    UnfitError
-        If resvg cannot render the drawing, or not in reasonable time.
-
-    Examples
-    --------
     >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> from packwork.readers.budget.rendering import work_of
     >>> root = ET.fromstring('<svg width="100" height="50"><rect width="10" height="9"/></svg>')

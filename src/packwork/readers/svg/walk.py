@@ -36,20 +36,8 @@ from packwork.readers.svg_syntax.vocabulary import HREF, NEVER_DRAWN, SHAPES
 
 
 def painted_shapes(root: ET.Element, page: Page | None, most: int = MAX_SEGMENTS) -> list[Painted]:
-    """Every shape of a clean drawing that leaves ink, in painting order.
+    """Shapes of a clean drawing that leave ink, in painting order, of at most ``most`` segments.
 
-    Parameters
-    ----------
-    most
-        Segments of all, repeats counted, that are taken.
-
-    Raises
-    ------
-    UnfitError
-        If numbers are not finite or absurd, or there are too many segments.
-
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><circle r="3"/><path d="M0 0h1" fill="none"/></svg>')
     >>> len(painted_shapes(root, None))
     1
@@ -60,13 +48,6 @@ def painted_shapes(root: ET.Element, page: Page | None, most: int = MAX_SEGMENTS
 def placed_texts(root: ET.Element, page: Page | None) -> list[PlacedText]:
     """Every text element of a clean drawing that is drawn in its own place.
 
-    Raises
-    ------
-    UnfitError
-        If numbers are not finite or absurd, or there are too many segments.
-
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><g transform="scale(2)"><text>a</text></g></svg>')
     >>> [(text.matrix[0, 0].item(), len(text.above)) for text in placed_texts(root, None)]
     [(2.0, 2)]
@@ -284,8 +265,6 @@ def scale_steady_strokes(root: ET.Element, page: Page | None) -> None:
 
     A shape that is used several times is as its first use has it.
 
-    Examples
-    --------
     >>> text = '<g transform="scale(4)"><path vector-effect="non-scaling-stroke" {}/></g>'
     >>> line = text.format('d="M0 0h9" stroke="red" stroke-width="2"')
     >>> root = ET.fromstring(f"<svg>{line}</svg>")

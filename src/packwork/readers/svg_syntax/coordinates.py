@@ -36,13 +36,6 @@ _NOT_FINITE = re.compile(r"[-+]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
 def parse_length(text: str | None, percent_of: float) -> float | None:
     """Length in CSS pixels; None if there is none or it is not one (``auto``).
 
-    Raises
-    ------
-    UnfitError
-        If the number is not finite or absurdly large.
-
-    Examples
-    --------
     >>> parse_length("25.4mm", 0), parse_length("50%", 30), parse_length("auto", 0)
     (96.0, 15.0, None)
     """
@@ -61,13 +54,6 @@ def parse_length(text: str | None, percent_of: float) -> float | None:
 def parse_numbers(text: str | None) -> list[float]:
     """Numbers of a list, parted by spaces or commas, up to the first thing that is none.
 
-    Raises
-    ------
-    UnfitError
-        If one of them is not finite or absurdly large.
-
-    Examples
-    --------
     >>> parse_numbers("0,0 10-5 1e1 oops 3")
     [0.0, 0.0, 10.0, -5.0, 10.0]
     """
@@ -84,18 +70,7 @@ def parse_numbers(text: str | None) -> list[float]:
 
 
 def checked(number: float) -> float:
-    """The number itself, if a drawing can be made with it.
-
-    Raises
-    ------
-    UnfitError
-        If it is not finite or its size is beyond ``MAX_COORDINATE``.
-
-    Examples
-    --------
-    >>> checked(2.5)
-    2.5
-    """
+    """The number itself, if a drawing can be made with it."""
     if not -MAX_COORDINATE <= number <= MAX_COORDINATE:
         raise UnfitError(
             f"holds the coordinate {number:g}; numbers up to {MAX_COORDINATE:g} can be used"
@@ -106,8 +81,6 @@ def checked(number: float) -> float:
 def refuse_not_finite(text: str) -> None:
     """Refuse a text that spells NaN or infinity where a number should stand.
 
-    Examples
-    --------
     >>> refuse_not_finite("M 0 NaN")
     Traceback (most recent call last):
     packwork.readers.reading.UnfitError: holds the coordinate NaN; give finite numbers
@@ -125,8 +98,6 @@ _DEGREES = {"deg": 1.0, "grad": 0.9, "rad": 180 / math.pi, "turn": 360.0, "px": 
 def parse_transform(text: str | None) -> FloatArray:
     """Map of a ``transform`` attribute or property; the identity if it is none.
 
-    Examples
-    --------
     >>> parse_transform("translate(10) scale(2)").tolist()
     [[2.0, 0.0, 10.0], [0.0, 2.0, 0.0]]
     """
@@ -147,17 +118,10 @@ def parse_transform(text: str | None) -> FloatArray:
 def view_matrix(
     view: tuple[float, float, float, float], width: float, height: float, fit: str
 ) -> FloatArray:
-    """Map of a ``viewBox`` into a viewport of ``width`` x ``height`` at the origin.
+    """Map of a ``viewBox`` of positive size into a viewport at the origin.
 
-    Parameters
-    ----------
-    view
-        Left, top, width and height of the box, both sizes positive.
-    fit
-        ``preserveAspectRatio``; empty means ``xMidYMid meet``.
+    ``fit`` is ``preserveAspectRatio``; empty means ``xMidYMid meet``.
 
-    Examples
-    --------
     >>> view_matrix((0, 0, 10, 10), 40, 20, "").tolist()
     [[2.0, 0.0, 10.0], [0.0, 2.0, 0.0]]
     """
@@ -228,10 +192,7 @@ PLAIN_VIEWPORT: Viewport = (100.0, 100.0)
 class Page:
     """The rectangle of a drawing that viewers show, in CSS pixels from the origin.
 
-    Parameters
-    ----------
-    matrix
-        2 x 3 map from the root's user units to CSS pixels.
+    ``matrix`` maps (2 x 3) the root's user units to CSS pixels.
     """
 
     width: float
@@ -242,13 +203,6 @@ class Page:
 def read_page(root: ET.Element) -> Page | None:
     """Page of a clean ``<svg>``; None if it states neither its size nor a ``viewBox``.
 
-    Raises
-    ------
-    UnfitError
-        If the page or its ``viewBox`` has no area.
-
-    Examples
-    --------
     >>> page = read_page(ET.Element("svg", {"viewBox": "0 0 24 12", "width": "1in"}))
     >>> page.width, page.height, page.matrix[0, 0].item()
     (96.0, 48.0, 4.0)
@@ -272,13 +226,6 @@ def read_page(root: ET.Element) -> Page | None:
 def view_box(element: ET.Element) -> tuple[float, float, float, float] | None:
     """Left, top, width and height of a ``viewBox``, if the element has one.
 
-    Raises
-    ------
-    UnfitError
-        If it has no area.
-
-    Examples
-    --------
     >>> view_box(ET.Element("svg", {"viewBox": "0,0,2,1"}))
     (0.0, 0.0, 2.0, 1.0)
     """
@@ -294,8 +241,6 @@ def view_box(element: ET.Element) -> tuple[float, float, float, float] | None:
 def root_viewport(root: ET.Element, page: Page | None) -> Viewport:
     """Width and height in user units that percentages in a clean drawing refer to.
 
-    Examples
-    --------
     >>> root_viewport(ET.Element("svg", {"viewBox": "0 0 2 1"}), None)
     (2.0, 1.0)
     """

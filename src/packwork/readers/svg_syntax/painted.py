@@ -44,8 +44,6 @@ class StrokeStyle:
 
     Parameters
     ----------
-    width
-        Full width, positive.
     cap, join
         SVG's words.
     miter_limit
@@ -73,8 +71,6 @@ class StrokeStyle:
 class Painting:
     """Inherited properties that decide where ink goes.
 
-    Examples
-    --------
     >>> Painting().inherited({"fill": "none", "stroke": "#123"}, 1.0).has_stroke
     True
     """
@@ -100,15 +96,7 @@ class Painting:
         return self.pen.width > 0 and self._is_ink(self.stroke, self.stroke_opacity)
 
     def inherited(self, attributes: Mapping[str, str], diagonal: float) -> Painting:
-        """Painting of an element inside this one.
-
-        Parameters
-        ----------
-        attributes
-            Of a clean element.
-        diagonal
-            What percentages of the stroke's width refer to.
-        """
+        """Painting of a clean element inside this one; strokes' percentages are of ``diagonal``."""
         set_here = {
             k: v for k, v in attributes.items() if k in _INHERITED and v not in {"inherit", ""}
         }
@@ -136,8 +124,6 @@ class Painting:
 def is_clear(colour: str) -> bool:
     """Whether a colour leaves nothing to be seen.
 
-    Examples
-    --------
     >>> [is_clear(c) for c in ("none", "#0000", "rgba(9,9,9,0.0)", "rgb(9,9,0)", "red")]
     [True, True, True, False, False]
     """
@@ -149,8 +135,6 @@ def is_clear(colour: str) -> bool:
 def opacity(text: str | None, otherwise: float) -> float:
     """Opacity from 0 to 1 as a number or in percent.
 
-    Examples
-    --------
     >>> opacity("50%", 1.0), opacity(None, 1.0), opacity("-1", 1.0)
     (0.5, 1.0, 0.0)
     """
@@ -239,13 +223,7 @@ class Painted:
 
 @dataclass(frozen=True, eq=False)
 class Clip:
-    """A clip path where it is used.
-
-    Parameters
-    ----------
-    shapes
-        Those that let through what lies inside any of them.
-    """
+    """A clip path where it is used: it lets through what lies inside any of its shapes."""
 
     shapes: tuple[Painted, ...]
 
@@ -275,18 +253,7 @@ Box: TypeAlias = tuple[float, float, float, float]
 
 
 def drawing_box(shapes: Iterable[Painted]) -> Box | None:
-    """Box round control points and pens that can show; None if nothing can.
-
-    Raises
-    ------
-    UnfitError
-        If coordinates are absurd.
-
-    Examples
-    --------
-    >>> drawing_box([]) is None
-    True
-    """
+    """Box round control points and pens that can show; None if nothing can."""
     boxes = [box for shape in shapes if (box := shown_box(shape)) is not None]
     if not boxes:
         return None
@@ -297,15 +264,7 @@ def drawing_box(shapes: Iterable[Painted]) -> Box | None:
 def shown_box(shape: Painted, *, is_safe: bool = False) -> Box | None:
     """Box of what can show of one shape: cut by its windows and clips.
 
-    Parameters
-    ----------
-    is_safe
-        Whether the box is to hold the farthest corners that the pen may draw.
-
-    Raises
-    ------
-    UnfitError
-        If coordinates are absurd.
+    ``is_safe`` holds the farthest corners that the pen may draw.
     """
     box: Box | None = whole_box(shape, is_safe=is_safe)
     if shape.window is not None:
@@ -320,16 +279,7 @@ def shown_box(shape: Painted, *, is_safe: bool = False) -> Box | None:
 def whole_box(shape: Painted, *, is_safe: bool = False) -> Box:
     """Box of one shape's control points and half its pen's width, uncut.
 
-    Parameters
-    ----------
-    is_safe
-        Whether the box is to hold the farthest corners that the pen may draw, which
-        hardly ever are drawn.
-
-    Raises
-    ------
-    UnfitError
-        If coordinates are absurd.
+    ``is_safe`` holds the farthest corners that the pen may draw, which hardly ever are drawn.
     """
     left, top, right, bottom = shape.bounds
     margin = 0.0
@@ -344,13 +294,7 @@ def whole_box(shape: Painted, *, is_safe: bool = False) -> Box:
 
 
 def is_inside(window: Region, box: Box) -> bool:
-    """Whether a box lies within a region.
-
-    Examples
-    --------
-    >>> is_inside(shapely.box(0, 0, 4, 4), (0.0, 1.0, 4.0, 3.0))
-    True
-    """
+    """Whether a box lies within a region."""
     left, top, right, bottom = window.bounds
     if not (left <= box[0] and top <= box[1] and box[2] <= right and box[3] <= bottom):
         return False
@@ -360,8 +304,6 @@ def is_inside(window: Region, box: Box) -> bool:
 def stretch(matrix: FloatArray) -> float:
     """Greater singular value of a 2 x 3 map: the largest factor by which it lengthens.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> stretch(np.array([[0.0, -3.0, 5.0], [2.0, 0.0, 7.0]]))
     3.0

@@ -38,15 +38,9 @@ def arc_cubics(
 ) -> list[Step]:
     """Cubics along the arc from ``start`` to ``end``; none if the two are the same.
 
-    Parameters
-    ----------
-    axes
-        Both radii, grown where they are too short, and the turn of the first in degrees.
-    large, sweep
-        The two flags of path data, 0 or 1.
+    ``axes`` are both radii, grown where they are too short, and the turn of the first in degrees;
+    ``large`` and ``sweep`` the two flags of path data, 0 or 1.
 
-    Examples
-    --------
     >>> len(arc_cubics((0.0, 0.0), (2.0, 0.0), (1, 1, 0), 0, 1))
     8
     """
@@ -73,8 +67,6 @@ def arc_cubics(
 def circle_cubics(centre: Point, radius: float, begin_rad: float, span_rad: float) -> list[Step]:
     """Cubics of equal angle along a circular arc.
 
-    Examples
-    --------
     >>> len(circle_cubics((0.0, 0.0), 1.0, 0.0, 2 * math.pi))
     16
     """
@@ -151,13 +143,6 @@ class SubPath:
 def parse_path(data: str) -> list[SubPath]:
     """Pieces of a path up to the first error in its data.
 
-    Raises
-    ------
-    UnfitError
-        If a coordinate is not finite or absurd, or there are too many segments.
-
-    Examples
-    --------
     >>> [(len(p.segments), p.is_closed) for p in parse_path("M0 0h4v4z m9 9l1 1 oops")]
     [(2, True), (1, False)]
     """

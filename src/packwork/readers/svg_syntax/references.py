@@ -26,13 +26,7 @@ _HEAD = re.compile(r"data:image/(png|jpeg|jpg|webp|gif)\s*;\s*base64\s*,", re.IG
 
 
 def embedded_size(reference: str) -> tuple[int, int] | None:
-    """Width and height in pixels of an embedded picture, None if it is not usable.
-
-    Examples
-    --------
-    >>> embedded_size("data:image/png;base64,####") is None
-    True
-    """
+    """Width and height in pixels of an embedded picture, None if it is not usable."""
     data = embedded_bytes(reference)
     return None if data is None else picture_size(data)
 
@@ -68,8 +62,6 @@ _TARGETS = {
 def elements_by_id(root: ET.Element) -> dict[str, ET.Element]:
     """First element of each id, in document order.
 
-    Examples
-    --------
     >>> list(elements_by_id(ET.fromstring('<svg><g id="a"/><g/></svg>')))
     ['a']
     """
@@ -83,8 +75,6 @@ def elements_by_id(root: ET.Element) -> dict[str, ET.Element]:
 def referenced_ids(element: ET.Element) -> Iterator[tuple[str, str]]:
     """Attribute and id for each reference the element itself makes.
 
-    Examples
-    --------
     >>> list(referenced_ids(ET.Element("g", {"fill": "url(#a) red"})))
     [('fill', 'a')]
     """
@@ -99,8 +89,6 @@ def referenced_ids(element: ET.Element) -> Iterator[tuple[str, str]]:
 def paint_server(value: str) -> str | None:
     """Id of the gradient or pattern that a paint names, None for a colour.
 
-    Examples
-    --------
     >>> paint_server("url(#a) red"), paint_server("red")
     ('a', None)
     """
@@ -111,8 +99,6 @@ def paint_server(value: str) -> str | None:
 def rename_references(element: ET.Element, renamed: Callable[[str], str]) -> None:
     """Rewrite the element's own id and all ids it refers to, in place.
 
-    Examples
-    --------
     >>> use = ET.Element("use", {"id": "u", "xlink:href": "#a"})
     >>> rename_references(use, lambda name: "x-" + name)
     >>> use.attrib
@@ -133,8 +119,6 @@ def drop_dangling(root: ET.Element) -> None:
     Programs disagree about them: some hide the element, some paint it black. Patterns
     may paint plain shapes only, whose size is known, not what masks and groups hold.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><path fill="url(#none) red" mask="url(#none)"/></svg>')
     >>> drop_dangling(root)
     >>> root[0].attrib
@@ -148,8 +132,6 @@ def prune_hidden(root: ET.Element) -> None:
 
     What something refers to stays.
 
-    Examples
-    --------
     >>> root = ET.fromstring('<svg><g display="none"><text>a</text></g><image/><g/></svg>')
     >>> prune_hidden(root)
     >>> ET.tostring(root).decode()
@@ -174,8 +156,6 @@ def _is_flat(element: ET.Element) -> bool:
 def prune_unused(root: ET.Element) -> None:
     """Take out never-drawn elements that nothing drawn refers to, and ids without use, in place.
 
-    Examples
-    --------
     >>> text = '<svg><defs><path id="a"/><g id="b"/></defs><g fill="url(#a)" id="c"/></svg>'
     >>> root = ET.fromstring(text)
     >>> prune_unused(root)

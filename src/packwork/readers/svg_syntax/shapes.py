@@ -16,21 +16,13 @@ from packwork.readers.svg_syntax.path_data import MAX_SEGMENTS, SubPath, circle_
 
 
 def diagonal(viewport: Viewport) -> float:
-    """Length to which percentages refer that are neither of widths nor of heights.
-
-    Examples
-    --------
-    >>> diagonal((10.0, 10.0))
-    10.0
-    """
+    """Length to which percentages refer that are neither of widths nor of heights."""
     return math.hypot(*viewport) / math.sqrt(2)
 
 
 def shape_pieces(element: ET.Element, viewport: Viewport) -> list[SubPath]:
     """Pieces of one clean shape element in its own units; none if it does not show.
 
-    Examples
-    --------
     >>> box = ET.Element("rect", {"width": "50%", "height": "4"})
     >>> shape_pieces(box, (10.0, 10.0))[0].segments[0, 3].tolist()
     [5.0, 0.0]
@@ -39,21 +31,13 @@ def shape_pieces(element: ET.Element, viewport: Viewport) -> list[SubPath]:
 
 
 def flattened(piece: SubPath, tolerance: float) -> FloatArray:
-    """Polyline ``(n, 2)`` within ``tolerance`` of a piece, not closed by repetition.
-
-    Examples
-    --------
-    >>> flattened(parse_path("M0 0h4v4z")[0], 0.1).tolist()
-    [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]
-    """
+    """Polyline ``(n, 2)`` within ``tolerance`` of a piece, not closed by repetition."""
     return flattened_all([piece], tolerance)[0]
 
 
 def flattened_all(pieces: Sequence[SubPath], tolerance: float) -> list[FloatArray]:
     """Polylines of several pieces at once, which is faster than one by one.
 
-    Examples
-    --------
     >>> [len(line) for line in flattened_all(parse_path("M0 0h4v4z M9 9h1"), 0.1)]
     [3, 2]
     """
@@ -79,8 +63,6 @@ def flattened_all(pieces: Sequence[SubPath], tolerance: float) -> list[FloatArra
 def step_counts(cubics: FloatArray, tolerance: float) -> FloatArray:
     """Chords that each of ``(k, 4, 2)`` cubics needs, from the bound in ``bezier``.
 
-    Examples
-    --------
     >>> step_counts(parse_path("M0 0h4 c0 8 8 8 8 0")[0].segments, 0.1).tolist()
     [1.0, 10.0]
     """
@@ -158,8 +140,6 @@ def _polygon(element: ET.Element, _: Viewport) -> list[SubPath]:
 def points_of(element: ET.Element) -> list[tuple[float, float]]:
     """Corners of a polygon or a polyline, in its own units.
 
-    Examples
-    --------
     >>> points_of(ET.Element("polyline", {"points": "0 0 2,1.5"}))
     [(0.0, 0.0), (2.0, 1.5)]
     """

@@ -67,8 +67,6 @@ _D50 = np.array([0.9642956764, 1.0, 0.8251046025])
 def plain_colour(value: str) -> str:
     """A colour by functions of newer CSS as ``#rrggbbaa``; anything else as it was.
 
-    Examples
-    --------
     >>> plain_colour("hwb(120 0% 0%)"), plain_colour("oklch(100% 0 0 / 50%)")
     ('#00ff00', '#ffffff80')
     >>> plain_colour("color-mix(in srgb, red, blue)"), plain_colour("red")
@@ -91,13 +89,7 @@ def _hex(channels: FloatArray, opacity: float) -> str:
 
 
 def _linear(text: str) -> Linear:
-    """Any colour.
-
-    Raises
-    ------
-    ValueError
-        If it is none.
-    """
+    """Any colour."""
     text = text.strip()
     call = _CALL.fullmatch(text)
     name = call[1].lower() if call is not None else ""

@@ -21,17 +21,8 @@ _ROUNDS = 4
 def with_variables(
     outer: Mapping[str, str], declared: Mapping[str, str]
 ) -> tuple[Mapping[str, str], dict[str, str]]:
-    """Variables inside an element, and what else is declared on it.
+    """Variables inside an element that stands in ``outer``, and what else is declared on it.
 
-    Parameters
-    ----------
-    outer
-        Variables of what the element stands in.
-    declared
-        Values by property, variables among them.
-
-    Examples
-    --------
     >>> with_variables({"--a": "1"}, {"--b": "var(--a)", "fill": "red"})
     ({'--a': '1', '--b': '1'}, {'fill': 'red'})
     """
@@ -47,8 +38,6 @@ def with_variables(
 def filled_in(value: str, variables: Mapping[str, str]) -> str:
     """The value with its variables replaced, or what stands in for those that are not set.
 
-    Examples
-    --------
     >>> filled_in("var(--ink, black)", {}), filled_in("var(--ink)", {"--ink": "rgb(1,2,3)"})
     ('black', 'rgb(1,2,3)')
     """
@@ -170,13 +159,7 @@ _HARMLESS = frozenset({"none", "auto", "normal", "initial", "0s", "1"})
 
 @dataclass(frozen=True)
 class Declarations:
-    """Properties that a block sets.
-
-    Parameters
-    ----------
-    values
-        By property, variables among them, each with whether it is marked important.
-    """
+    """Values that a block sets, by property, each with whether it is marked important."""
 
     values: Mapping[str, tuple[str, bool]]
     lost: frozenset[str] = field(default=frozenset())
@@ -186,8 +169,6 @@ class Declarations:
 def parse_declarations(text: str) -> Declarations:
     """Values by known property, each with whether it is marked important.
 
-    Examples
-    --------
     >>> parse_declarations("fill: red; stroke:none !important; oops").values
     {'fill': ('red', False), 'stroke': ('none', True)}
     >>> parse_declarations("animation: turn 2s").lost

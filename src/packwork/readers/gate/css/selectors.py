@@ -20,19 +20,8 @@ from packwork.readers.reading import spend
 
 @final
 class Node:
-    """One element of the file, before anything was taken out.
+    """One element of the file, before anything was taken out, with its nearest elder sibling.
 
-    Parameters
-    ----------
-    element
-        As parsed, names with their namespaces.
-    parent
-        None of the root.
-    before
-        Its nearest elder sibling.
-
-    Examples
-    --------
     >>> root = Node(ET.fromstring('<svg><g/><path class="a b"/><g/></svg>'), None, None)
     >>> path = root.children[1]
     >>> path.tag, sorted(path.classes), path.place(True, False), root.children[2].place(False, True)
@@ -70,15 +59,7 @@ class Node:
         return len(self.element) == 0 and not self.element.text
 
     def place(self, from_end: bool, of_type: bool) -> int:
-        """Number among its siblings, from 1.
-
-        Parameters
-        ----------
-        from_end
-            Whether the last one is the first.
-        of_type
-            Whether only those of its own tag count.
-        """
+        """Number among its siblings, from 1, from the end or of its own tag."""
         return 1 if self.parent is None else self.parent._numbers(from_end, of_type)[self]
 
     def _numbers(self, from_end: bool, of_type: bool) -> dict[Node, int]:
@@ -159,14 +140,7 @@ class UnknownSelectorError(Exception):
 class Compound:
     """One step of a selector: what a single element has to be.
 
-    Parameters
-    ----------
-    tag, ids, classes
-        Looked up at once.
-    tests
-        All other conditions.
-    weight
-        Specificity, as ids, classes and types.
+    ``weight`` is its specificity, as ids, classes and types.
     """
 
     tag: str | None = None
@@ -195,14 +169,9 @@ class Compound:
 
 @dataclass(frozen=True, eq=False)
 class Selector:
-    """Steps from the element outwards, and how each next one stands to the one before.
+    """Steps of a selector, the element's own first.
 
-    Parameters
-    ----------
-    steps
-        The element's own first.
-    relations
-        Of the second step on: a space, ``>``, ``+`` or ``~``.
+    ``relations`` are those of the second step on to the one before: a space, ``>``, ``+`` or ``~``.
     """
 
     steps: tuple[Compound, ...]
@@ -249,13 +218,6 @@ def _related(node: Node | None, relation: str, step: Compound) -> Node | None:
 def parse_selector(text: str, depth: int = 0) -> Selector:
     """Selector without commas.
 
-    Raises
-    ------
-    UnknownSelectorError
-        If it asks for anything that is not known.
-
-    Examples
-    --------
     >>> selector = parse_selector("g > path.a:not([fill])")
     >>> selector.specificity, selector.relations
     ((0, 2, 2), ('>',))
@@ -289,8 +251,6 @@ def parse_selector(text: str, depth: int = 0) -> Selector:
 def split_outside(text: str, mark: str) -> list[str]:
     """Parts of a text between marks that stand in no brackets and no quotes.
 
-    Examples
-    --------
     >>> split_outside("a, :is(b, c), [d=',']", ",")
     ['a', ' :is(b, c)', " [d=',']"]
     """

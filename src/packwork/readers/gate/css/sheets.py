@@ -63,15 +63,8 @@ class StyleRule:
 
 @dataclass
 class StyleSheet:
-    """All rules of a drawing.
+    """All rules of a drawing, whose size is for media queries; None if it states none.
 
-    Parameters
-    ----------
-    width, height
-        Of the drawing, for media queries; None if it states none.
-
-    Examples
-    --------
     >>> sheet = StyleSheet()
     >>> sheet.add("@import 'x'; path, g > .a {fill:red} @media print {g {fill:none}}")
     >>> [rule.specificity for rule in sheet.rules], sheet.lost
@@ -84,13 +77,7 @@ class StyleSheet:
     lost: set[str] = field(default_factory=set)
 
     def add(self, text: str) -> None:
-        """Add the rules of one ``<style>``.
-
-        Raises
-        ------
-        UnfitError
-            If there are too many of them.
-        """
+        """Add the rules of one ``<style>``."""
         plain = COMMENT.sub(" ", text)
         if re.search(r"@import\b", plain):
             self.lost.add("other style sheets")
@@ -223,11 +210,7 @@ _Layers: TypeAlias = tuple[Mapping[str, str], Mapping[str, str]]
 class Cascade:
     """Rules of a document, found quickly by what their first step asks for.
 
-    Examples
-    --------
     >>> import xml.etree.ElementTree as ET
-    >>> from packwork.readers.gate.css.declarations import parse_declarations
-    >>> from packwork.readers.gate.css.sheets import StyleSheet
     >>> sheet = StyleSheet(); sheet.add(".a {fill:blue; stroke:none}")
     >>> path = ET.Element("path", {"class": "a", "style": "stroke:red"})
     >>> Cascade(sheet.rules).declared(Node(path, None, None), parse_declarations("stroke:red"))
@@ -242,13 +225,7 @@ class Cascade:
         self._merged: dict[tuple[_Signature, tuple[int, ...]], _Layers] = {}
 
     def declared(self, node: Node, inline: Declarations) -> dict[str, str]:
-        """Properties that rules and the ``style`` attribute set on an element.
-
-        Raises
-        ------
-        TooRichError
-            If the document as a whole asks for too many comparisons.
-        """
+        """Properties that rules and the ``style`` attribute set on an element."""
         plain, important = self._of_rules(node) if self._by_key else ({}, {})
         values = {**plain}
         values |= {name: text for name, (text, mark) in inline.values.items() if not mark}
