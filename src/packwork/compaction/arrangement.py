@@ -34,15 +34,9 @@ PAIRS_PER_ITEM = 16
 class Arrangement:
     """Polygons that must not meet, in place: the items, and last all that is not container.
 
-    Parameters
-    ----------
-    outlines
-        One per item, canvas units, about the item's own origin: as large, turned and
-        stretched as when ``places`` is zero but for the position.
-    container
-        In canvas units.
-    places
-        ``(n, 4)``: x, y, turn in radians, logarithm of growth.
+    ``outlines``: one per item, canvas units, about the item's own origin: as large, turned and
+    stretched as when ``places`` is zero but for the position; ``container``: in canvas units;
+    ``places``: ``(n, 4)``: x, y, turn in radians, logarithm of growth.
     """
 
     def __init__(self, outlines: Sequence[Outline], container: Outline, places: FloatArray) -> None:
@@ -79,8 +73,6 @@ class Arrangement:
     def put(self, items: IntArray, places: FloatArray) -> None:
         """Put items ``(m,)`` to places ``(m, 4)``: x, y, turn, growth, as in the class.
 
-        Examples
-        --------
         >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
         >>> two = Arrangement([box] * 2, box, np.zeros((2, 4)))
         >>> two.put(np.array([1]), np.array([[5.0, 0.0, 0.0, np.log(2)]]))
@@ -116,8 +108,6 @@ class Arrangement:
     def conflicts(self, pairs: IntArray, gap: float) -> IntArray:
         """Those of pairs ``(k, 2)`` nearer than ``gap``, canvas units, that meet or stick out.
 
-        Examples
-        --------
         >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
         >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
         >>> two = Arrangement([box] * 2, wall, np.array([[0.0, 0, 0, 0], [2.5, 0, 0, 0]]))
@@ -161,14 +151,8 @@ items. Tried."""
 class Detail:
     """Covers of the outlines at one tolerance, finer ones inside coarser ones.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units; copies are simplified once.
-    container
-        In canvas units.
-    poses
-        First poses: their scales, angles and stretches are taken in.
+    ``outlines``: one per item, item units; copies are simplified once; ``container``: in canvas
+    units; ``poses``: first poses: their scales, angles and stretches are taken in.
     """
 
     def __init__(self, outlines: Sequence[Outline], container: Outline, poses: Poses) -> None:
@@ -177,8 +161,6 @@ class Detail:
     def tolerance(self, least: float, distance_cu: float) -> float:
         """A distance in shares of the usual item's extent; no less than ``least``.
 
-        Examples
-        --------
         >>> one = np.ones(1)
         >>> tile = Outline.from_rings([np.array([[0.0, 0], [9, 0], [9, 9], [0, 9]])])
         >>> detail = Detail([tile], tile, Poses(one, one, one, 2 * one))
@@ -229,12 +211,8 @@ canvas, the smallest gap is 1e-5 of it."""
 class Conflict:
     """An item in conflict with another one, or with the container if ``other`` is None.
 
-    Parameters
-    ----------
-    overlap_cu2
-        Area that they share, or that lies outside the container.
-    gap_cu
-        Their distance if they share none.
+    ``overlap_cu2``: area that they share, or that lies outside the container; ``gap_cu``: their
+    distance if they share none.
     """
 
     item: int
@@ -253,8 +231,6 @@ def find_conflicts(
 ) -> tuple[Conflict, ...]:
     """Pairs nearer than ``gap``, and items nearer to the container's edge or beyond it.
 
-    Examples
-    --------
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]]))
     >>> poses = Poses(np.array([4.0, 5.5]), np.full(2, 5.0), np.zeros(2), np.ones(2))

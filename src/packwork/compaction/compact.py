@@ -44,18 +44,10 @@ def compact(
 
     The arrangement has no conflicts and gets none.
 
-    Parameters
-    ----------
-    arrangement
-        Changed in place.
-    items
-        ``(m,)`` indices of those that move, neighbours near each other in the list.
-    trust
-        Bound of each move, and of turns and growths at an item's farthest vertex.
-    gap
-        Least distance that the check asks for.
-    hair
-        The part of it that was not asked for.
+    ``arrangement``: changed in place; ``items``: ``(m,)`` indices of those that move, neighbours
+    near each other in the list; ``trust``: bound of each move, and of turns and growths at an
+    item's farthest vertex; ``gap``: least distance that the check asks for; ``hair``: the part of
+    it that was not asked for.
     """
     near = broad_phase.nearby(arrangement.board.boxes, items, gap + TRAVEL * trust)
     return _compacted(arrangement, objective, items, near, trust, gap, hair)
@@ -72,12 +64,8 @@ def compact_all(
 ) -> None:
     """Move all items by blocks of neighbours, those at once that do not touch.
 
-    Parameters
-    ----------
-    turn
-        Number of the round: others are cut elsewhere.
-    stop
-        Asked before each group of blocks that are moved at once; True leaves the others.
+    ``turn``: number of the round: others are cut elsewhere; ``stop``: asked before each group of
+    blocks that are moved at once; True leaves the others.
     """
     boxes = arrangement.board.boxes
     # What stands still is looked at from as far as two items come nearer; what moves, farther.
@@ -121,15 +109,8 @@ FRACTIONS = (0.5, 0.38, 0.62, 0.44, 0.56)
 def blocks(positions: FloatArray, turn: int, most: int = MOST_IN_BLOCK) -> list[IntArray]:
     """Indices of items in blocks of at most ``most``, each sorted along its longer side.
 
-    Parameters
-    ----------
-    positions
-        ``(n, 2)``.
-    turn
-        Number of the round: other numbers cut elsewhere.
+    ``positions``: ``(n, 2)``; ``turn``: number of the round: other numbers cut elsewhere.
 
-    Examples
-    --------
     >>> line = np.column_stack([np.arange(6.0), np.zeros(6)])
     >>> [block.tolist() for block in blocks(line, 0, 3)]
     [[0, 1, 2], [3, 4, 5]]
@@ -156,13 +137,8 @@ def colours(found: list[IntArray], boxes: FloatArray, reach: float) -> list[list
     Greedy colouring of the graph of neighbours (D. Welsh and M. Powell, "An upper bound for the
     chromatic number of a graph", The Computer Journal 10 (1967), 85-86), without their order.
 
-    Parameters
-    ----------
-    boxes
-        ``(n, 4)`` left, top, right, bottom of all items.
+    ``boxes``: ``(n, 4)`` left, top, right, bottom of all items.
 
-    Examples
-    --------
     >>> side_by_side = np.array([[x, 0.0, x + 1, 1.0] for x in range(4)])
     >>> [len(group) for group in colours([np.array([k]) for k in range(4)], side_by_side, 0.5)]
     [2, 2]

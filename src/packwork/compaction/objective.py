@@ -47,12 +47,8 @@ and a thousandth is not seen. Chosen."""
 class Sizing(ABC):
     """A size mode: objective of the next round, and the items that stayed behind.
 
-    Parameters
-    ----------
-    areas
-        ``(n,)`` of the items at growth 0, squared canvas units.
-    turns
-        Farthest turns back and on, ``(n,)`` each, rad.
+    ``areas``: ``(n,)`` of the items at growth 0, squared canvas units; ``turns``: farthest turns
+    back and on, ``(n,)`` each, rad.
     """
 
     def __init__(self, areas: FloatArray, turns: tuple[FloatArray, FloatArray]) -> None:
@@ -169,8 +165,6 @@ class FixedSize(CommonSize):
 def turn_ranges(angle: FloatArray, options: MoveOptions) -> tuple[FloatArray, FloatArray]:
     """Ranges in which items at these angles may turn back and on, ``(n,)`` each.
 
-    Examples
-    --------
     >>> back, on = turn_ranges(np.array([0.1]), MoveOptions(turn_limit=0.5))
     >>> back.round(6).tolist(), on.round(6).tolist()
     ([-0.6], [0.4])

@@ -74,8 +74,6 @@ def outer_simplified(region: Region, tolerance: float) -> Region:
     lose vertices, and convex edges go by prolonging their neighbours: the excess is a
     third of what simplifying and growing by the tolerance would give.
 
-    Examples
-    --------
     >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
     >>> cover = outer_simplified(disc, 0.01)
     >>> bool(cover.covers(disc)), len(cover.exterior.coords) < 40
@@ -112,8 +110,6 @@ def _grown(region: Region, tolerance: float) -> Region:
 def inner_simplified(region: Region, tolerance: float) -> Region:
     """Region with fewer vertices that lies inside ``region``: a container's safe side.
 
-    Examples
-    --------
     >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
     >>> bool(disc.covers(inner_simplified(disc, 0.01)))
     True
@@ -167,8 +163,6 @@ _Key: TypeAlias = tuple[int | bytes, ...]
 class Covers:
     """Outer simplifications that remember parts.
 
-    Examples
-    --------
     >>> tile = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.01], [0, 4]])
     >>> covers = Covers()
     >>> two = covers.cover(Outline.from_rings([tile, tile + (9, 0)]), 0.1)
@@ -186,8 +180,6 @@ class Covers:
 
         Always called with one tolerance.
 
-        Examples
-        --------
         >>> tile = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.01], [0, 4]])
         >>> one, two = (Outline.from_rings([size * tile]) for size in (1, 3))
         >>> covers = Covers()

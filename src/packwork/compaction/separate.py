@@ -69,15 +69,9 @@ def separate(
     Only items in conflict change. Some conflicts may be left, if the container has no
     room at all.
 
-    Parameters
-    ----------
-    hopeless_at
-        Logarithm of size that an item loses before one is moved to a void.
-    hurries
-        Asked before each check; once it is so, items lose more at a time.
+    ``hopeless_at``: logarithm of size that an item loses before one is moved to a void;
+    ``hurries``: asked before each check; once it is so, items lose more at a time.
 
-    Examples
-    --------
     >>> from packwork.geometry.outline import Outline
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
@@ -143,8 +137,6 @@ def separate_evenly(
     Where one size is asked for in the end, the few that had to shrink by far would
     else have to grow back through neighbours that lie tight.
 
-    Examples
-    --------
     >>> from packwork.geometry.outline import Outline
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))

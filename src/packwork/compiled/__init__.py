@@ -37,12 +37,8 @@ def kernel(function: Any = None, /, **options: Any) -> Any:
 
     Kernels that call it call its machine code.
 
-    Parameters
-    ----------
-    function
-        What is compiled; None where options are given, as for ``@kernel(fastmath=True)``.
-    **options
-        Of ``numba.njit``, beside ``OUTER``.
+    ``function``: what is compiled; None where options are given, as for ``@kernel(fastmath=True)``;
+    ``**options``: of ``numba.njit``, beside ``OUTER``.
     """
     if function is None:
         return functools.partial(kernel, **options)

@@ -32,8 +32,6 @@ _NAME = re.compile(r"\w+")
 def fingerprint(module: str) -> str:
     """One word for the text of a module of kernels and of all those that it calls.
 
-    Examples
-    --------
     >>> import packwork.fields._kernels as kernels
     >>> fingerprint(kernels.__name__) == fingerprint(kernels.__name__)
     True
@@ -56,8 +54,6 @@ def called_by(source: str) -> set[str]:
 def holds_kernels(module: str) -> bool:
     """Whether compiled code may lie in a module: one called ``_kernels``, or in ``kernels/``.
 
-    Examples
-    --------
     >>> holds_kernels("packwork.solve._kernels"), holds_kernels("packwork.raster.kernels.overlay")
     (True, True)
     >>> holds_kernels("packwork.raster.kernels"), holds_kernels("packwork.raster.overlay")

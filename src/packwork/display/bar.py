@@ -44,13 +44,8 @@ class Bar(Observer, Protocol):
 def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None:
     """Bar where one is to be shown, which tells the observer too; else None.
 
-    Parameters
-    ----------
-    wanted
-        None: in a notebook only.
+    ``wanted``: None: in a notebook only.
 
-    Examples
-    --------
     >>> bar_for(None) is None
     True
     """
@@ -64,8 +59,6 @@ def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None
 def in_notebook() -> bool:
     """Whether a Jupyter kernel runs this; loads nothing to find out.
 
-    Examples
-    --------
     >>> in_notebook()
     False
     """
@@ -143,10 +136,7 @@ class NotebookBar:
 class TerminalBar:
     """A line on a terminal that is gone when the run is over; elsewhere a line now and then.
 
-    Parameters
-    ----------
-    console
-        Where the bar is drawn; if that is none or no terminal, standard error is asked.
+    ``console``: where the bar is drawn; if that is none or no terminal, standard error is asked.
     """
 
     every = EPOCHS_BETWEEN

@@ -11,18 +11,13 @@ from packwork.errors import PackworkError
 def found(module: str, otherwise: str) -> Any:
     """Module that is an extra of ours.
 
-    Parameters
-    ----------
-    otherwise
-        What does without it.
+    ``otherwise``: what does without it.
 
     Raises
     ------
     PackworkError
         If it is not installed, saying what to install.
 
-    Examples
-    --------
     >>> found("no_such_package", "save a picture")
     Traceback (most recent call last):
         ...

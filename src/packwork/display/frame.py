@@ -88,8 +88,6 @@ def _table(layout: Layout) -> dict[str, list[Any]]:
 def _cells(cells: Sequence[Any]) -> list[Any]:
     """Cells of a column: texts as numbers if all are some, nothing for what is missing.
 
-    Examples
-    --------
     >>> _cells(["1", "2.5", ""]), _cells(["01", "2"]), _cells(["a", "NA"])
     ([1, 2.5, None], ['01', '2'], ['a', None])
     """

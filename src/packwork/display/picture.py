@@ -35,8 +35,6 @@ def notebook_svg(layout: Layout) -> str | None:
 
     Some notebooks put the SVGs of all cells into one page, where each id must be unique.
 
-    Examples
-    --------
     >>> from packwork.scene.layout import blank
     >>> 'width="600" height="300" viewBox="0 0 200 100"' in notebook_svg(blank(200.0, 100.0, "mm"))
     True
@@ -59,8 +57,6 @@ def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
     WriteError
         If an item's drawing cannot be rendered.
 
-    Examples
-    --------
     >>> from packwork.scene.layout import blank
     >>> notebook_png(blank()) is None
     True

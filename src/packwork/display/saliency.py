@@ -50,10 +50,7 @@ def write_saliency(recipe: Recipe, path: Path) -> None:
 def saliency_png(source: str, quiet: QuietOptions) -> bytes:
     """PNG of the picture in grey, what stands out red, a line round what is filled.
 
-    Parameters
-    ----------
-    source
-        ``around:IMAGE``.
+    ``source``: ``around:IMAGE``.
 
     Raises
     ------

@@ -98,12 +98,8 @@ def _nearest_in_columns(mask):
 def _nearest_in_row(rows, r, away, columns):
     """Column in which the True pixel nearest to each pixel of a row lies.
 
-    Parameters
-    ----------
-    rows, r
-        Of the nearest in each column, and the row's own.
-    away, columns
-        Overwritten: squared distance down each column (-1 for none), and what is asked for.
+    ``rows``, ``r``: of the nearest in each column, and the row's own; ``away``, ``columns``:
+    overwritten: squared distance down each column (-1 for none), and what is asked for.
     """
     width = len(rows)
     for c in range(width):

@@ -28,8 +28,6 @@ Indices: TypeAlias = npt.NDArray[np.int32]
 def distance_to(mask: BoolArray) -> FloatArray:
     """Distance ``(rows, columns)``, px, of pixels from the nearest True one; infinite without one.
 
-    Examples
-    --------
     >>> distance_to(np.array([[True, False, False]])).tolist()
     [[0.0, 1.0, 2.0]]
     """
@@ -43,13 +41,8 @@ def distance_to(mask: BoolArray) -> FloatArray:
 def nearest_to(mask: BoolArray) -> tuple[Indices, Indices]:
     """Rows and columns, each ``(rows, columns)``, of the True pixel nearest to each pixel.
 
-    Parameters
-    ----------
-    mask
-        With one True pixel at least.
+    ``mask``: with one True pixel at least.
 
-    Examples
-    --------
     >>> nearest_to(np.array([[True, False, False]]))[1].tolist()
     [[0, 0, 0]]
     """
@@ -63,8 +56,6 @@ def label_components(mask: BoolArray) -> tuple[Indices, int]:
 
     Pixels are of one part if they share a side; those that are False are 0.
 
-    Examples
-    --------
     >>> labels, count = label_components(np.array([[True, False, True]]))
     >>> labels.tolist(), count
     ([[1, 0, 2]], 2)
@@ -78,8 +69,6 @@ def distance_inside(mask: BoolArray) -> FloatArray:
 
     What lies off the image counts as outside.
 
-    Examples
-    --------
     >>> distance_inside(np.ones((3, 3), dtype=bool)).tolist()[1]
     [0.5, 1.5, 0.5]
     """
@@ -97,8 +86,6 @@ def lengthwise(mask: BoolArray) -> FloatArray:
 
     Parts that do not touch follow each other from left to right, each from where the last ended.
 
-    Examples
-    --------
     >>> mask = np.array([[True, True, True], [False, False, True], [False, False, True]])
     >>> lengthwise(mask).round(1).tolist()
     [[0.0, 1.0, 2.0], [nan, nan, 2.4], [nan, nan, 3.4]]

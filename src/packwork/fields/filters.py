@@ -20,20 +20,13 @@ def box_mean(image: Image, size: int) -> Image:
 
     Linear and its own adjoint, so it also carries derivatives back.
 
-    Parameters
-    ----------
-    image
-        ``(rows, columns)``, float32 or float64, contiguous.
-    size
-        Odd, at least 1.
+    ``image``: ``(rows, columns)``, float32 or float64, contiguous; ``size``: odd, at least 1.
 
     Raises
     ------
     ShapeError
         If the size is even or below 1.
 
-    Examples
-    --------
     >>> box_mean(np.array([[0.0, 9.0, 0.0]]), 3).tolist()
     [[1.0, 1.0, 1.0]]
     """
@@ -71,14 +64,9 @@ def spectral_residual(picture: FloatArray) -> FloatArray:
     The logarithm of a picture's spectrum is smooth but for what is peculiar to it; what is left
     once the smooth part is off leads back to where that is.
 
-    Parameters
-    ----------
-    picture
-        ``(rows, columns, channels)``, 0..1, about 64 pixels long: the method finds what is as
-        large as a few pixels.
+    ``picture``: ``(rows, columns, channels)``, 0..1, about 64 pixels long: the method finds what is
+    as large as a few pixels.
 
-    Examples
-    --------
     >>> picture = np.random.default_rng(0).normal(0.5, 0.03, (48, 64, 1))
     >>> picture[20:26, 40:46] = 1.0
     >>> found = spectral_residual(picture)

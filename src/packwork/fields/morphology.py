@@ -24,8 +24,6 @@ def closed(mask: BoolArray, radius_px: float) -> BoolArray:
 
     What lies off the image counts as outside.
 
-    Examples
-    --------
     >>> ring = np.ones((3, 3), dtype=bool)
     >>> ring[1, 1] = False
     >>> bool(closed(ring, 1.0)[1, 1])
@@ -42,8 +40,6 @@ def opened(mask: BoolArray, radius_px: float) -> BoolArray:
 
     What lies off the image counts as outside.
 
-    Examples
-    --------
     >>> opened(np.array([[0, 0, 0, 1, 1, 1, 0], [1, 1, 0, 1, 1, 1, 0], [0, 0, 0, 1, 1, 1, 0]],
     ...        dtype=bool), 1.5)[1].astype(int).tolist()
     [0, 0, 0, 1, 1, 1, 0]
@@ -59,8 +55,6 @@ def eroded(mask: BoolArray, steps: int) -> BoolArray:
 
     What lies off the image counts as outside.
 
-    Examples
-    --------
     >>> eroded(np.ones((3, 4), dtype=bool), 1).astype(int).tolist()
     [[0, 0, 0, 0], [0, 1, 1, 0], [0, 0, 0, 0]]
     """
@@ -80,13 +74,8 @@ take longer. Chosen."""
 class Thickness:
     """Morphological openings of a region by discs of several radii.
 
-    Parameters
-    ----------
-    radii_px
-        ``(m,)``, growing.
-    missing
-        ``(m,)`` share of the region that is farther than some reach from every place that a
-        disc of that radius inside the region can cover; growing.
+    ``radii_px``: ``(m,)``, growing; ``missing``: ``(m,)`` share of the region that is farther than
+    some reach from every place that a disc of that radius inside the region can cover; growing.
     """
 
     radii_px: FloatArray
@@ -95,8 +84,6 @@ class Thickness:
     def radius_for(self, missing: float) -> float:
         """Largest radius whose discs leave no more than that share of the region unreached.
 
-        Examples
-        --------
         >>> Thickness(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.0, 0.4])).radius_for(0.2)
         2.8284271247461903
         """
@@ -113,8 +100,6 @@ class Thickness:
     def missing_for(self, radius_px: float) -> float:
         """Share of the region that discs of a radius leave unreached.
 
-        Examples
-        --------
         >>> Thickness(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.0, 0.4])).missing_for(4.0)
         0.4
         """
@@ -124,8 +109,6 @@ class Thickness:
 def thickness(mask: BoolArray, reach_px: float) -> Thickness:
     """Thickness of a mask ``(rows, columns)`` that holds at least one pixel; lengths in pixels.
 
-    Examples
-    --------
     >>> bar = np.zeros((30, 60), dtype=bool)
     >>> bar[10:20, 5:55] = True
     >>> 4.4 < thickness(bar, 1.0).radius_for(0.1) < 5.5
@@ -161,8 +144,6 @@ def medial_axis(mask: BoolArray) -> BoolArray:
     has the same axis, and the staircases of slanting edges grow no branches. Every part
     of the region keeps at least one pixel. What lies off the image counts as outside.
 
-    Examples
-    --------
     >>> medial_axis(np.ones((3, 6), dtype=bool)).any(axis=1).tolist()
     [False, True, False]
     """

@@ -20,13 +20,8 @@ from packwork.fields.distance_transform import distance_inside
 class Clearance:
     """Radius of the largest free disc about each pixel's centre.
 
-    Parameters
-    ----------
-    free
-        ``(rows, columns)``, True where there is room.
+    ``free``: ``(rows, columns)``, True where there is room.
 
-    Examples
-    --------
     >>> room = Clearance(np.ones((9, 9), dtype=bool))
     >>> room.largest()
     (4.5, 4.5, 4.5)
@@ -51,13 +46,8 @@ class Clearance:
     def largest_among(self, pixels: IntArray) -> tuple[float, float, float]:
         """Like :meth:`largest`, of some pixels only.
 
-        Parameters
-        ----------
-        pixels
-            ``(n,)``, n > 0: ``row * columns + column`` of each.
+        ``pixels``: ``(n,)``, n > 0: ``row * columns + column`` of each.
 
-        Examples
-        --------
         >>> Clearance(np.ones((3, 9), dtype=bool)).largest_among(np.array([9, 10]))
         (1.5, 1.5, 1.5)
         """
@@ -106,24 +96,13 @@ def largest_voids(
 ) -> Iterator[Void]:
     """Void of each item in turn, beside what earlier ones have taken.
 
-    Parameters
-    ----------
-    room
-        Where there is room; what items take is taken away from it.
-    items
-        Indices, in the order in which they choose.
-    taken_px
-        Radius that an item takes of a void of a given radius.
-    least_px
-        Radius of the smallest void that is used: the first item without one ends the search,
-        unless it was bound to some pixels.
-    among
-        Pixels ``(m,)``, ``row * columns + column``, that an item is bound to; None for any.
-    preferred
-        Pixels that items not bound to any take as long as they fit there.
+    ``room``: where there is room; what items take is taken away from it; ``items``: indices, in the
+    order in which they choose; ``taken_px``: radius that an item takes of a void of a given radius;
+    ``least_px``: radius of the smallest void that is used: the first item without one ends the
+    search, unless it was bound to some pixels; ``among``: pixels ``(m,)``, ``row * columns +
+    column``, that an item is bound to; None for any; ``preferred``: pixels that items not bound to
+    any take as long as they fit there.
 
-    Examples
-    --------
     >>> room = Clearance(np.ones((10, 30), dtype=bool))
     >>> [(void.item, void.radius) for void in largest_voids(room, [7, 5], lambda *_: 4.0)]
     [(7, 4.5), (5, 4.5)]

@@ -78,12 +78,8 @@ container; a trial that would go farther is undone. Larger lets fewer be made at
 class Lengths:
     """Lengths of a finish, canvas units.
 
-    Parameters
-    ----------
-    spacing
-        Side of an item's share of the container.
-    hair
-        Part of the gap that was not asked for.
+    ``spacing``: side of an item's share of the container; ``hair``: part of the gap that was not
+    asked for.
     """
 
     spacing: float
@@ -107,19 +103,11 @@ def anneal(
     The arrangement has no conflicts and gets none. Where all area is worth the same, a
     trial may lose a little and be kept: ever less, at last nothing.
 
-    Parameters
-    ----------
-    arrangement
-        Changed in place.
-    objective_at
-        Objective and bounds at places ``(n, 4)``; asked again after each trial.
-    stop
-        Asked before each batch of trials that are made at once, and before each group of blocks
-        of the rounds over all items; True ends the search.
-    tell
-        Called with the number of each trial, once it has been kept or undone.
-    exchanges
-        Share of trials that exchange items; with 0 each stays about where it is.
+    ``arrangement``: changed in place; ``objective_at``: objective and bounds at places ``(n, 4)``;
+    asked again after each trial; ``stop``: asked before each batch of trials that are made at once,
+    and before each group of blocks of the rounds over all items; True ends the search; ``tell``:
+    called with the number of each trial, once it has been kept or undone; ``exchanges``: share of
+    trials that exchange items; with 0 each stays about where it is.
     """
     search = _Search(arrangement, objective_at, lengths, rng, pulling, exchanges)
     if not search.has_choice:

@@ -57,8 +57,6 @@ def bottlenecks(arrangement: Arrangement, spacing: float) -> IntArray:
 
     ``spacing``: side of an item's share of the container, canvas units.
 
-    Examples
-    --------
     >>> from packwork.geometry.outline import Outline
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[99.0, 0, 0], [0, 99.0, 0]]))

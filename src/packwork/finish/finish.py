@@ -104,14 +104,9 @@ TOLD = 10
 class Finished:
     """Result of a finish.
 
-    Parameters
-    ----------
-    clean
-        Whether no two items, and no item and the edge, are nearer than was asked.
-    undersized
-        Items that found no room at the size that they should have at least.
-    rounds
-        Linear programmes for each item.
+    ``clean``: whether no two items, and no item and the edge, are nearer than was asked;
+    ``undersized``: items that found no room at the size that they should have at least; ``rounds``:
+    linear programmes for each item.
     """
 
     poses: Poses
@@ -138,8 +133,6 @@ def finish(
     before each trial, True ends the trials, so that the last rounds have time; ``forces``: weighed
     against area as in the levels. Deterministic for one seed of the options.
 
-    Examples
-    --------
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[2.0, 0, 5], [0, 1.0, 5]]))
     >>> two = Poses(np.array([4.2, 5.8]), np.full(2, 5.0), np.zeros(2), np.ones(2))

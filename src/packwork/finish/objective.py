@@ -39,16 +39,10 @@ item's rim. Larger keeps forces' aims better and makes all items smaller. Tried.
 class Pulling:
     """Forces on the items of a finish, in the unit of its objective.
 
-    Parameters
-    ----------
-    areas
-        ``(n,)`` how much each counts: its area at the begin, so that none is shrunk for
-        lying where it should not.
-    unit
-        Worth of one squared canvas unit.
-    gives_way
-        Whether no push is to count for more than an item's growth: where sizes are common, one
-        item that is pressed small makes all others small.
+    ``areas``: ``(n,)`` how much each counts: its area at the begin, so that none is shrunk for
+    lying where it should not; ``unit``: worth of one squared canvas unit; ``gives_way``: whether no
+    push is to count for more than an item's growth: where sizes are common, one item that is
+    pressed small makes all others small.
     """
 
     forces: Forces

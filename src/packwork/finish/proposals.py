@@ -65,12 +65,8 @@ class Proposal(NamedTuple):
 def pools_of(arrangement: Arrangement, smallest_counts: bool, is_forced: bool) -> Pools:
     """Items that trials are made of: small ones, which have somewhere to go.
 
-    Parameters
-    ----------
-    smallest_counts
-        Whether growth of the smallest is worth most: then those that have grown least come first.
-    is_forced
-        Whether there are forces, which have aims with large ones too.
+    ``smallest_counts``: whether growth of the smallest is worth most: then those that have grown
+    least come first; ``is_forced``: whether there are forces, which have aims with large ones too.
     """
     radii, everyone = arrangement.radii, np.arange(arrangement.count)
     if smallest_counts:
@@ -145,8 +141,6 @@ def destinations(arrangement: Arrangement, moved: IntArray) -> FloatArray:
 def least_of(values: FloatArray, count: int) -> IntArray:
     """Indices of the smallest of values ``(n,)``, in order; of equal ones the first.
 
-    Examples
-    --------
     >>> least_of(np.array([3.0, 1.0, 2.0, 1.0]), 3).tolist()
     [1, 3, 2]
     """

@@ -36,17 +36,10 @@ def admitted(
     The last ``fillers`` items shrink until they are free of all others; those that do
     not come free are left out. All others stay as they are.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    poses
-        Of all items; without the fillers they have no conflicts.
-    gap_cu
-        Gap between items and to the container's edge; a hair is added, as in the finish.
+    ``outlines``: one per item, item units; ``poses``: of all items; without the fillers they have
+    no conflicts; ``gap_cu``: gap between items and to the container's edge; a hair is added, as in
+    the finish.
 
-    Examples
-    --------
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = Container("", "", box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]])), 10, 10)
     >>> poses = Poses(
@@ -82,13 +75,8 @@ def separate_pinned(
     Those in conflict shrink as far as they may, and move along the line that they are
     pinned to, if it is one.
 
-    Parameters
-    ----------
-    container
-        Whose edge counts as well.
+    ``container``: whose edge counts as well.
 
-    Examples
-    --------
     >>> from packwork.geometry.affine import similarity
     >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = Container("", "", tile.mapped(similarity(5, 5, 0.0, 5)), 10, 10)

@@ -25,8 +25,6 @@ def bernstein(steps: int) -> FloatArray:
 
     Wang and Lu 2025, section 3.1: points = B @ control points.
 
-    Examples
-    --------
     >>> bernstein(2).tolist()
     [[1.0, 0.0, 0.0, 0.0], [0.125, 0.375, 0.375, 0.125]]
     """
@@ -38,8 +36,6 @@ def bernstein(steps: int) -> FloatArray:
 class Chains:
     """Polygons of several chains, and the way of their gradients back to the controls.
 
-    Examples
-    --------
     >>> thirds = np.array([[[0, 0], [1, 0], [2, 0]], [[3, 0], [2, 1], [1, 1.0]]])
     >>> Chains([2], 1).points(thirds).tolist()
     [[0.0, 0.0], [3.0, 0.0]]
@@ -73,8 +69,6 @@ def flattened(chain: FloatArray, tolerance: float) -> list[FloatArray]:
 
     All of them one after another are the chain's ring.
 
-    Examples
-    --------
     >>> edges = straight_chain(np.array([[0, 0], [2, 0], [0, 2.0]]))
     >>> np.concatenate(flattened(edges, 0.1)).tolist()
     [[2.0, 0.0], [0.0, 2.0], [0.0, 0.0]]
@@ -89,8 +83,6 @@ def flattened(chain: FloatArray, tolerance: float) -> list[FloatArray]:
 def straight_chain(ring: FloatArray) -> FloatArray:
     """Chain whose curves are the edges of a polygon ``(n, 2)``.
 
-    Examples
-    --------
     >>> straight_chain(np.array([[0, 0], [3, 0], [0, 3.0]]))[0].tolist()
     [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]
     """
@@ -119,15 +111,9 @@ class Crossing(NamedTuple):
 def without_loops(chain: FloatArray, tolerance: float) -> FloatArray | None:
     """The chain with its small loops cut off; None if it crosses itself otherwise.
 
-    Parameters
-    ----------
-    chain
-        ``(k, 3, 2)``; comes back as it is where it does not cross itself.
-    tolerance
-        Of the flattening in which crossings are looked for.
+    ``chain``: ``(k, 3, 2)``; comes back as it is where it does not cross itself; ``tolerance``: of
+    the flattening in which crossings are looked for.
 
-    Examples
-    --------
     A triangle whose sides run past one of its corners:
 
     >>> from packwork.fit.chains import straight_chain
@@ -152,10 +138,7 @@ def without_loops(chain: FloatArray, tolerance: float) -> FloatArray | None:
 def crossings(curves: list[FloatArray]) -> list[Crossing]:
     """Proper crossings of a closed chain's flattened curves, along the chain.
 
-    Parameters
-    ----------
-    curves
-        ``(n, 2)`` points of each, as :func:`flattened` gives them.
+    ``curves``: ``(n, 2)`` points of each, as :func:`flattened` gives them.
     """
     ends = np.concatenate(curves)
     begins = np.roll(ends, 1, axis=0)

@@ -38,13 +38,8 @@ twice the time. Tried."""
 def drawn_to(target: Outline, chain: FloatArray, counts: Sequence[int]) -> list[FloatArray]:
     """Controls ``(k, 3, 2)`` after each level, coarse to fine, the start in front.
 
-    Parameters
-    ----------
-    chain
-        Controls to start from, the chains of all rings one after another.
+    ``chain``: controls to start from, the chains of all rings one after another.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> from packwork.fit.chains import Chains, straight_chain
     >>> from packwork.geometry.polygon import signed_area
@@ -88,8 +83,6 @@ class Mismatch:
     coverage, and the target's does not. Polygon vertices outside the image, where nothing
     is seen, cost their squared distance from it.
 
-    Examples
-    --------
     >>> from packwork.fit.chains import straight_chain
     >>> square = np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]])
     >>> mismatch = Mismatch(Outline.from_rings([square]), [4], 8)
@@ -168,17 +161,10 @@ def lowest(
 ) -> FloatArray:
     """Point near ``start`` where a smooth function is lowest.
 
-    Parameters
-    ----------
-    objective
-        Point to value and gradient, all of one shape ``(n,)``.
-    start
-        Where to begin, in units in which a step of length one is a cautious first step.
-    least_gain
-        Ends when an iteration lowers the value by less.
+    ``objective``: point to value and gradient, all of one shape ``(n,)``; ``start``: where to
+    begin, in units in which a step of length one is a cautious first step; ``least_gain``: ends
+    when an iteration lowers the value by less.
 
-    Examples
-    --------
     >>> def bowl(x):
     ...     return float(x[0] ** 2 + 10 * x[1] ** 2), np.array([2 * x[0], 20 * x[1]])
     >>> lowest(bowl, np.array([3.0, 1.0]), 50, 1e-12).round(4).tolist()

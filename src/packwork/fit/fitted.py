@@ -236,8 +236,6 @@ def shared_curves(rings: Sequence[FloatArray], curves: int) -> IntArray:
 
     Where the curves do not suffice for all, the shortest rings get none.
 
-    Examples
-    --------
     >>> square = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
     >>> shared_curves([square, 3 * square], 20).tolist()
     [7, 13]

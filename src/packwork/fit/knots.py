@@ -38,13 +38,8 @@ _GAUSS_WEIGHTS = np.array([5, 8, 5]) / 18
 class ArcFits(NamedTuple):
     """Cubics of all arcs from site i on to site j, each an array ``(m, m)``.
 
-    Parameters
-    ----------
-    cost
-        Integral of the squared distance to the arc, over the ring's length, which is
-        counted as one. On the diagonal: the whole ring.
-    first, second
-        The handles, as complex numbers.
+    ``cost``: integral of the squared distance to the arc, over the ring's length, which is counted
+    as one. On the diagonal: the whole ring; ``first``, ``second``: the handles, as complex numbers.
     """
 
     cost: FloatArray
@@ -55,8 +50,6 @@ class ArcFits(NamedTuple):
 def resampled(ring: FloatArray, count: int) -> ComplexArray:
     """``count`` points at equal steps of arc length along a closed ring.
 
-    Examples
-    --------
     >>> resampled(np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]]), 8)[:3].tolist()
     [0j, (1+0j), (2+0j)]
     """
@@ -70,15 +63,9 @@ def resampled(ring: FloatArray, count: int) -> ComplexArray:
 def arc_fits(samples: ComplexArray, stride: int) -> ArcFits:
     """Least-squares cubic of every arc between two sites, its ends held.
 
-    Parameters
-    ----------
-    samples
-        ``(n,)`` points at equal steps along a closed curve.
-    stride
-        Every how manieth sample is a site; divides n.
+    ``samples``: ``(n,)`` points at equal steps along a closed curve; ``stride``: every how manieth
+    sample is a site; divides n.
 
-    Examples
-    --------
     >>> square = resampled(np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]]), 64)
     >>> fits = arc_fits(square, 16)
     >>> bool(fits.cost[0, 1] < 1e-12 < fits.cost[0, 2])
@@ -166,8 +153,6 @@ def best_chain(ring: FloatArray, curves: int) -> FloatArray:
     The distance is taken at equal shares of arc length, so the chain is a start for a
     fit that does not care where on a curve a point lies.
 
-    Examples
-    --------
     >>> square = np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]])
     >>> sorted(best_chain(square, 4)[:, 0].tolist())
     [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0]]
@@ -196,22 +181,14 @@ def best_chain(ring: FloatArray, curves: int) -> FloatArray:
 def closed_path(cost: FloatArray, arcs: int, first: int) -> IntArray:
     """Sites at which a ring is cut into ``arcs`` arcs of least total cost.
 
-    Parameters
-    ----------
-    cost
-        ``(m, m)``: of the arc from site i on to site j.
-    arcs
-        From 2 to m.
-    first
-        The site that must be a cut.
+    ``cost``: ``(m, m)``: of the arc from site i on to site j; ``arcs``: from 2 to m; ``first``: the
+    site that must be a cut.
 
     Returns
     -------
     IntArray
         ``(arcs,)`` in their order along the ring, ``first`` at the front.
 
-    Examples
-    --------
     >>> cost = np.array([[9, 1, 2, 9], [9, 9, 3, 5], [5, 9, 9, 1], [0, 5, 9, 9.0]])
     >>> closed_path(cost, 3, 0).tolist()
     [0, 2, 3]

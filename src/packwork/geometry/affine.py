@@ -14,8 +14,6 @@ from packwork.arrays import FloatArray
 def identity() -> FloatArray:
     """Map that leaves every point where it is.
 
-    Examples
-    --------
     >>> identity().tolist()
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
     """
@@ -25,8 +23,6 @@ def identity() -> FloatArray:
 def similarity(x: float, y: float, angle_rad: float, scale: float) -> FloatArray:
     """Map that scales, turns clockwise on screen, then moves to ``(x, y)``.
 
-    Examples
-    --------
     >>> similarity(5, 7, 0.0, 2.0).tolist()
     [[2.0, -0.0, 5.0], [0.0, 2.0, 7.0]]
     """
@@ -37,8 +33,6 @@ def similarity(x: float, y: float, angle_rad: float, scale: float) -> FloatArray
 def stretched(ratio: float) -> FloatArray:
     """Map that makes a square ``ratio`` times as wide as high; areas stay.
 
-    Examples
-    --------
     >>> stretched(4.0).tolist()
     [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0]]
     """
@@ -49,8 +43,6 @@ def stretched(ratio: float) -> FloatArray:
 def compose(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Map (2 x 3) that does ``inner`` first and ``outer`` after it, in the unit of ``outer``.
 
-    Examples
-    --------
     >>> compose(similarity(1, 0, 0, 1), similarity(0, 0, 0, 2)).tolist()
     [[2.0, 0.0, 1.0], [0.0, 2.0, 0.0]]
     """
@@ -62,8 +54,6 @@ def compose(outer: FloatArray, inner: FloatArray) -> FloatArray:
 def apply(matrix: FloatArray, points: FloatArray) -> FloatArray:
     """Images of ``(n, 2)`` points under the map.
 
-    Examples
-    --------
     >>> apply(similarity(1, 2, 0.0, 3.0), np.array([[1.0, 1.0]])).tolist()
     [[4.0, 5.0]]
     """
@@ -73,8 +63,6 @@ def apply(matrix: FloatArray, points: FloatArray) -> FloatArray:
 def inverse(matrix: FloatArray) -> FloatArray:
     """Map (2 x 3) that undoes another, which must not flatten the plane.
 
-    Examples
-    --------
     >>> inverse(similarity(4.0, 6.0, 0.0, 2.0)).tolist()
     [[0.5, 0.0, -2.0], [0.0, 0.5, -3.0]]
     """

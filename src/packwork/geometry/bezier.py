@@ -31,8 +31,6 @@ def flatten_cubic(
 
     The polyline is within ``tolerance`` of the curve (up to ``MAX_STEPS`` steps).
 
-    Examples
-    --------
     >>> straight = [np.array([float(i), 0.0]) for i in range(4)]
     >>> flatten_cubic(*straight, tolerance=0.1).tolist()
     [[3.0, 0.0]]

@@ -24,8 +24,6 @@ index. Larger takes seconds of combs, whose teeth run beside all others. Chosen:
 def distance(first: Region, second: Region) -> float:
     """Smallest distance of two shapes; 0 if they meet, infinite if one is empty.
 
-    Examples
-    --------
     >>> distance(shapely.box(0, 0, 1, 1), shapely.box(4, 5, 6, 6))
     5.0
     """
@@ -44,8 +42,6 @@ def distance(first: Region, second: Region) -> float:
 def clearance(region: Region, most: float) -> float:
     """By how much each vertex may move before rings meet, as in GEOS; ``most`` at most.
 
-    Examples
-    --------
     >>> notched = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 0.1), (0, 4)])
     >>> clearance(notched, 9.0), clearance(notched, 0.01)
     (0.1, 0.01)
@@ -65,8 +61,6 @@ def is_clear(region: Region, least: float) -> bool:
 
     Where rings meet in a common vertex that counts as no distance, as in GEOS.
 
-    Examples
-    --------
     >>> notched = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 0.1), (0, 4)])
     >>> is_clear(notched, 0.09), is_clear(notched, 0.11)
     (True, False)

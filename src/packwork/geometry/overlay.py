@@ -48,8 +48,6 @@ def quiet() -> np.errstate:
 def polygon_parts(shape: Region) -> list[Polygon]:
     """Polygons of a region, whatever mixture of geometries an operation left.
 
-    Examples
-    --------
     >>> len(polygon_parts(Polygon()))
     0
     """
@@ -64,8 +62,6 @@ def polygon_parts(shape: Region) -> list[Polygon]:
 def valid(shape: Region) -> Region:
     """The region itself if it is valid, else one of the polygons that a repair leaves.
 
-    Examples
-    --------
     >>> bow_tie = Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> valid(bow_tie).area
     2.0
@@ -79,8 +75,6 @@ def valid(shape: Region) -> Region:
 def union(shapes: Iterable[Region]) -> Region:
     """Union of the regions.
 
-    Examples
-    --------
     >>> union([shapely.box(0, 0, 2, 2), shapely.box(1, 0, 3, 2)]).area
     6.0
     """
@@ -90,8 +84,6 @@ def union(shapes: Iterable[Region]) -> Region:
 def union_of_layout(shapes: Iterable[Region]) -> Region:
     """:func:`union` of regions of which few meet another, sooner.
 
-    Examples
-    --------
     >>> union_of_layout([shapely.box(0, 0, 2, 2), shapely.box(3, 0, 4, 1)]).area
     5.0
     """
@@ -101,8 +93,6 @@ def union_of_layout(shapes: Iterable[Region]) -> Region:
 def intersection(first: Region, second: Region) -> Region:
     """Intersection of both regions; of arrays, one by one.
 
-    Examples
-    --------
     >>> bow_tie = Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
     >>> intersection(bow_tie, shapely.box(0, 0, 2, 1)).area
     1.0
@@ -113,8 +103,6 @@ def intersection(first: Region, second: Region) -> Region:
 def difference(first: Region, second: Region) -> Region:
     """Difference: the first region without the second; of arrays, one by one.
 
-    Examples
-    --------
     >>> difference(shapely.box(0, 0, 2, 2), shapely.box(1, 0, 3, 2)).area
     2.0
     """
@@ -127,8 +115,6 @@ def part_about(whole: Region, shape: Region, reach: float = 0.0) -> Region:
     A set operation with a shape takes as long as the region has vertices: five seconds with a
     spiral of 270,000, a millisecond with the part of it.
 
-    Examples
-    --------
     >>> part_about(shapely.box(0, 0, 9, 9), shapely.box(8, 8, 10, 10), 1.0).bounds
     (7.0, 7.0, 9.0, 9.0)
     """
@@ -146,8 +132,6 @@ def part_about(whole: Region, shape: Region, reach: float = 0.0) -> Region:
 def symmetric_difference(first: Region, second: Region) -> Region:
     """Symmetric difference: covered by one of the regions and not by the other.
 
-    Examples
-    --------
     >>> symmetric_difference(shapely.box(0, 0, 2, 2), shapely.box(1, 0, 3, 2)).area
     4.0
     """
@@ -157,8 +141,6 @@ def symmetric_difference(first: Region, second: Region) -> Region:
 def buffered(shape: Region, distance: float, **style: Any) -> Region:
     """The region grown by a distance all round, or shrunk by a negative one.
 
-    Examples
-    --------
     >>> buffered(shapely.box(0, 0, 2, 2), 1.0, join_style="mitre").area
     16.0
     """
@@ -168,8 +150,6 @@ def buffered(shape: Region, distance: float, **style: Any) -> Region:
 def simplify(shape: Region, tolerance: float, *, keeps_topology: bool) -> Region:
     """The region by fewer vertices (Douglas and Peucker), each within ``tolerance``.
 
-    Examples
-    --------
     >>> shape = Polygon([(0, 0), (1, 0.001), (2, 0), (2, 2), (0, 2)])
     >>> len(simplify(shape, 0.1, keeps_topology=True).exterior.coords)
     5

@@ -34,14 +34,9 @@ takes memory, smaller the time of an index for a letter. Chosen."""
 def region(rings: Iterable[FloatArray], rule: FillRule = "nonzero") -> Region:
     """Area that closed ``rings`` fill under ``rule``; valid, possibly empty.
 
-    Parameters
-    ----------
-    rings
-        Arrays ``(n, 2)``; closed implicitly; may cross themselves and each other.
-        Rings of fewer than three points have no area and are passed over.
+    ``rings``: arrays ``(n, 2)``; closed implicitly; may cross themselves and each other. Rings of
+    fewer than three points have no area and are passed over.
 
-    Examples
-    --------
     >>> bow_tie = np.array([[0, 0], [2, 2], [2, 0], [0, 2.0]])
     >>> region([bow_tie]).area
     2.0
@@ -64,8 +59,6 @@ def region(rings: Iterable[FloatArray], rule: FillRule = "nonzero") -> Region:
 def enclosed(rings: Sequence[LinearRing]) -> Region:
     """Area that rings enclose by even-odd nesting; fast, as they should not cross.
 
-    Examples
-    --------
     >>> sides = (0, 0, 3, 3), (1, 1, 2, 2)
     >>> enclosed([LinearRing(shapely.box(*side).exterior) for side in sides]).area
     8.0
@@ -81,8 +74,6 @@ def enclosed(rings: Sequence[LinearRing]) -> Region:
 def united(regions: Iterable[Region]) -> Region:
     """Union of valid regions; fast where they meet nowhere.
 
-    Examples
-    --------
     >>> united([shapely.box(0, 0, 2, 2), shapely.box(1, 0, 3, 2)]).area
     6.0
     """
@@ -99,8 +90,6 @@ def united(regions: Iterable[Region]) -> Region:
 def silhouette(shape: Region) -> Region:
     """Region with every hole filled, parts that lay in holes absorbed.
 
-    Examples
-    --------
     >>> silhouette(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2)).area
     9.0
     """
@@ -113,8 +102,6 @@ def silhouette(shape: Region) -> Region:
 def silhouette_area(shape: Region) -> float:
     """Area of :func:`silhouette`, without a union where no part can lie in a hole.
 
-    Examples
-    --------
     >>> silhouette_area(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2))
     9.0
     """
@@ -132,8 +119,6 @@ def _has_box_in_box(boxes: FloatArray) -> bool:
 def oriented_rings(shape: Region) -> list[FloatArray]:
     """Rings of a region, unclosed: outer ones clockwise on screen, holes the other way.
 
-    Examples
-    --------
     >>> [len(r) for r in oriented_rings(shapely.box(0, 0, 1, 1))]
     [4]
     """
@@ -168,8 +153,6 @@ def _signed_areas(points: FloatArray, starts: IntArray) -> FloatArray:
 def signed_area(points: FloatArray) -> float:
     """Shoelace area of one ring ``(n, 2)``, its unit squared: positive if clockwise on screen.
 
-    Examples
-    --------
     >>> signed_area(np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]]))
     1.0
     """

@@ -26,8 +26,6 @@ def simplified(outline: Outline, tolerance: float) -> Outline:
     Never collapses: if simplifying would leave no area, the outline comes back as it
     was. Rings stay simple (topology is kept).
 
-    Examples
-    --------
     >>> import numpy as np
     >>> t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
     >>> circle = Outline.from_rings([np.column_stack([np.cos(t), np.sin(t)])])
@@ -56,8 +54,6 @@ def closed(outline: Outline, radius: float) -> Outline:
     Morphological closing: grown by ``radius`` and shrunk again. A large radius tends to
     the hull; zero leaves the outline as it is.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> dart = Outline.from_rings([np.array([[0, 0], [4, 2], [0, 4], [1, 2.0]])])
     >>> closed(dart, 9.0).area > dart.area
@@ -81,8 +77,6 @@ def grown(outline: Outline, distance: float) -> Outline:
     Corners become round. Never vanishes: if nothing would be left, the outline comes
     back as it was.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> square = Outline.from_rings([np.array([[0, 0], [4, 0], [4, 4], [0, 4.0]])])
     >>> grown(square, -1.0).area
@@ -97,8 +91,6 @@ def grown(outline: Outline, distance: float) -> Outline:
 def hull(outline: Outline) -> Outline:
     """Convex hull of the outline.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> dart = Outline.from_rings([np.array([[0, 0], [4, 2], [0, 4], [1, 2.0]])])
     >>> len(hull(dart).points)

@@ -32,20 +32,14 @@ MOST_ROUNDS = 8
 def sound(shape: Region, step: float = STEP) -> Region:
     """The region itself if its rings keep clear of each other, else one whose rings do.
 
-    Parameters
-    ----------
-    shape
-        Any region; one that is not valid is repaired.
-    step
-        Clearance, as a share of the region's extent.
+    ``shape``: any region; one that is not valid is repaired; ``step``: clearance, as a share of the
+    region's extent.
 
     Returns
     -------
     Region
         Each vertex within a few steps of where it was; empty if nothing is as wide as a step.
 
-    Examples
-    --------
     >>> nearly = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 1e-12), (0, 4)])
     >>> sound(nearly).geom_type, sound(nearly).area
     ('MultiPolygon', 8.0)
@@ -72,13 +66,8 @@ def without_clefts(shape: Region, width: float = CLEFT) -> Region:
 
     Nothing else changes: of a region without such bays it is the region itself.
 
-    Parameters
-    ----------
-    shape
-        A valid region without holes.
+    ``shape``: a valid region without holes.
 
-    Examples
-    --------
     >>> ring = shapely.box(0, 0, 4, 4) - shapely.box(1, 1, 3, 3)
     >>> slit = ring - shapely.box(1.9, 0, 1.900001, 2)
     >>> round(without_clefts(slit).area, 3)

@@ -38,15 +38,9 @@ rounding does to the x of the largest image. Derived."""
 class ColourImage:
     """Renders what a rasteriser has swept last, in colours, again and again.
 
-    Parameters
-    ----------
-    rasteriser
-        Whose sweeps are seen. The image has its size and dtype.
-    channels
-        How many numbers a colour has, 1 to ``MAX_CHANNELS``.
+    ``rasteriser``: whose sweeps are seen. The image has its size and dtype; ``channels``: how many
+    numbers a colour has, 1 to ``MAX_CHANNELS``.
 
-    Examples
-    --------
     >>> rasteriser = Rasteriser((1, 3), np.float64)
     >>> image = ColourImage(rasteriser, 1)
     >>> rasteriser.sweep(np.array([[0.5, 0], [2, 0], [2, 1], [0.5, 1]]), np.array([0, 4]))
@@ -72,14 +66,9 @@ class ColourImage:
     ) -> Image:
         """Image ``(rows, columns, channels)`` of the rings swept last.
 
-        Parameters
-        ----------
-        colours
-            ``(rings, channels)``; the rings of one item have one colour, holes too.
-        background
-            ``(channels,)``: what shows where nothing lies.
-        out
-            Image to write to, of this size and dtype; a new one if None.
+        ``colours``: ``(rings, channels)``; the rings of one item have one colour, holes too;
+        ``background``: ``(channels,)``: what shows where nothing lies; ``out``: image to write to,
+        of this size and dtype; a new one if None.
         """
         self.take(colours, background)
         rasteriser, records = self._rasteriser, self._rasteriser.swept.records
@@ -103,13 +92,8 @@ class ColourImage:
     def pullback(self, adjoint: Image, gradient: FloatArray) -> None:
         """Add the derivative of sum(adjoint * image) by the swept vertices to ``gradient``.
 
-        Parameters
-        ----------
-        adjoint
-            d loss / d image, ``(rows, columns, channels)``; of colours and background as rendered
-            last. Contiguous.
-        gradient
-            ``(n, 2)``, changed in place.
+        ``adjoint``: d loss / d image, ``(rows, columns, channels)``; of colours and background as
+        rendered last. Contiguous; ``gradient``: ``(n, 2)``, changed in place.
         """
         flat = adjoint.reshape(-1, self.channels)
         records = self._rasteriser.swept.records
@@ -214,8 +198,6 @@ def prepared(
 ) -> tuple[ColourImage, Image]:
     """Inputs of :func:`render_colour`, to be pulled back through, and its picture.
 
-    Examples
-    --------
     >>> tile = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
     >>> image, seen = prepared(tile, [0, 4], [[0.5]], (1, 1), 1.0, np.float64)
     >>> seen.item(), image.by_colours(np.ones((1, 1, 1)))[0].item()

@@ -78,15 +78,10 @@ class Record:
 class Swept(NamedTuple):
     """Record of a rasteriser's last walk, for whatever reads it.
 
-    Parameters
-    ----------
-    points, starts
-        The rings, ``(n, 2)`` in pixels and ``(rings + 1,)``.
-    records
-        Of rings that lie in one band each, then of the rest: only the last one's deposits may be
-        anywhere.
-    x_magic, area_magic
-        What rounds x and deposits to the lattice when it is added and taken away again.
+    ``points``, ``starts``: the rings, ``(n, 2)`` in pixels and ``(rings + 1,)``; ``records``: of
+    rings that lie in one band each, then of the rest: only the last one's deposits may be anywhere;
+    ``x_magic``, ``area_magic``: what rounds x and deposits to the lattice when it is added and
+    taken away again.
     """
 
     points: FloatArray
@@ -99,15 +94,9 @@ class Swept(NamedTuple):
 class Rasteriser:
     """Renders rings into images of one size again and again, without allocating.
 
-    Parameters
-    ----------
-    shape
-        ``(rows, columns)``, each from 1 to ``MAX_SIDE_PX``.
-    dtype
-        float32 (fast; coverage within 1e-4) or float64.
+    ``shape``: ``(rows, columns)``, each from 1 to ``MAX_SIDE_PX``; ``dtype``: float32 (fast;
+    coverage within 1e-4) or float64.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> rasteriser = Rasteriser((2, 2), np.float64)
     >>> rasteriser.sweep(np.array([[0, 0], [1, 0], [1, 2], [0, 2.0]]), np.array([0, 4]))
@@ -149,12 +138,8 @@ class Rasteriser:
 
         The points are kept by reference until the next sweep; they are not checked.
 
-        Parameters
-        ----------
-        points_px
-            ``(n, 2)`` float64, contiguous, finite. Rings may leave the image.
-        starts
-            ``(rings + 1,)`` int64.
+        ``points_px``: ``(n, 2)`` float64, contiguous, finite. Rings may leave the image;
+        ``starts``: ``(rings + 1,)`` int64.
         """
         self._points, self._starts = points_px, starts
         self._reserve()
@@ -172,10 +157,7 @@ class Rasteriser:
     def density(self, out: Image | None = None) -> Image:
         """Sum of all coverages per pixel; empties the accumulation buffer.
 
-        Parameters
-        ----------
-        out
-            Image to write to, of this size and dtype; a new one if None.
+        ``out``: image to write to, of this size and dtype; a new one if None.
         """
         density = np.empty(self.shape, dtype=self.dtype) if out is None else out
         kernels.accumulate(self.accumulation, density)
@@ -184,13 +166,8 @@ class Rasteriser:
     def pullback(self, adjoint: Image, beyond: float = 0.0) -> FloatArray:
         """Derivative of sum(adjoint * coverage) with respect to the swept vertices.
 
-        Parameters
-        ----------
-        adjoint
-            d loss / d density, of this size.
-        beyond
-            Constant adjoint of the plane outside the image, so that items that leave
-            it still feel a force back.
+        ``adjoint``: d loss / d density, of this size; ``beyond``: constant adjoint of the plane
+        outside the image, so that items that leave it still feel a force back.
 
         Returns
         -------
@@ -330,8 +307,6 @@ def coverage_pullback(
 def image_shape(width_cu: float, height_cu: float, resolution: int) -> tuple[int, int]:
     """Rows and columns of the image whose longer side has ``resolution`` pixels.
 
-    Examples
-    --------
     >>> image_shape(600, 300, 50)
     (25, 50)
     """
@@ -342,8 +317,6 @@ def image_shape(width_cu: float, height_cu: float, resolution: int) -> tuple[int
 def region_image(outline: Outline, rasteriser: Rasteriser, px_per_cu: float) -> Image:
     """Coverage of a region given in canvas units, in the rasteriser's image.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> square = Outline.from_rings([np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]])])
     >>> region_image(square, Rasteriser((1, 2), np.float64), 0.5).tolist()

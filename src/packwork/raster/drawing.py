@@ -49,8 +49,6 @@ def drawn_png(document: str) -> bytes:
     ValueError
         If resvg gives up; the message is one line.
 
-    Examples
-    --------
     >>> drawn_png('<svg xmlns="http://www.w3.org/2000/svg" width="2" height="2"/>')[1:4]
     b'PNG'
     """
@@ -118,8 +116,6 @@ _APART: dict[str, Any] = (
 def font_options(fonts: FontChoice) -> dict[str, Any]:
     """The same, as resvg's options are called.
 
-    Examples
-    --------
     >>> from packwork.fonts import fonts_for
     >>> font_options(fonts_for([], "a"))["font_files"][-1]
     '...InterDisplay-Black.otf'

@@ -17,17 +17,9 @@ def centre_count(
 ) -> npt.NDArray[np.int32]:
     """Number of outlines that hold each pixel's centre.
 
-    Parameters
-    ----------
-    points_px
-        ``(n, 2)`` vertices in pixels; rings may leave the image.
-    starts
-        Ring starts, as in :class:`packwork.geometry.outline.Outline`.
-    shape
-        ``(rows, columns)``.
+    ``points_px``: ``(n, 2)`` vertices in pixels; rings may leave the image; ``starts``: ring
+    starts, as in :class:`packwork.geometry.outline.Outline`; ``shape``: ``(rows, columns)``.
 
-    Examples
-    --------
     >>> square = [[0, 0], [2, 0], [2, 2], [0, 2]]
     >>> centre_count(square, [0, 4], (2, 3)).tolist()
     [[1, 1, 0], [1, 1, 0]]

@@ -35,13 +35,9 @@ _SHIFT = _EDGE - 0.5
 class Texture:
     """One drawing in several sizes.
 
-    Parameters
-    ----------
-    levels
-        Premultiplied and blurred pictures, each half as fine as the one before, with a clear
-        edge.
-    matrix
-        2 x 3 map from the drawing's units to the pixels of the first level, without its edge.
+    ``levels``: premultiplied and blurred pictures, each half as fine as the one before, with a
+    clear edge; ``matrix``: 2 x 3 map from the drawing's units to the pixels of the first level,
+    without its edge.
     """
 
     levels: tuple[Picture, ...]
@@ -50,13 +46,8 @@ class Texture:
     def lay(self, image: Picture, place: FloatArray) -> None:
         """Draw it over ``image``, which is premultiplied and changed.
 
-        Parameters
-        ----------
-        image
-            ``(rows, columns, 4)``, C-contiguous.
-        place
-            2 x 3 map from the drawing's units to the image's pixels; one that makes nothing
-            of it draws nothing.
+        ``image``: ``(rows, columns, 4)``, C-contiguous; ``place``: 2 x 3 map from the drawing's
+        units to the image's pixels; one that makes nothing of it draws nothing.
         """
         if abs(np.linalg.det(place[:, :2])) < 1e-12:
             return
@@ -72,15 +63,9 @@ class Texture:
 def texture_of(picture: Picture, matrix: FloatArray) -> Texture:
     """Texture of a picture whose alpha is not premultiplied.
 
-    Parameters
-    ----------
-    picture
-        As fine as any frame will need; see ``FINENESS``.
-    matrix
-        2 x 3 map from the drawing's units to its pixels.
+    ``picture``: as fine as any frame will need; see ``FINENESS``; ``matrix``: 2 x 3 map from the
+    drawing's units to its pixels.
 
-    Examples
-    --------
     >>> dot = np.full((4, 4, 4), 255, dtype=np.uint8)
     >>> texture = texture_of(dot, affine.identity())
     >>> [level.shape[:2] for level in texture.levels]
@@ -106,8 +91,6 @@ def _blurred(picture: Picture) -> Picture:
 def premultiplied(picture: Picture) -> Picture:
     """Colours times alpha.
 
-    Examples
-    --------
     >>> premultiplied(np.array([[[200, 100, 0, 51]]], dtype=np.uint8)).tolist()
     [[[40, 20, 0, 51]]]
     """
@@ -119,8 +102,6 @@ def premultiplied(picture: Picture) -> Picture:
 def straight(picture: Picture) -> Picture:
     """Colours over alpha: the inverse of :func:`premultiplied`, but for rounding.
 
-    Examples
-    --------
     >>> straight(np.array([[[40, 20, 0, 51], [0, 0, 0, 0]]], dtype=np.uint8)).tolist()
     [[[200, 100, 0, 51], [0, 0, 0, 0]]]
     """

@@ -25,12 +25,8 @@ distance transform that no item notices. Chosen."""
 class FreeSpace:
     """Room that may be filled, at one resolution, and the way back to the container.
 
-    Parameters
-    ----------
-    room
-        ``(rows, columns)`` share of each pixel that may be filled.
-    recall
-        Distance from the container of items whose centre lies outside it.
+    ``room``: ``(rows, columns)`` share of each pixel that may be filled; ``recall``: distance from
+    the container of items whose centre lies outside it.
     """
 
     room: Image
@@ -40,8 +36,6 @@ class FreeSpace:
     def of(cls, container: Container, resolution: int) -> FreeSpace:
         """Free space of a container in which nothing stands.
 
-        Examples
-        --------
         >>> from packwork.geometry.outline import Outline
         >>> tile = Outline.from_rings([np.array([[0.0, 0], [8, 0], [8, 8], [0, 8]])])
         >>> FreeSpace.of(Container("tile", "tile", tile, 16.0, 8.0), 16).room.sum()
@@ -54,8 +48,6 @@ class FreeSpace:
     def less(self, density: Image) -> FreeSpace:
         """The same where something stands that does not move, ``(rows, columns)``.
 
-        Examples
-        --------
         >>> free_space = FreeSpace(np.ones((1, 2)), Recall(np.ones((1, 2)), 1.0))
         >>> free_space.less(np.array([[0.25, 2.0]])).room.tolist()
         [[0.75, 0.0]]
@@ -75,14 +67,9 @@ class ZonePull:
     whose area it is. It is linear in that area, as containment is, and the same in all of
     the plane, so that the adjoint image is made once.
 
-    Parameters
-    ----------
-    zone
-        The part of the container, and the items that stay in it.
-    outlines
-        One per item of the whole layout, item units, as the level sees them.
-    shape
-        Rows and columns of the level's image.
+    ``zone``: the part of the container, and the items that stay in it; ``outlines``: one per item
+    of the whole layout, item units, as the level sees them; ``shape``: rows and columns of the
+    level's image.
     """
 
     def __init__(
@@ -106,12 +93,8 @@ class ZonePull:
     def add(self, by_pose: FloatArray, poses: Poses, price: float) -> None:
         """Add the derivatives of the zone's items to those of all, ``(n, 5)``.
 
-        Parameters
-        ----------
-        by_pose
-            Per canvas unit, rad, log scale and log stretch; changed.
-        price
-            Of a squared canvas unit outside the zone.
+        ``by_pose``: per canvas unit, rad, log scale and log stretch; changed; ``price``: of a
+        squared canvas unit outside the zone.
         """
         own = poses.subset(self.items)
         points = self._ensemble.place(own, self._px_per_cu)

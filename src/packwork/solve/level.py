@@ -34,20 +34,11 @@ from packwork.solve.outlines import Ensemble
 class Level:
     """Renders all items at one resolution and reads the losses' pose gradients.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units, as this level shall see them.
-    resolution
-        Pixels on the canvas' longer side.
-    losses
-        Those that will be weighed, by name or as functions.
-    nominal
-        ``(n,)`` scales that were asked for; all ones if None.
-    limits
-        Zones that items stay in and kinds to keep apart.
-    ground
-        What there is to fill; of the container unless given.
+    ``outlines``: one per item, item units, as this level shall see them; ``resolution``: pixels on
+    the canvas' longer side; ``losses``: those that will be weighed, by name or as functions;
+    ``nominal``: ``(n,)`` scales that were asked for; all ones if None; ``limits``: zones that items
+    stay in and kinds to keep apart; ``free_space``: what there is to fill; of the container unless
+    given.
     """
 
     def __init__(
@@ -99,15 +90,9 @@ class Level:
         Losses count in squared canvas units (sums over pixels times a pixel's area), so
         that a level change does not change the physics.
 
-        Parameters
-        ----------
-        weights
-            By loss; one that is not named weighs nothing.
-        recall
-            Weight of the pull on items whose centre is outside the container or their
-            zone, and price of a pixel's area beyond the image or outside a zone.
-        force
-            Factor on the slopes of the forces.
+        ``weights``: by loss; one that is not named weighs nothing; ``recall``: weight of the pull
+        on items whose centre is outside the container or their zone, and price of a pixel's area
+        beyond the image or outside a zone; ``force``: factor on the slopes of the forces.
         """
         points = self.ensemble.place(poses, self.px_per_cu)
         self.rasteriser.sweep(points, self.ensemble.ring_starts)

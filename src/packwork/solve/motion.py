@@ -27,15 +27,9 @@ class Adam:
     Components of one item share their second moment, so that a step's direction does
     not depend on how the canvas is turned.
 
-    Parameters
-    ----------
-    shape
-        ``(n, components)``.
-    decay
-        Of the first and of the second moment; both 0.9 as in Wang and Lu 2025.
+    ``shape``: ``(n, components)``; ``decay``: of the first and of the second moment; both 0.9 as in
+    Wang and Lu 2025.
 
-    Examples
-    --------
     >>> adam = Adam((1, 2))
     >>> adam.step(np.array([[3.0, 4.0]]), 1.0).round(2).tolist()
     [[-0.59, -0.79]]
@@ -69,8 +63,6 @@ class Adam:
     def go_on_from(self, other: Adam, mine: IntArray, theirs: IntArray) -> None:
         """Take over what another has learnt about some items: ``theirs`` there, ``mine`` here.
 
-        Examples
-        --------
         >>> one, two = Adam((1, 1)), Adam((3, 1))
         >>> step = one.step(np.array([[3.0]]), 1.0)
         >>> two.go_on_from(one, np.array([2]), np.array([0]))
@@ -86,16 +78,9 @@ class Adam:
 class Motion:
     """Moves, turns, resizes and stretches items step by step, within their bounds.
 
-    Parameters
-    ----------
-    poses
-        Where they begin; copied.
-    nominal
-        ``(n,)`` scales that bounds and proportions refer to.
-    side
-        Longer side of the canvas.
-    limits
-        Bounds of single items, in place of those of the options.
+    ``poses``: where they begin; copied; ``nominal``: ``(n,)`` scales that bounds and proportions
+    refer to; ``side``: longer side of the canvas; ``limits``: bounds of single items, in place of
+    those of the options.
     """
 
     def __init__(

@@ -20,15 +20,9 @@ from packwork.solve.options import OutlineChoice
 def stand_ins(outlines: Sequence[Outline], choice: OutlineChoice) -> list[Outline]:
     """Outlines for the stages to see, in the units and about the origin of the true ones.
 
-    Parameters
-    ----------
-    outlines
-        The true ones, one per item.
-    choice
-        ``exact`` gives them back, ``hull`` their convex hulls, one for all copies.
+    ``outlines``: the true ones, one per item; ``choice``: ``exact`` gives them back, ``hull`` their
+    convex hulls, one for all copies.
 
-    Examples
-    --------
     >>> dart = Outline.from_rings([[[0.0, 0], [4, 2], [0, 4], [1, 2]]])
     >>> first, second = stand_ins([dart, dart], "hull")
     >>> len(first.points), first is second
@@ -80,20 +74,11 @@ def seen_posed(
     A pixel and a margin are as wide as high on the canvas, so an item that is stretched
     gets its detail and its margin stretched; the result is in item units all the same.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    poses
-        Scales and stretches are read; as many as outlines.
-    margin_cu
-        Every outline is grown by this much all round, canvas units.
-    before
-        What was made in earlier calls for the same level and margin, of outlines that are
-        still in use; more is added.
+    ``outlines``: one per item, item units; ``poses``: scales and stretches are read; as many as
+    outlines; ``margin_cu``: every outline is grown by this much all round, canvas units;
+    ``before``: what was made in earlier calls for the same level and margin, of outlines that are
+    still in use; more is added.
 
-    Examples
-    --------
     >>> half = np.array([[-8.0, -8], [8, -8], [8, 8], [-8, 8]])
     >>> one = np.ones(1)
     >>> wide = Poses(one, one, 0 * one, one, 4 * one)
@@ -122,14 +107,8 @@ def seen_at(
     What a level cannot resolve must not lock items into each other: clefts are closed
     first, so that coarse levels work on something near the hull.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    scales
-        ``(n,)`` canvas units per item unit.
-    known
-        What was made before, by outline and size; more is added.
+    ``outlines``: one per item, item units; ``scales``: ``(n,)`` canvas units per item unit;
+    ``known``: what was made before, by outline and size; more is added.
     """
     done = {} if known is None else known
     seen = []
@@ -168,14 +147,9 @@ def _stretched_once(
 class Ensemble:
     """Points of all items, placed by poses, and gradients gathered back to poses.
 
-    Parameters
-    ----------
-    outlines
-        One per item, in item units, origin at the item's centroid; copies may repeat
-        one object.
+    ``outlines``: one per item, in item units, origin at the item's centroid; copies may repeat one
+    object.
 
-    Examples
-    --------
     >>> square = Outline.from_rings([np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])])
     >>> two = Ensemble([square, square])
     >>> one = np.ones(2)

@@ -67,14 +67,9 @@ def relocate_trapped(
 ) -> tuple[Poses, list[Relocation]]:
     """Relocate the worst trapped items to the largest voids.
 
-    Parameters
-    ----------
-    areas
-        ``(n,)`` areas of the items' outlines, item units squared.
-    smallest, largest
-        ``(n,)`` bounds of the scales; equal where an item may not change.
-    limits
-        Which items are held in place, and which stay in which zone of the level's.
+    ``areas``: ``(n,)`` areas of the items' outlines, item units squared; ``smallest``, ``largest``:
+    ``(n,)`` bounds of the scales; equal where an item may not change; ``limits``: which items are
+    held in place, and which stay in which zone of the level's.
     """
     density = level.density(poses)
     shares = violation_shares(level, poses, density)

@@ -31,8 +31,6 @@ Tried."""
 def epochs_per_level(epochs: int, shares: Sequence[float]) -> list[int]:
     """Whole epochs in the proportion of ``shares``, rounded so that none is lost.
 
-    Examples
-    --------
     >>> epochs_per_level(200, [1, 1, 1])
     [67, 66, 67]
     """
@@ -43,8 +41,6 @@ def epochs_per_level(epochs: int, shares: Sequence[float]) -> list[int]:
 def rate_factor(options: SolveOptions, progress: float) -> float:
     """Factor on all step lengths at ``progress`` (0..1) through the run.
 
-    Examples
-    --------
     >>> rate_factor(SolveOptions(cooling=0.25), 0.5)
     0.5
     """
@@ -54,8 +50,6 @@ def rate_factor(options: SolveOptions, progress: float) -> float:
 def growth(options: SolveOptions, progress: float) -> float:
     """By how much penalties have grown at ``progress`` (0..1) through the run.
 
-    Examples
-    --------
     >>> growth(SolveOptions(hardening=9), 0.5)
     3.0
     """
@@ -67,8 +61,6 @@ def weights_at(options: SolveOptions, progress: float) -> dict[str | ImageLossFu
 
     All but filling grow geometrically; rewards are cut while the run settles.
 
-    Examples
-    --------
     >>> weights_at(SolveOptions(losses={"overlap": 2.0}, hardening=9), 0.5)
     {'overlap': 6.0}
     """
@@ -83,8 +75,6 @@ def weights_at(options: SolveOptions, progress: float) -> dict[str | ImageLossFu
 def force_factor(progress: float) -> float:
     """Factor on forces at ``progress`` (0..1) through the run: they lead at first.
 
-    Examples
-    --------
     >>> force_factor(0.0), force_factor(1.0) == 1 / FADING
     (1.0, True)
     """
@@ -110,8 +100,6 @@ class Pace(Protocol):
 class EpochPace:
     """A given number of epochs: the same on any machine.
 
-    Examples
-    --------
     >>> pace = EpochPace([1, 2])
     >>> pace.advance()
     >>> pace.has_reached(0, 1.0), pace.has_reached(1, 0.5), pace.progress()
@@ -139,10 +127,7 @@ class EpochPace:
 class TimePace:
     """As many epochs as a given time allows, shared among the levels like epochs.
 
-    Parameters
-    ----------
-    seconds
-        Time from now on; 0 allows no epoch.
+    ``seconds``: time from now on; 0 allows no epoch.
     """
 
     def __init__(self, seconds: float, shares: Sequence[float]) -> None:

@@ -87,15 +87,9 @@ def solve(
 
     Wang and Lu 2025, section 3. Deterministic: no randomness, fixed order of sums.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units, origin at its centroid.
-    nominal
-        ``(n,)`` scales that weights ask for: the middle of the range in mode free, the
-        proportions in mode shared.
-    limits
-        Bounds of single items, which the start has to keep.
+    ``outlines``: one per item, item units, origin at its centroid; ``nominal``: ``(n,)`` scales
+    that weights ask for: the middle of the range in mode free, the proportions in mode shared;
+    ``limits``: bounds of single items, which the start has to keep.
     """
     run = _Solve(container, outlines, start, nominal, options, observer, stop, limits, forces)
     reports: list[LevelReport] = []

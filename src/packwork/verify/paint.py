@@ -46,12 +46,8 @@ _NEVER = frozenset({"defs", "style", "symbol", "clipPath", "mask", "filter", "li
 class PaintedPixels:
     """Counts of pixels in a picture of a layout.
 
-    Parameters
-    ----------
-    outside
-        Those of the items' paint where nothing of the container is.
-    double
-        Those that more than one item paints.
+    ``outside``: those of the items' paint where nothing of the container is; ``double``: those that
+    more than one item paints.
     """
 
     outside: int
@@ -70,18 +66,13 @@ class PaintedPixels:
 def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> PaintedPixels:
     """Paint the items of an SVG of ours.
 
-    Parameters
-    ----------
-    is_own
-        Whether it was made just now; else it goes through the gate first.
+    ``is_own``: whether it was made just now; else it goes through the gate first.
 
     Raises
     ------
     UnfitError
         If it cannot be painted item by item.
 
-    Examples
-    --------
     >>> from packwork.scene.layout import blank
     >>> from packwork.writers.svg import svg_text
     >>> painted = painted_pixels(svg_text(blank()).encode(), blank(), is_own=True)

@@ -43,13 +43,8 @@ def faults_in_file(
     those of the SVG that it was made of, with which the paths in its own text have to agree.
     Files that have no outlines break nothing.
 
-    Parameters
-    ----------
-    path
-        Where to; its ending says what it is.
+    ``path``: where to; its ending says what it is.
 
-    Examples
-    --------
     >>> from packwork.scene.layout import blank
     >>> faults_in_file(b"", "layout.png", blank())
     ()
@@ -129,8 +124,6 @@ def _beyond_paths(layout: Layout) -> set[str]:
 def on_trust_in_file(path: str | Path, layout: Layout) -> tuple[str, ...]:
     """Warning of parts of a file not held against what was measured, a sentence or none.
 
-    Examples
-    --------
     >>> from packwork.scene.layout import blank
     >>> on_trust_in_file("layout.pdf", blank())
     ()
