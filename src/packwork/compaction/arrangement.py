@@ -26,7 +26,6 @@ LEAST_STRIDE = 32
 there are as many boxes as edges in each. Larger looks at more edges, smaller at more boxes.
 Tried."""
 
-
 PAIRS_PER_ITEM = 16
 """Room for near pairs at first; more are counted and then looked for again."""
 
@@ -139,7 +138,6 @@ def _neighbours(outlines: Sequence[Outline]) -> tuple[IntArray, IntArray]:
 COARSE, FINE = 4e-3, 3e-4
 """Tolerance of the outlines that rounds work on, shares of an item's extent: first and
 last. Larger is faster and wastes room (the fine one 0.1 % of the coverage). Tried."""
-
 
 FINE_OF_GAP, COARSE_OF_GAP, ROUGHEST = 0.003, 0.015, 0.1
 """Tolerances of outlines as shares of the gap, where items are so small beside it that this is

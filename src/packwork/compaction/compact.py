@@ -101,7 +101,6 @@ MOST_IN_BLOCK = 128
 """Items solved together. Larger lets moves travel farther and costs more an item, smaller
 the other way round. Tried."""
 
-
 FRACTIONS = (0.5, 0.38, 0.62, 0.44, 0.56)
 """Where blocks are cut, round by round, so that no border lasts. Chosen."""
 

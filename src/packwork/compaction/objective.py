@@ -35,7 +35,6 @@ OVERSHOOT = 1e-4
 """Logarithm of size by which items may exceed a fixed size, so that they reach it. Far
 below the tolerance of the outlines. Derived."""
 
-
 AREA_POWER = 2.0
 """Area goes with the square of the scale."""
 

@@ -36,31 +36,25 @@ MARGIN = 0.1
 that makes up for it. Larger gives fewer vertices to the second step and more excess.
 Tried."""
 
-
 MITRE_LIMIT = 4.0
 """How far a sharp corner of that margin may stand out, in margins. Larger keeps needles
 sharp but longer; smaller cuts them with an edge more. Chosen."""
-
 
 MANY_VERTICES = 50_000
 """Vertices of a container above which it is simplified plainly and shrunk by as much: 1 s in place
 of 5 s, and a quarter of a percent less room, for a spiral of 270,000. Tried."""
 
-
 FINER = 0.01
 """Tolerance, as a share of the mean edge, below which such a container stays as it is: hardly a
 vertex would go. Larger leaves vertices, smaller looks for them for nothing. Chosen."""
-
 
 MANY_PARTS = 500
 """Parts of a container above which those of few vertices stay as they are, and the others are
 simplified one by one: 5,000 hairs take a hundredth of a second in place of ten. Chosen."""
 
-
 PLAIN = 8
 """Coordinates of a ring, the first once more, up to which it has no vertex to spare. Larger leaves
 more vertices, smaller looks at more rings for nothing. Chosen."""
-
 
 MARGINS = (1.0, 1.5, 2.25)
 """Margins tried in turn, simplification's tolerances: GEOS may drop the vertex at which a
@@ -145,7 +139,6 @@ def _each_inner_simplified(parts: Sequence[Region], tolerance: float) -> Region:
 ALIKE = 1e-6
 """Difference of coordinates, in tolerances, up to which two rings are one shape. Smaller takes for
 two what rounding has moved; larger would be seen in the gaps. Chosen."""
-
 
 STEPS = 2
 """Tolerances of parts for each factor of 2, rounded down to them. More keep nearer to what was

@@ -16,6 +16,7 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.kernels import trials
 from packwork.compaction.kernels.steps import LEAST_GROWTH
 from packwork.compaction.options import HOPELESS
 from packwork.fields.voids import Clearance, largest_voids
@@ -26,36 +27,23 @@ CUT = 0.004
 smaller needs more checks. Tried."""
 
 
-HURRIED_CUT, HURRY = 0.05, 2.0
-"""The same once a run is to stop, and by how much it grows with each check from then on: checks of
-hundreds of words in a coast take a second each. Chosen."""
-
-
-PATIENT, HASTE = 150, 1.03
-"""Checks after which that loss grows with each check, and by how much, so that even hopeless
-layouts come to an end. Chosen."""
-
+HASTE = 1.03
+"""Factor on that loss with each further check, once it has made items hopeless that often: even
+hopeless layouts come to an end. Chosen."""
 
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""
 
-
 RESCUES = 2
 """Times that items which are still in conflict then are moved to voids. Chosen."""
-
 
 HOPELESS_SHARE = 0.1
 """Share of the items that may be in conflict all the same and the finish go on: single ones may
 lie where nothing fits. Larger goes on without hope, smaller gives up too early. Chosen."""
 
-
 EVENINGS = 6
 """Times that all come down to the smallest: an item that is smaller is in no new conflict but where
 its origin lies off its outline. Tried: more gain nothing."""
-
-
-EVEN = 1e-6
-"""Logarithm of size within which all are alike. Chosen."""
 
 
 def separate(
@@ -83,7 +71,7 @@ def separate(
     first = arrangement.places[:, 3].copy()
     moved: list[int] = []
     near = arrangement.pairs(gap)
-    hurried = 0
+    hurried, patience = 0, round(RESCUES * HOPELESS / CUT)
     for check in range(MOST_CHECKS):
         bad = arrangement.conflicts(near, gap)
         if len(bad) == 0:
@@ -93,10 +81,10 @@ def separate(
         if (places[:, 3] <= LEAST_GROWTH).all():
             break
         if hurries():
-            places[:, 3] -= HURRIED_CUT * HURRY**hurried
+            places[:, 3] -= trials.CUT * 2.0**hurried
             hurried += 1
         else:
-            places[:, 3] -= CUT * HASTE ** max(check - PATIENT, 0)
+            places[:, 3] -= CUT * HASTE ** max(check - patience, 0)
         places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
         arrangement.put(items, places)
         worn = arrangement.places[:, 3] < first - hopeless_at
@@ -151,7 +139,7 @@ def separate_evenly(
     for _ in range(EVENINGS):
         places = arrangement.places.copy()
         least = places[:, 3].min()
-        if np.ptp(places[:, 3]) < EVEN:
+        if np.ptp(places[:, 3]) == 0:
             return
         places[:, 3] = least
         arrangement.put(all_items, places)
@@ -176,24 +164,19 @@ PIXELS_PER_ITEM = 24.0
 """Pixels of the image of voids along the side of an item's share of the container. More
 sees smaller voids and takes longer. Tried."""
 
-
 ACROSS = 4.0
 """Pixels of that image across the container's mean thickness, at least: a spiral of thin lines has
 no room at all on a coarse one. Larger takes longer. Chosen."""
 
-
 LEAST_SIDE, MOST_SIDE = 128, 2_048
 """Bounds of that image's longer side, px. Chosen."""
-
 
 SNUG = 0.9
 """Radius of an item in a void over the void's. Larger may not fit, smaller has farther to
 grow. Chosen."""
 
-
 FAINT = 1e-3
 """Coverage of a pixel that counts as none. Chosen."""
-
 
 SMALLEST_VOID = 0.5
 """Radius of the smallest void that takes an item, px: below it the image is not to be

@@ -22,8 +22,8 @@ LONGEST_SVG = 2_000_000
 """Characters of an SVG, about, beyond which a PNG is shown: a notebook keeps what it shows,
 and photographs are in an SVG at full size. Larger makes heavy notebooks. Chosen."""
 
-PAPER = "white"
-"""Behind the items, or dark ones would be lost on a dark page. Chosen."""
+_ON_PAPER = SvgOptions(background="white")
+"""Dark items would be lost on a dark page."""
 
 _PER_POINT = 16
 _PER_COPY = 130
@@ -44,7 +44,7 @@ def notebook_svg(layout: Layout) -> str | None:
     container = layout.container
     width, height = _size(layout)
     sheet = SheetSize(size=(width, height), unit="px", view=(container.width, container.height))
-    text = svg_document(layout, SvgOptions(background=PAPER), sheet)
+    text = svg_document(layout, _ON_PAPER, sheet)
     digest = hashlib.sha256(text.encode()).hexdigest()[:10]
     return _SHAPE_ID.sub(rf'\1\2-{digest}"', text)
 
@@ -64,7 +64,7 @@ def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
     if not _is_long(layout):
         return None
     width, height = _size(layout)
-    picture = png_bytes(layout, SHARPNESS * SIDE_PX, SvgOptions(background=PAPER))
+    picture = png_bytes(layout, SHARPNESS * SIDE_PX, _ON_PAPER)
     return picture, {"width": round(width), "height": round(height)}
 
 

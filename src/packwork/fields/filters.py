@@ -43,17 +43,14 @@ BLANK = 0.01
 """Standard deviation of a picture, of 1, below which nothing in it stands out: compression
 leaves about that much of a plain colour. Chosen."""
 
-
 MARGIN_PX = 12
 """Margin of mirror image. Without it corners stand out; a whole mirror image, four times the
 picture, puts all that stands out into the middle, whatever is there. Tried."""
-
 
 _NEIGHBOURS = 3
 
 
 _SPREAD = 2.5
-
 
 _FLOOR = 1e-6
 

@@ -65,9 +65,9 @@ SWEEPS, SWEEP_ROUNDS = 3, 4
 """Linear programmes over all items after as many trials as there are items, or so many times
 in all if that is oftener: what trials free here lets others grow there. Tried."""
 
-AT_ONCE, AHEAD = 16, 32
-"""Trials made at once at most, and among how many next ones they are looked for. What they are
-depends on no number of threads. More keep more cores busy, and know less of each other. Chosen."""
+AT_ONCE = 16
+"""Trials made at once at most, which are looked for among twice as many. What they are depends on
+no number of threads. More keep more cores busy, and know less of each other. Chosen."""
 
 ROOM = 0.25
 """How far an item may go in such a trial, shares of the side of an item's share of the
@@ -173,7 +173,7 @@ class _Search:
             self._least = self._arrangement.places[:, 3].min()
         if self._pulling is not None:
             return [self._pulled(heat, self._pulling)]
-        self._waiting += islice(self._proposed(), AHEAD - len(self._waiting))
+        self._waiting += islice(self._proposed(), 2 * AT_ONCE - len(self._waiting))
         trials = self._disjoint(most)
         gains = at_once(
             self._gain, [(trial, heat * one.heat * self._is_area) for one, trial in trials]

@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.kernels.trials import Rounds, Trial
-from packwork.compaction.separate import free_room
+from packwork.compaction.separate import SMALLEST_VOID, free_room
 from packwork.fields.voids import largest_voids
 from packwork.finish.anneal import ANGLE_TRUST, Lengths, made
 from packwork.finish.proposals import ANGLES, at_angles
@@ -27,10 +27,6 @@ Tried."""
 
 VOIDS = 8
 """Largest voids that a bottleneck is tried in. More take longer. Tried."""
-
-SMALLEST_VOID = 1.0
-"""Radius of the smallest of them, px of the image of voids. Chosen."""
-
 
 TRIES = 6_000
 """Such moves that are tried at most, over the number of items: each takes rounds of all.
@@ -47,9 +43,6 @@ Of 22 moves on 400 words all that gained 2 % had by then. Measured."""
 NEARLY = 0.1
 """Logarithm by which such an item may be smaller in its void than the smallest is. Larger
 tries moves that seldom gain. Chosen."""
-
-VOID_SPREAD = 0.05
-"""Logarithm of size by which it may outgrow the others while it looks for a place. Chosen."""
 
 
 def bottlenecks(arrangement: Arrangement, spacing: float) -> IntArray:

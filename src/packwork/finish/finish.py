@@ -21,7 +21,7 @@ from packwork.compaction.arrangement import (
 )
 from packwork.compaction.compact import compact_all
 from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
-from packwork.compaction.objective import SharedSize, turn_ranges
+from packwork.compaction.objective import LAGGARD, SharedSize, turn_ranges
 from packwork.compaction.options import HAIR
 from packwork.compaction.separate import relocate, relocate_stuck, separate, separate_evenly
 from packwork.finish import bottlenecks
@@ -40,61 +40,46 @@ FIRST_TRUST, LAST_TRUST = 0.08, 0.003
 the container. A larger first one lets items pass each other and fails more checks, a
 smaller last one gains what is not seen. Tried."""
 
-
 SPARSE = 16.0
 """Side of an item's share of the container, in radii of the usual item, above which steps go by
 the items. Larger looks at thousands of edges that no item comes near, smaller lets small items in
 a large container move little. Chosen: in fills it is 1 to 3."""
 
-
 REFINING_TRUST = 0.03
 """The same of the first round where a clean layout is refined. Larger moves what lies well,
 smaller gains less. Tried."""
 
-
 COMMON_COARSE = 1.5e-3
 """The first tolerance where sizes are common, of which a coarse one takes too much. Tried."""
 
-
 COARSE_SHARE = 0.6
 """Share of the rounds that work on coarse outlines. Tried."""
-
 
 ANNEAL_SPREAD = 0.03
 """Logarithm of size within which trials weigh the smaller items more, where sizes are
 common. Tried."""
 
-
 EASY_POINTS = 70.0
 """Points of the mean outline up to which all trials are made; of richer ones fewer. Tried."""
-
 
 COMMON_ROUNDS = 3
 """Times as many rounds where sizes are common and the layout is not clean yet: growth must get
 round from loose to tight places. Tried."""
-
 
 LEVELLING_TRUST = (0.0006, 0.01)
 """Smallest and largest trust region, as above, of the last rounds where sizes are shared,
 in which all come down to the smallest. Larger than a full layout grants moves nothing. Tried."""
 
 
-LEVELLING_ROUNDS = 60
-"""Such rounds at most; they end when they gain nothing. Chosen."""
-
-
 LEVELLING_ROOM = 1.5
 """Trust region of such a round over what the largest item has to come down. Larger lets
 items move about for nothing, smaller leaves them too large. Chosen."""
 
-
 RESCUES = 3
 """Times that items which stay behind are moved to voids. Chosen."""
 
-
 BACK = (0.0, 0.0, 1e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3)
 """Logarithms of size given back in turn until one common size has no conflict. Chosen."""
-
 
 TOLD = 10
 """How often observers are told of trials, for each trial of an item. More take longer. Chosen."""
@@ -257,7 +242,7 @@ class _Finish:
         arrangement, all_items = self.arrangement, np.arange(self.arrangement.count)
         before = arrangement.places.copy()
         least = before[:, 3].min()
-        objective = self._objective(before, bottlenecks.VOID_SPREAD)
+        objective = self._objective(before, LAGGARD)
         rng = np.random.default_rng(item)
         fits = bottlenecks.relocate_bottleneck(arrangement, item, objective, self._lengths, rng)
         if fits and arrangement.places[item, 3] > least - bottlenecks.NEARLY:
@@ -347,7 +332,7 @@ class _Finish:
 
     def _come_down(self, sizing: SharedSize, back: float) -> None:
         """Rounds in which the larger ones shrink, as long as they do."""
-        for _ in range(LEVELLING_ROUNDS):
+        for _ in range(COMMON_ROUNDS * self._options.rounds):
             spread = np.ptp(self.arrangement.places[:, 3])
             self._level_round(sizing, back)
             self._tell(1.0)

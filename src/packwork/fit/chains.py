@@ -93,7 +93,6 @@ def straight_chain(ring: FloatArray) -> FloatArray:
 MOST_ROUNDS = 12
 """Rounds after which a chain is given up; most need one. Chosen."""
 
-
 SHORTER = 0.85
 """Factor on the handles of a curve that crosses itself, in each round: smaller bends the
 curve more than it must, larger takes more rounds. Chosen."""

@@ -28,7 +28,6 @@ LEVELS = ((32, 60), (64, 100), (128, 200))
 are cheap and carry far: without them the worst icon ends at 0.969 instead of 0.975. A
 further level at 256 px takes a quarter more time for 0.0002 of IoU. Tried."""
 
-
 LEAST_GAIN = 5e-7
 """A level ends when an iteration lowers the mean squared difference by less than this
 times the share of the image that is inked. A twentieth of it gains 0.0003 of IoU in
@@ -69,7 +68,6 @@ def _descend(mismatch: Mismatch, controls_px: FloatArray, iterations: int) -> Fl
 
 MARGIN_PX = 2
 """Rim of the image round the target, so that what sticks out is seen. Chosen."""
-
 
 STEPS = 16
 """Polygon edges per curve while fitting. At fewer, the chords' sag is fitted too; more
@@ -135,14 +133,11 @@ Objective: TypeAlias = Callable[[FloatArray], tuple[float, FloatArray]]
 MEMORY = 5
 """Steps that the quasi-Newton matrix remembers; 5 to 40 end alike. Tried."""
 
-
 LEAST_DECREASE = 1e-4
 """Share of the slope's promise that a step must keep. Customary."""
 
-
 LEAST_FLATTENING = 0.9
 """Share of the slope at most that may remain after a step. Customary."""
-
 
 MOST_TRIALS = 20
 """Trials of one line search, after which the value is taken to be at its floor. Chosen."""

@@ -28,23 +28,16 @@ from packwork.geometry.simplify import simplified
 MOST_CURVES = 100
 """Curves that may be asked for: more is no simpler than the outline itself. Chosen."""
 
-
 FLATNESS = 2e-4
 """Tolerance, as a share of the extent, to which the result is flattened. Chosen."""
-
 
 FALLBACK = 2e-3
 """Tolerance, as a share of the extent, of the simplification where no fit is simple.
 Larger needs fewer points, smaller is nearer. Chosen."""
 
-
 CURVES_LESS = 2
 """Curves left out in the one more try where every level's fit crosses itself: other cuts
 rarely fail at the same place. With one less, an icon failed twice. Tried."""
-
-
-REMEMBERED = 256
-"""Results kept by the process: about 50 kB each. Chosen."""
 
 
 class FitEnding(Enum):
@@ -127,7 +120,7 @@ def fit_outline(outline: Outline, curves: int = 20) -> FittedOutline:
     return _remembered(outline.points.tobytes(), outline.starts.tobytes(), int(curves))
 
 
-@lru_cache(maxsize=REMEMBERED)
+@lru_cache
 def _remembered(points: bytes, starts: bytes, curves: int) -> FittedOutline:
     return fit_anew(
         Outline(

@@ -24,12 +24,10 @@ ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 _GRAM = np.array([[20, 10, 4, 1], [10, 12, 9, 4], [4, 9, 12, 10], [1, 4, 10, 20]]) / 140
 """Integrals of products of two Bernstein polynomials of degree three over 0..1."""
 
-
 _HANDLES = np.linalg.inv(_GRAM[1:3, 1:3])
 
 
 _GAUSS_AT = 0.5 + np.sqrt(0.15) * np.array([-1, 0, 1])
-
 
 _GAUSS_WEIGHTS = np.array([5, 8, 5]) / 18
 """Gauss-Legendre rule on 0..1, exact to degree five."""
@@ -138,10 +136,8 @@ SITES_PER_CURVE = 6
 """Places offered for each cut: larger finds better cuts in its square of the time. 8 and
 12 end at the same IoU within 0.0006. Tried."""
 
-
 MOST_SITES = 400
 """Sites of one ring at most: their square is the memory. Chosen."""
-
 
 SAMPLES_PER_SITE = 12
 """Samples between two sites: fewer blur the outline, more cost little. Chosen."""

@@ -11,10 +11,7 @@ import shapely
 
 from packwork.geometry import _kernels
 from packwork.geometry.overlay import Region
-
-FEW_PAIRS = 1_000_000
-"""Pairs of vertices up to which all are looked at, and the last digit is that of plain distances.
-Larger lets distances take seconds, smaller builds indices that are used once. Chosen: 10 ms."""
+from packwork.geometry.polygon import FEW_PAIRS
 
 FEW_VERTICES = 20_000
 """Vertices of a region up to which edges are compared with all vertices beside them, without an

@@ -28,7 +28,7 @@ FEW_PARTS = 100
 
 FEW_PAIRS = 1_000_000
 """Points times edges up to which each point is compared with each edge, without an index. Larger
-takes memory, smaller the time of an index for a letter. Chosen."""
+takes memory and seconds, smaller the time of an index that is used once. Chosen: 10 ms."""
 
 
 def region(rings: Iterable[FloatArray], rule: FillRule = "nonzero") -> Region:

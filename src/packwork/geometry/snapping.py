@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import shapely
 
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.distance import is_clear
 from packwork.geometry.overlay import Region, buffered, polygon_parts, quiet, union, valid
 
@@ -20,10 +21,10 @@ STEP = 1e-7
 moves vertices farther; smaller drowns in the digits of files. Chosen: a two hundredth of what
 readers follow curves to."""
 
-CLEFT = 2e-5
-"""Width of a bay's mouth, as a share of the extent, below which it counts as closed. Larger fills
-bays that can be seen, smaller leaves mouths that a file's last digits close. Chosen: what readers
-follow curves to."""
+CLEFT = FLATTENING
+"""Width of a bay's mouth, as a share of the extent, below which it counts as closed: what readers
+follow curves to. Larger fills bays that can be seen, smaller leaves mouths that a file's last
+digits close. Derived."""
 
 MOST_ROUNDS = 8
 """Times that a region is snapped at most; two have been enough for all that was tried. Chosen."""

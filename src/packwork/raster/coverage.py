@@ -26,29 +26,23 @@ _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
 exact only while fewer than 2**(24 - bits) (float32) or 2**(53 - bits) items share a
 pixel; beyond that they are merely rounded. Derived."""
 
-
 _X_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 38}
 """The walk's x are multiples of 2**-bits pixel; it bounds the width of an image."""
 
-
 MAX_SIDE_PX = 8_192
 """Largest image side: beyond it the float64 walk would lose its exact sums."""
-
 
 CACHE_BYTES = 2**21
 """Images larger than this are swept from top to bottom: a second-level cache holds less.
 Larger leaves big images to chance, smaller sorts where nothing is gained. Tried."""
 
-
 BANDS = 4
 """Bands of rows whose rings are swept at once. More keep more cores busy and have more rings on
 their borders, which are swept after. Chosen."""
 
-
 PARTED = 200_000
 """Length of the record, at most, from which rings are swept so: 0.6 ms of one core. Smaller parts
 what is done before another thread has begun. Measured."""
-
 
 APART = 3
 """Rows between a ring swept with one band and the next: what a walk deposits beyond its cells.

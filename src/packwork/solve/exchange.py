@@ -22,10 +22,6 @@ ALIKE = 1.3
 """Factor in the size of the hull, as a length, between items that change places among
 parts. Larger finds more partners and upsets the layout more. Chosen."""
 
-FREELY_ALIKE = 4.0
-"""The same where forces ask for it and sizes may change: as far apart as two items of one weight
-may come. Chosen."""
-
 
 def exchange(
     container: Outline,
@@ -89,9 +85,9 @@ def _order_by_forces(
     places = np.column_stack([poses.x, poses.y])
     lengths = np.sqrt(hull_areas(outlines))
     sizes = np.log(lengths * poses.scale)
-    # An item that may grow and shrink fits into more places.
+    # An item that may grow and shrink fits into places as far from its own as its bounds are.
     is_free = bool((smallest < largest).any())
-    factor = np.log(FREELY_ALIKE if is_free else ALIKE)
+    factor = np.log(max(float(np.median(largest / smallest)), ALIKE))
     kinds = forces.kinds if is_free else None
     return exchanged(forces, places, areas, sizes / factor, groups, kinds)
 

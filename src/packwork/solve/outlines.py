@@ -41,11 +41,9 @@ DETAIL_PX = 0.12
 """Outlines are simplified to this many pixels of the level: larger is faster and lets
 items overlap by as much, smaller costs edges that no pixel sees. Tried."""
 
-
 CLEFT_PX = 0.26
 """Clefts narrower than twice this many pixels of the level are closed. Larger keeps
 items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
-
 
 MARGIN_RUNGS = 8
 """Steps of size, to a factor of two, within which copies share one outline with its margin, that of

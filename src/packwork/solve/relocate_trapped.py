@@ -23,9 +23,6 @@ Smaller moves items that would have worked themselves free. Tried."""
 MOST_AT_ONCE = 0.1
 """Share of the items moved in one go: more upsets a layout that was settling. Tried."""
 
-SMALLEST_VOID = float(np.nextafter(0.0, 1.0))
-"""Radius of the smallest void that takes an item, px: any. Chosen."""
-
 SNUGNESS = 0.8
 """Area of a moved item over that of the void's largest disc, at most. Tried."""
 
@@ -94,7 +91,7 @@ def relocate_trapped(
 
     # Where no void is left, an item would be worse off anywhere.
     for k, x_px, y_px, free_px in largest_voids(
-        room, worst, taken_px, least_px=SMALLEST_VOID, among=homes.get
+        room, worst, taken_px, least_px=float(np.nextafter(0.0, 1.0)), among=homes.get
     ):
         scale[k] = fitted(k, free_px)
         x[k], y[k] = x_px / level.px_per_cu, y_px / level.px_per_cu

@@ -17,10 +17,8 @@ STEADY = frozenset({"filling"})
 """Losses that do not harden. All others do: at a constant weight, evenness or a loss of
 one's own is drowned at the end, where it is needed. Tried."""
 
-
 REWARDS = frozenset({"filling", "evenness"})
 """Losses that draw items into contact, cut while a run settles."""
-
 
 FADING = 20.0
 """By how much forces fade over the run. They lead while items still pass through each other; what

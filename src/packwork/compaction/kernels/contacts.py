@@ -17,16 +17,13 @@ REACH = 3.0
 """Distance within which features bind, trust regions. Larger gives more conditions,
 smaller lets items run into what was not seen. Tried."""
 
-
 BEND = 0.25
 """Distance kept beyond the gap for what turning bends: squares of the trust region over
 the mean arm. Larger wastes room while trust is large, smaller fails more checks. Tried."""
 
-
 TIGHT = 1.2
 """Hair that steps aim at, over the one that is checked. Larger wastes room, smaller fails
 more checks. Tried."""
-
 
 LEAST_SLANT = 0.05
 """Angle by which a vertex may miss being the nearest of its neighbours to an edge and

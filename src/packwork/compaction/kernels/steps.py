@@ -17,45 +17,33 @@ TRAVEL = 7.2
 """Trust regions by which two items can come nearer in one step: each by the diagonal of
 its move, its turn and its growth, and a little for the curve. Derived."""
 
-
 RETURN_WEIGHT = 10.0
 """How much more a return to the allowed sizes is worth than growth within them. Larger
 lets one item that is out of them push all others aside. Chosen."""
 
-
 ACCURACY = 0.1
 """Share of the growth that a programme may miss. Smaller costs time and drives items to
 the ends of their freedom; larger leaves them in the middle of their room. Tried."""
-
 
 FIRST_CUT = 0.004
 """First cut of size of items in conflict after a step, trust regions at their farthest
 vertex; doubled while the conflict lasts. Larger gives room away, smaller needs more
 checks. Tried."""
 
-
 CUTS = 7
 """Doublings before an item stays where it was: the last cut is half a trust region."""
 
-
-LAST_CUT = 1.0
-"""Logarithm of size that such a cut takes at most: of items far smaller than the trust region
-all would be taken. Larger makes specks of them, smaller leaves conflicts. Chosen."""
-
-
 MOST_GROWTH = 1.0
-"""Logarithm of size by which one step grows an item at most. Programmes are linear: where an
-item is far smaller than the trust region, larger steps end anywhere. Chosen."""
-
+"""Logarithm of size by which one step grows an item at most, or cuts it at most. Programmes are
+linear: where an item is far smaller than the trust region, larger steps end anywhere, and larger
+cuts make specks. Chosen."""
 
 LEAST_GROWTH = -10.0
 """Logarithm of size below which no item falls: a 20,000th. Chosen."""
 
-
 CHECKS = 16
 """Checks of one step before it is halved for all. Smaller halves steps that one more cut
 would have saved. Tried."""
-
 
 HALVINGS = 4
 """Halvings before the whole step is given up. Chosen."""
@@ -187,7 +175,7 @@ def apply_step(board, items, step, pairs, gap, trust):
         for c in range(4):
             before[k, c] = board.places[items[k], c]
         unit[k] = min(
-            FIRST_CUT * trust / distances.arm(board, items[k]), LAST_CUT / 2.0 ** (CUTS - 1)
+            FIRST_CUT * trust / distances.arm(board, items[k]), MOST_GROWTH / 2.0 ** (CUTS - 1)
         )
     for halving in range(HALVINGS):
         if _apply_share(board, items, before, step, 0.5**halving, pairs, gap, unit):

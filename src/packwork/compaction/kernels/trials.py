@@ -18,14 +18,9 @@ CUT, CHECKS = 0.06, 25
 """Logarithm of size that moved items lose at a time while they are in conflict, and how often.
 Chosen."""
 
-
 FINALISTS = 2
 """Places in which the moved items grow, of those where they come clear at the largest size.
 Larger takes longer and finds little more. Tried."""
-
-
-SHORT = 1e-9
-"""Logarithm of size by which steps may end off their bounds. Derived."""
 
 
 class Trial(NamedTuple):
@@ -75,7 +70,7 @@ def _shortfall(board, objective, items):
     """Sum of how far some items are below their smallest sizes, logarithms."""
     total = 0.0
     for i in items:
-        total += max(objective.smallest[i] - board.places[i, 3] - SHORT, 0.0)
+        total += max(objective.smallest[i] - board.places[i, 3] - interior_point.ROUNDING, 0.0)
     return total
 
 

@@ -18,15 +18,12 @@ SPARE_ROWS = 3
 """Rows of the accumulation buffer beyond the image's: one for what falls off its lower
 edge, two for the steps in the wrong order that ``_walk`` speaks of. Derived."""
 
-
 ROWS_AHEAD = 8
 """Rows read before the ring that needs them comes. Larger evicts rows still in use, smaller
 is reached too early. Tried."""
 
-
 PIXELS_PER_LINE = 16
 """float32 pixels in a cache line of 64 bytes. Derived."""
-
 
 ABOVE = -2
 """Record of a piece above the canvas in column c: ``ABOVE - c``. Other pieces off the
