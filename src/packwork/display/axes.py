@@ -17,10 +17,7 @@ INSTEAD = "save a picture"
 def drawn_on(layout: Layout, ax: Any = None) -> Any:
     """Axes with a patch for each item, in canvas units, y down.
 
-    Raises
-    ------
-    PackworkError
-        If Matplotlib is not installed.
+    Raises ``PackworkError`` if Matplotlib is not installed.
     """
     patches = found("matplotlib.patches", INSTEAD)
     if ax is None:

@@ -13,10 +13,7 @@ def found(module: str, otherwise: str) -> Any:
 
     ``otherwise``: what does without it.
 
-    Raises
-    ------
-    PackworkError
-        If it is not installed, saying what to install.
+    Raises ``PackworkError`` if it is not installed, saying what to install.
 
     >>> found("no_such_package", "save a picture")
     Traceback (most recent call last):

@@ -26,10 +26,7 @@ _CODE = re.compile(r"\s*[-+]?0\d")
 def data_frame(layout: Layout) -> Any:
     """Pandas data frame of a layout, one row per item.
 
-    Raises
-    ------
-    PackworkError
-        If pandas is not installed.
+    Raises ``PackworkError`` if pandas is not installed.
     """
     pandas = found("pandas", "save the layout as .geojson")
     table = _table(layout)

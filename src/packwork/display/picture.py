@@ -52,10 +52,7 @@ def notebook_svg(layout: Layout) -> str | None:
 def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
     """PNG and its size on screen; None where an SVG is shown.
 
-    Raises
-    ------
-    WriteError
-        If an item's drawing cannot be rendered.
+    Raises ``WriteError`` if an item's drawing cannot be rendered.
 
     >>> from packwork.scene.layout import blank
     >>> notebook_png(blank()) is None

@@ -29,14 +29,8 @@ _RED = np.array([220.0, 30.0, 30.0])
 def write_saliency(recipe: Recipe, path: Path) -> None:
     """Write the saliency of a recipe's picture and the outline of its quiet part, as PNG.
 
-    Raises
-    ------
-    ReadError
-        If the picture cannot be used.
-    RecipeError
-        If the container is no picture.
-    WriteError
-        If nothing can be written there.
+    Raises ``ReadError`` if the picture cannot be used. ``RecipeError`` if the container is no
+    picture. ``WriteError`` if nothing can be written there.
     """
     if not recipe.container.startswith(AROUND):
         raise RecipeError(
@@ -52,10 +46,7 @@ def saliency_png(source: str, quiet: QuietOptions) -> bytes:
 
     ``source``: ``around:IMAGE``.
 
-    Raises
-    ------
-    ReadError
-        If the picture cannot be used.
+    Raises ``ReadError`` if the picture cannot be used.
     """
     container = read_container(source, float(SIDE_PX), quiet=quiet)
     data = read_bytes(source.removeprefix(AROUND), MAX_PICTURE_BYTES)

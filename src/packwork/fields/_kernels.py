@@ -136,10 +136,7 @@ def _is_hidden(left, middle, right, away):
 def label_components(mask, labels):
     """Number the parts of a mask from 1 on, in ``labels``, all 0 before; pixels join by sides.
 
-    Returns
-    -------
-    int
-        How many there are.
+    Returns how many there are.
     """
     height, width = mask.shape
     waiting = np.empty(mask.size, np.int64)

@@ -22,10 +22,7 @@ def box_mean(image: Image, size: int) -> Image:
 
     ``image``: ``(rows, columns)``, float32 or float64, contiguous; ``size``: odd, at least 1.
 
-    Raises
-    ------
-    ShapeError
-        If the size is even or below 1.
+    Raises ``ShapeError`` if the size is even or below 1.
 
     >>> box_mean(np.array([[0.0, 9.0, 0.0]]), 3).tolist()
     [[1.0, 1.0, 1.0]]

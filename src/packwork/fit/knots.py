@@ -180,10 +180,7 @@ def closed_path(cost: FloatArray, arcs: int, first: int) -> IntArray:
     ``cost``: ``(m, m)``: of the arc from site i on to site j; ``arcs``: from 2 to m; ``first``: the
     site that must be a cut.
 
-    Returns
-    -------
-    IntArray
-        ``(arcs,)`` in their order along the ring, ``first`` at the front.
+    Returns ``(arcs,)`` in their order along the ring, ``first`` at the front.
 
     >>> cost = np.array([[9, 1, 2, 9], [9, 9, 3, 5], [5, 9, 9, 1], [0, 5, 9, 9.0]])
     >>> closed_path(cost, 3, 0).tolist()

@@ -193,10 +193,7 @@ def _plainer(ring: Any, tolerance: float) -> Any:
 def _answered(operation: Callable[..., Any], *operands: Any) -> Any:
     """Outcome of an operation on regions or arrays of them, repaired where that is needed.
 
-    Raises
-    ------
-    UnresolvedError
-        If GEOS gives up on the coarsest grid too.
+    Raises ``UnresolvedError`` if GEOS gives up on the coarsest grid too.
     """
     with quiet():
         try:

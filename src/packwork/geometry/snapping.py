@@ -36,10 +36,7 @@ def sound(shape: Region, step: float = STEP) -> Region:
     ``shape``: any region; one that is not valid is repaired; ``step``: clearance, as a share of the
     region's extent.
 
-    Returns
-    -------
-    Region
-        Each vertex within a few steps of where it was; empty if nothing is as wide as a step.
+    Returns each vertex within a few steps of where it was; empty if nothing is as wide as a step.
 
     >>> nearly = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 1e-12), (0, 4)])
     >>> sound(nearly).geom_type, sound(nearly).area

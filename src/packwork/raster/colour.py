@@ -108,10 +108,7 @@ class ColourImage:
     def by_colours(self, adjoint: Image) -> tuple[FloatArray, FloatArray]:
         """Derivatives of sum(adjoint * image) by colours and background.
 
-        Returns
-        -------
-        tuple
-            ``(rings, channels)`` and ``(channels,)``.
+        Returns ``(rings, channels)`` and ``(channels,)``.
         """
         rows, columns = self._rasteriser.shape
         below = np.empty((rows + 1, columns * self.channels), adjoint.dtype)

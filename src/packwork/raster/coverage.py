@@ -163,10 +163,7 @@ class Rasteriser:
         ``adjoint``: d loss / d density, of this size; ``beyond``: constant adjoint of the plane
         outside the image, so that items that leave it still feel a force back.
 
-        Returns
-        -------
-        FloatArray
-            ``(n, 2)``; a buffer that the next call reuses.
+        Returns ``(n, 2)``; a buffer that the next call reuses.
         """
         flat = adjoint.reshape(-1)
         at_once(self._pull_back, [(record, flat, beyond) for record in self._used])
@@ -183,10 +180,7 @@ class Rasteriser:
 
         Exact for the swept polygons, by Green's theorem; holes come out negative.
 
-        Returns
-        -------
-        FloatArray
-            ``(rings,)``, in pixel areas.
+        Returns ``(rings,)``, in pixel areas.
         """
         prefix = np.zeros((self.shape[0] + 1, self.shape[1]))
         np.cumsum(image, axis=0, dtype=np.float64, out=prefix[1:])

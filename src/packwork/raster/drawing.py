@@ -44,10 +44,7 @@ def drawn_png(document: str) -> bytes:
 
     Its letters are set in fonts that we choose, from where we look for them.
 
-    Raises
-    ------
-    ValueError
-        If resvg gives up; the message is one line.
+    Raises ``ValueError`` if resvg gives up; the message is one line.
 
     >>> drawn_png('<svg xmlns="http://www.w3.org/2000/svg" width="2" height="2"/>')[1:4]
     b'PNG'

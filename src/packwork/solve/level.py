@@ -226,10 +226,7 @@ class ColouredLoss:
     def term(self, density: Image, container: Image) -> Term:
         """Value and derivatives, of the sweep of this density, ``(rows, columns)``.
 
-        Raises
-        ------
-        RecipeError
-            If the loss fails, or returns no such term.
+        Raises ``RecipeError`` if the loss fails, or returns no such term.
         """
         term = self._seen(
             density, self._image.render(self._colours, self._seen.background), container

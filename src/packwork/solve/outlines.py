@@ -174,11 +174,8 @@ class Ensemble:
     def gather(self, gradient: FloatArray, poses: Poses, px_per_cu: float) -> FloatArray:
         """Pose gradients from the gradients of the points last placed.
 
-        Returns
-        -------
-        FloatArray
-            ``(items, 5)``: by x and y (per canvas unit), angle (rad), log scale and log
-            stretch; a buffer that the next call reuses.
+        Returns ``(items, 5)``: by x and y (per canvas unit), angle (rad), log scale and log
+        stretch; a buffer that the next call reuses.
         """
         _kernels.gather(
             self._points, gradient, self._item_starts, poses.x, poses.y, poses.angle,

@@ -68,10 +68,7 @@ def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> Pain
 
     ``is_own``: whether it was made just now; else it goes through the gate first.
 
-    Raises
-    ------
-    UnfitError
-        If it cannot be painted item by item.
+    Raises ``UnfitError`` if it cannot be painted item by item.
 
     >>> from packwork.scene.layout import blank
     >>> from packwork.writers.svg import svg_text
