@@ -22,9 +22,8 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
 LEAST_STRIDE = 32
-"""Successive edges of the container that share a box, at least; of many, their square root, so that
-there are as many boxes as edges in each. Larger looks at more edges, smaller at more boxes.
-Tried."""
+"""Successive edges of the container that share a box, at least; of many, their square root. Larger
+looks at more edges, smaller at more boxes. Tried."""
 
 PAIRS_PER_ITEM = 16
 """Room for near pairs at first; more are counted and then looked for again."""
@@ -33,9 +32,8 @@ PAIRS_PER_ITEM = 16
 class Arrangement:
     """Polygons that must not meet, in place: the items, and last all that is not container.
 
-    ``outlines``: one per item, canvas units, about the item's own origin: as large, turned and
-    stretched as when ``places`` is zero but for the position; ``container``: in canvas units;
-    ``places``: ``(n, 4)``: x, y, turn in radians, logarithm of growth.
+    ``outlines``: one per item, canvas units, about its own origin, as when ``places`` is zero but
+    for the position; ``places``: ``(n, 4)`` x, y, turn in radians, logarithm of growth.
     """
 
     def __init__(self, outlines: Sequence[Outline], container: Outline, places: FloatArray) -> None:
@@ -136,21 +134,20 @@ def _neighbours(outlines: Sequence[Outline]) -> tuple[IntArray, IntArray]:
 
 
 COARSE, FINE = 4e-3, 3e-4
-"""Tolerance of the outlines that rounds work on, shares of an item's extent: first and
-last. Larger is faster and wastes room (the fine one 0.1 % of the coverage). Tried."""
+"""Tolerance of the outlines that rounds work on, shares of an item's extent: first and last. Larger
+is faster and wastes room. Tried."""
 
 FINE_OF_GAP, COARSE_OF_GAP, ROUGHEST = 0.003, 0.015, 0.1
-"""Tolerances of outlines as shares of the gap, where items are so small beside it that this is
-more than they have anyway: every edge of theirs is then near every other. And the largest share
-of an item's extent. Larger wastes room, smaller takes minutes where the padding is as wide as the
+"""Tolerances of outlines as shares of the gap, where items are small beside it, and the largest
+share of an item's extent. Larger wastes room, smaller takes minutes where the gap is as wide as
 items. Tried."""
 
 
 class Detail:
     """Covers of the outlines at one tolerance, finer ones inside coarser ones.
 
-    ``outlines``: one per item, item units; copies are simplified once; ``container``: in canvas
-    units; ``poses``: first poses: their scales, angles and stretches are taken in.
+    ``outlines``: one per item, item units; ``container``: canvas units; ``poses``: first poses,
+    whose scales, angles and stretches are taken in.
     """
 
     def __init__(self, outlines: Sequence[Outline], container: Outline, poses: Poses) -> None:
@@ -169,10 +166,7 @@ class Detail:
         return float(np.clip(distance_cu / np.median(extents), least, max(least, ROUGHEST)))
 
     def covers(self, tolerance: float, stop: Callable[[], bool] = bool) -> Detail:
-        """The same with fewer vertices: ``tolerance`` in shares of each item's extent.
-
-        Itself once ``stop``, asked before each, says so: hundreds of words take seconds.
-        """
+        """The same with fewer vertices, ``tolerance`` in shares of extents; itself once stopped."""
         known: dict[Outline, Outline] = {}
         covers = Covers()
         for outline in self._outlines:
@@ -201,8 +195,8 @@ class Detail:
 
 
 ROUNDING = 1e-9
-"""Share of the gap that rounding may take. Derived: coordinates are good to 1e-16 of the
-canvas, the smallest gap is 1e-5 of it."""
+"""Share of the gap that rounding may take. Derived: coordinates are good to 1e-16 of the canvas,
+the smallest gap is 1e-5 of it."""
 
 
 @dataclass(frozen=True)
@@ -219,7 +213,7 @@ class Conflict:
     gap_cu: float
 
     def numbered(self, items: IntArray) -> Conflict:
-        """The same where items are called by the numbers ``(n,)`` given."""
+        """The same where items are called by the numbers ``(n,)``."""
         other = None if self.other is None else int(items[self.other])
         return replace(self, item=int(items[self.item]), other=other)
 

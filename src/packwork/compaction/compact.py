@@ -1,18 +1,19 @@
 """Compaction: the best small step of some items by a linear programme over their contacts.
 
-Z. Li and V. Milenkovic, "Compaction and separation algorithms for non-convex polygons and their
-applications", European Journal of Operational Research 84 (1995), 539-561,
-doi:10.1016/0377-2217(95)00021-H: positions of polygons as unknowns, contacts as linear
-constraints, solved again about each new layout. That sizes grow and items turn in the same
-programme is as in the adaptive shrinking cell of S. Torquato and Y. Jiao, "Dense packings of the
-Platonic and Archimedean solids", Nature 460 (2009), 876-879, doi:10.1038/nature08239, and in
-"Robust algorithm to generate a diverse class of dense disordered and ordered sphere packings via
-linear programming", Physical Review E 82 (2010), 061302, doi:10.1103/PhysRevE.82.061302; where
-their cell shrinks round particles, our items grow in a container that stays.
+Z. Li and V. Milenkovic (1995, see :mod:`packwork.compaction`): positions of polygons as unknowns,
+contacts as linear constraints, solved again about each new layout. That sizes grow and items turn
+in the same programme is as in the adaptive shrinking cell of S. Torquato and Y. Jiao, "Dense
+packings of the Platonic and Archimedean solids", Nature 460 (2009), 876-879,
+doi:10.1038/nature08239, and in "Robust algorithm to generate a diverse class of dense disordered
+and ordered sphere packings via linear programming", Physical Review E 82 (2010), 061302,
+doi:10.1103/PhysRevE.82.061302; where their cell shrinks round particles, our items grow in a
+container that stays.
 
 Ours differs from both: constraints bind vertices to edges and corners that they see, no no-fit
-polygons are made; programmes are over blocks of neighbours; and each step is checked in exact
-geometry and cut until no conflict is left.
+polygons are made; each step is checked in exact geometry and cut until no conflict is left; and
+programmes are over blocks of neighbours, by recursive bisection along the longer side (M. Berger
+and S. Bokhari, "A partitioning strategy for nonuniform problems on multiprocessors", IEEE
+Transactions on Computers C-36 (1987), 570-580), cut elsewhere in each round.
 """
 
 from __future__ import annotations
@@ -42,12 +43,10 @@ def compact(
 ) -> bool:
     """Move some items by the best step for them all, as far as it goes; False if nowhere.
 
-    The arrangement has no conflicts and gets none.
-
-    ``arrangement``: changed in place; ``items``: ``(m,)`` indices of those that move, neighbours
-    near each other in the list; ``trust``: bound of each move, and of turns and growths at an
-    item's farthest vertex; ``gap``: least distance that the check asks for; ``hair``: the part of
-    it that was not asked for.
+    The arrangement, changed in place, has no conflicts and gets none. ``items``: ``(m,)``,
+    neighbours near each other in the list; ``trust``: bound of each move, and of turns and growths
+    at an item's farthest vertex; ``gap``: least distance that the check asks for, ``hair`` the part
+    of it that was not asked for.
     """
     near = broad_phase.nearby(arrangement.board.boxes, items, gap + TRAVEL * trust)
     return _compacted(arrangement, objective, items, near, trust, gap, hair)
@@ -64,8 +63,8 @@ def compact_all(
 ) -> None:
     """Move all items by blocks of neighbours, those at once that do not touch.
 
-    ``turn``: number of the round: others are cut elsewhere; ``stop``: asked before each group of
-    blocks that are moved at once; True leaves the others.
+    Blocks are cut elsewhere in each ``turn``. ``stop`` is asked before each group of blocks that
+    are moved at once.
     """
     boxes = arrangement.board.boxes
     # What stands still is looked at from as far as two items come nearer; what moves, farther.
@@ -98,8 +97,7 @@ def _compacted(
 
 
 MOST_IN_BLOCK = 128
-"""Items solved together. Larger lets moves travel farther and costs more an item, smaller
-the other way round. Tried."""
+"""Items solved together. Larger lets moves travel farther and costs more an item. Tried."""
 
 FRACTIONS = (0.5, 0.38, 0.62, 0.44, 0.56)
 """Where blocks are cut, round by round, so that no border lasts. Chosen."""
@@ -108,7 +106,7 @@ FRACTIONS = (0.5, 0.38, 0.62, 0.44, 0.56)
 def blocks(positions: FloatArray, turn: int, most: int = MOST_IN_BLOCK) -> list[IntArray]:
     """Indices of items in blocks of at most ``most``, each sorted along its longer side.
 
-    ``positions``: ``(n, 2)``; ``turn``: number of the round: other numbers cut elsewhere.
+    ``positions``: ``(n, 2)``; ``turn``: number of the round, others are cut elsewhere.
 
     >>> line = np.column_stack([np.arange(6.0), np.zeros(6)])
     >>> [block.tolist() for block in blocks(line, 0, 3)]
@@ -135,8 +133,7 @@ def colours(found: list[IntArray], boxes: FloatArray, reach: float) -> list[list
 
     Greedy colouring of the graph of neighbours (D. Welsh and M. Powell, "An upper bound for the
     chromatic number of a graph", The Computer Journal 10 (1967), 85-86), without their order.
-
-    ``boxes``: ``(n, 4)`` left, top, right, bottom of all items.
+    ``boxes``: ``(n, 4)`` left, top, right, bottom.
 
     >>> side_by_side = np.array([[x, 0.0, x + 1, 1.0] for x in range(4)])
     >>> [len(group) for group in colours([np.array([k]) for k in range(4)], side_by_side, 0.5)]

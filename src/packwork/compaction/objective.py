@@ -14,16 +14,16 @@ from packwork.compaction.options import MoveOptions
 from packwork.scene.limits import turn_sides
 
 LAGGARD = 0.05
-"""Logarithm of size by which an item must stay behind what was asked to be moved to a
-void. Smaller moves items that would have caught up. Chosen."""
+"""Logarithm of size by which an item must stay behind to be moved to a void, and by which it may
+outgrow the others there. Smaller moves items that would have caught up. Chosen."""
 
 AHEAD = 0.5
-"""How far above the smallest item others may grow where sizes are common, growths of one
-step. Larger lets them take room that the smallest needs. Tried."""
+"""How far above the smallest item others may grow where sizes are common, growths of one step.
+Larger takes room that the smallest needs. Tried."""
 
 URGENCY = 1.0
-"""How much more a step of growth is worth for an item that is one step smaller, as a
-logarithm. Larger cares for the smallest item only. Tried."""
+"""How much more a step of growth is worth for an item that is one step smaller, logarithm. Larger
+cares for the smallest item only. Tried."""
 
 MOST_URGENT = 4.0
 """Bound of that logarithm, about the median item. Chosen."""
@@ -32,22 +32,22 @@ MOST_EXPONENT = 300.0
 """Largest exponent that weights may have: float64 ends at 709. Derived."""
 
 OVERSHOOT = 1e-4
-"""Logarithm of size by which items may exceed a fixed size, so that they reach it. Far
-below the tolerance of the outlines. Derived."""
+"""Logarithm of size by which items may exceed a fixed size, so that they reach it. Derived: far
+below the tolerance of the outlines."""
 
 AREA_POWER = 2.0
 """Area goes with the square of the scale."""
 
 SIZE_TOLERANCE = 1e-3
-"""Logarithm of size below which no item is too small: steps end a little off their bounds,
-and a thousandth is not seen. Chosen."""
+"""Logarithm of size below which no item is too small: steps end a little off their bounds.
+Chosen."""
 
 
 class Sizing(ABC):
     """A size mode: objective of the next round, and the items that stayed behind.
 
-    ``areas``: ``(n,)`` of the items at growth 0, squared canvas units; ``turns``: farthest turns
-    back and on, ``(n,)`` each, rad.
+    Growths ``(n,)`` are logarithms. ``areas``: ``(n,)`` at growth 0, squared canvas units;
+    ``turns``: farthest turns back and on, ``(n,)`` each, rad.
     """
 
     def __init__(self, areas: FloatArray, turns: tuple[FloatArray, FloatArray]) -> None:
@@ -56,27 +56,24 @@ class Sizing(ABC):
 
     @abstractmethod
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Objective at growths ``(n,)``, logarithms; ``spread``: the most that one step grows."""
+        """Objective at these growths; ``spread``: the most that one step grows."""
 
     @abstractmethod
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Indices of items whose growths ``(n,)`` are far below their bounds or the others'."""
+        """Indices of items that are far below their bounds or the others."""
 
     def undersized(self, growth: FloatArray) -> tuple[int, ...]:
-        """Indices of items whose growths ``(n,)`` are below their bounds; none of common sizes."""
+        """Indices of items below their bounds; none of common sizes."""
         return ()
 
     @abstractmethod
     def is_done(self, growth: FloatArray) -> bool:
-        """Whether the objective is reached at growths ``(n,)``, logarithms."""
+        """Whether the objective is reached."""
 
 
 @final
 class FreeSizes(Sizing):
-    """Free sizes: each item within its own bounds, all area worth the same.
-
-    ``smallest``, ``largest``: ``(n,)`` logarithms of growth.
-    """
+    """Free sizes: each item within its own bounds, logarithms ``(n,)``; all area worth the same."""
 
     def __init__(
         self,
@@ -89,29 +86,28 @@ class FreeSizes(Sizing):
         self.smallest, self.largest = smallest, largest
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Objective at growths ``(n,)``, logarithms: the same in all rounds."""
+        """The same in all rounds."""
         weights = AREA_POWER * self.areas
         still = np.zeros((len(growth), 2))
         return Objective(self.smallest, self.largest, *self.turns, weights, AREA_POWER, still)
 
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Indices of items whose growths ``(n,)`` are below their smallest size."""
+        """Items ``(m,)`` below their smallest size."""
         return np.flatnonzero(growth < self.smallest - LAGGARD)
 
     def undersized(self, growth: FloatArray) -> tuple[int, ...]:
-        """Indices of items whose growths ``(n,)`` are below their smallest size."""
+        """Items below their smallest size."""
         return tuple(int(k) for k in np.flatnonzero(self.smallest - growth > SIZE_TOLERANCE))
 
     def is_done(self, growth: FloatArray) -> bool:
-        """Whether all growths ``(n,)``, logarithms, are as large as they may be."""
+        """Whether all are as large as they may be."""
         return bool((growth >= self.largest).all())
 
 
 class CommonSize(Sizing):
-    """Sizes of one common factor: growth of the smallest item is worth most."""
+    """Sizes of one common factor: growth of those that are behind the median is worth more."""
 
     def _objective(self, growth: FloatArray, spread: float, largest: FloatArray) -> Objective:
-        """Worths that rise with how far an item is behind the median, in ``spread``."""
         steepest = MOST_EXPONENT / max(float(np.abs(growth).max()), 1.0)
         power = -min(URGENCY / spread, steepest)
         behind = power * (growth - np.median(growth))
@@ -126,21 +122,21 @@ class SharedSize(CommonSize):
     """Shared sizes: one common factor, as large as possible."""
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Objective at growths ``(n,)``, logarithms: bounds a little above the smallest."""
+        """Bounds a little above the smallest item."""
         largest = np.maximum(growth, growth.min() + AHEAD * spread)
         return self._objective(growth, spread, largest)
 
     def levelling(self, growth: FloatArray, back: float) -> Objective:
-        """Objective at growths ``(n,)``: all smaller than the smallest by ``back``, logarithms."""
+        """Objective of coming down: all smaller than the smallest by ``back``, logarithms."""
         aim = np.full_like(growth, growth.min() - back)
         return Objective(aim, aim, *self.turns, np.exp(-growth), 1.0, np.zeros((len(growth), 2)))
 
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Indices of items whose growths ``(n,)`` are far below most."""
+        """Items ``(m,)`` far below most."""
         return np.flatnonzero(growth < np.median(growth) - LAGGARD)
 
     def is_done(self, growth: FloatArray) -> bool:
-        """False at any growths ``(n,)``, logarithms: there is always room to grow into."""
+        """False: there is always room to grow into."""
         return False
 
 
@@ -149,15 +145,15 @@ class FixedSize(CommonSize):
     """Fixed sizes: items that were shrunk grow back to growth 0, no farther."""
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Objective at growths ``(n,)``, logarithms: back to 0, the farther behind the worthier."""
+        """Growth back to 0, the farther behind the worthier."""
         return self._objective(growth, spread, np.maximum(growth, OVERSHOOT))
 
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Indices of items whose growths ``(n,)`` are far below 0."""
+        """Items ``(m,)`` far below growth 0."""
         return np.flatnonzero(growth < -LAGGARD)
 
     def is_done(self, growth: FloatArray) -> bool:
-        """Whether all growths ``(n,)``, logarithms, are at 0 or above."""
+        """Whether all growths are at 0 or above."""
         return bool((growth >= 0).all())
 
 

@@ -9,13 +9,13 @@ from pydantic import Field
 from packwork.options import Options
 
 HAIR = 1e-5
-"""Gap kept beyond the one asked for, as a share of the canvas: ten times the precision
-of the files that are written, so that what was checked still holds when it is read back.
-Larger wastes room (this one 0.1 % of it with 100 items). Derived."""
+"""Gap kept beyond the one asked for, as a share of the canvas. Derived: ten times the precision of
+the files that are written, so that what was checked still holds when it is read back. Larger wastes
+room."""
 
 HOPELESS = 0.3
-"""Logarithm of size an item may lose before the smaller one of a pair in conflict is moved
-to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tried."""
+"""Logarithm of size an item may lose before the smaller one of a pair in conflict is moved to a
+void. Smaller moves items that had a place, larger makes dwarfs. Tried."""
 
 
 class MoveOptions(Options):

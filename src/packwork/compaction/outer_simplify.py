@@ -1,11 +1,12 @@
 """Outer and inner simplification: regions of few vertices that hold another, or lie in it.
 
-Vertices go one by one, the cheapest first, as in M. Visvalingam and J. Whyatt, "Line
-generalisation by repeated elimination of points", The Cartographic Journal 30 (1993), 46-51. Ours
-drops only vertices of bays, and edges by prolonging their neighbours, so that the polygon grows and
-never shrinks; the cost is a distance, not an area. A plain simplification (D. Douglas and
-T. Peucker, "Algorithms for the reduction of the number of points required to represent a
-digitized line or its caricature", Cartographica 10 (1973), 112-122) with a margin comes first.
+Vertices go one by one, the cheapest first, as in M. Visvalingam and J. Whyatt, "Line generalisation
+by repeated elimination of points", The Cartographic Journal 30 (1993), 46-51. Ours drops only
+vertices of bays, and edges by prolonging their neighbours, so that the polygon grows and never
+shrinks; the cost is a distance, not an area. A plain simplification (D. Douglas and T. Peucker,
+"Algorithms for the reduction of the number of points required to represent a digitized line or its
+caricature", Cartographica 10 (1973), 112-122) with a margin comes first. Of many outlines, what
+recurs in them, as letters do in words, is simplified once.
 """
 
 from __future__ import annotations
@@ -32,29 +33,27 @@ from packwork.geometry.overlay import (
 )
 
 MARGIN = 0.1
-"""Share of the tolerance that goes into a plain simplification first, and into the margin
-that makes up for it. Larger gives fewer vertices to the second step and more excess.
-Tried."""
+"""Share of the tolerance that goes into a plain simplification first, and into the margin that
+makes up for it. Larger gives fewer vertices to the second step and more excess. Tried."""
 
 MITRE_LIMIT = 4.0
-"""How far a sharp corner of that margin may stand out, in margins. Larger keeps needles
-sharp but longer; smaller cuts them with an edge more. Chosen."""
+"""How far a sharp corner of that margin may stand out, in margins. Larger keeps needles longer;
+smaller cuts them with an edge more. Chosen."""
 
 MANY_VERTICES = 50_000
-"""Vertices of a container above which it is simplified plainly and shrunk by as much: 1 s in place
-of 5 s, and a quarter of a percent less room, for a spiral of 270,000. Tried."""
+"""Vertices of a container above which it is simplified plainly and shrunk by as much: a fifth of
+the time, and a quarter of a percent less room. Tried."""
 
 FINER = 0.01
-"""Tolerance, as a share of the mean edge, below which such a container stays as it is: hardly a
-vertex would go. Larger leaves vertices, smaller looks for them for nothing. Chosen."""
+"""Tolerance, as a share of the mean edge, below which such a container stays as it is, since hardly
+a vertex would go. Chosen."""
 
 MANY_PARTS = 500
 """Parts of a container above which those of few vertices stay as they are, and the others are
-simplified one by one: 5,000 hairs take a hundredth of a second in place of ten. Chosen."""
+simplified one by one. Smaller wastes room, larger takes seconds. Chosen."""
 
 PLAIN = 8
-"""Coordinates of a ring, the first once more, up to which it has no vertex to spare. Larger leaves
-more vertices, smaller looks at more rings for nothing. Chosen."""
+"""Coordinates of a ring, the first once more, up to which it has no vertex to spare. Chosen."""
 
 MARGINS = (1.0, 1.5, 2.25)
 """Margins tried in turn, simplification's tolerances: GEOS may drop the vertex at which a
@@ -64,9 +63,7 @@ ring starts, and then is off by twice that."""
 def outer_simplified(region: Region, tolerance: float) -> Region:
     """Region with fewer vertices that holds all of ``region``.
 
-    Its boundary is within about one and a half times ``tolerance`` of the old one. Bays
-    lose vertices, and convex edges go by prolonging their neighbours: the excess is a
-    third of what simplifying and growing by the tolerance would give.
+    Its boundary is within about one and a half times ``tolerance`` of the old one.
 
     >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
     >>> cover = outer_simplified(disc, 0.01)
@@ -137,8 +134,8 @@ def _each_inner_simplified(parts: Sequence[Region], tolerance: float) -> Region:
 
 
 ALIKE = 1e-6
-"""Difference of coordinates, in tolerances, up to which two rings are one shape. Smaller takes for
-two what rounding has moved; larger would be seen in the gaps. Chosen."""
+"""Difference of coordinates, in tolerances, up to which two rings are one shape. Smaller sees
+rounding, larger would be seen in the gaps. Chosen."""
 
 STEPS = 2
 """Tolerances of parts for each factor of 2, rounded down to them. More keep nearer to what was
@@ -169,9 +166,7 @@ class Covers:
         self._scaled: dict[_Shape, tuple[float, Outline]] = {}
 
     def cover_of_shape(self, outline: Outline, tolerance: float) -> Outline:
-        """Cover of an outline, ``tolerance`` in its extents; what differs in size is made once.
-
-        Always called with one tolerance.
+        """Cover of an outline, ``tolerance`` in extents, always the same; other sizes are scaled.
 
         >>> tile = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.01], [0, 4]])
         >>> one, two = (Outline.from_rings([size * tile]) for size in (1, 3))
@@ -200,7 +195,6 @@ class Covers:
         return Outline.from_region(outer_simplified(outline.region, tolerance))
 
     def _part(self, rings: Sequence[FloatArray], tolerance: float) -> list[FloatArray]:
-        """Rings of the cover of one part: its own ring, then those of its holes."""
         level = math.floor(STEPS * math.log2(tolerance))
         tolerance = 2.0 ** (level / STEPS)
         first = rings[0][0]
@@ -214,7 +208,6 @@ class Covers:
 
 
 def _are_apart(parts: list[list[FloatArray]]) -> bool:
-    """Whether parts do not meet."""
     low = np.array([part[0].min(axis=0) for part in parts])
     high = np.array([part[0].max(axis=0) for part in parts])
     meets = ((low[:, None] <= high) & (low <= high[:, None])).all(axis=2)

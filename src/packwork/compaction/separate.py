@@ -23,13 +23,13 @@ from packwork.fields.voids import Clearance, largest_voids
 from packwork.raster.coverage import coverage
 
 CUT = 0.004
-"""Logarithm of size that an item in conflict loses at a time. Larger gives room away,
-smaller needs more checks. Tried."""
+"""Logarithm of size that an item in conflict loses at a time. Larger gives room away, smaller needs
+more checks. Tried."""
 
 
 HASTE = 1.03
-"""Factor on that loss with each further check, once it has made items hopeless that often: even
-hopeless layouts come to an end. Chosen."""
+"""Factor on that loss with each further check, once it has made items hopeless that often, so that
+even hopeless layouts come to an end. Chosen."""
 
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""
@@ -38,12 +38,11 @@ RESCUES = 2
 """Times that items which are still in conflict then are moved to voids. Chosen."""
 
 HOPELESS_SHARE = 0.1
-"""Share of the items that may be in conflict all the same and the finish go on: single ones may
-lie where nothing fits. Larger goes on without hope, smaller gives up too early. Chosen."""
+"""Share of the items that may be in conflict all the same and the finish go on. Larger goes on
+without hope, smaller gives up too early. Chosen."""
 
 EVENINGS = 6
-"""Times that all come down to the smallest: an item that is smaller is in no new conflict but where
-its origin lies off its outline. Tried: more gain nothing."""
+"""Times that all come down to the smallest; more gain nothing. Tried."""
 
 
 def separate(
@@ -54,11 +53,9 @@ def separate(
 ) -> IntArray:
     """Make items in conflict smaller until none is; ``(m,)`` indices of the items that were moved.
 
-    Only items in conflict change. Some conflicts may be left, if the container has no
-    room at all.
-
+    Only items in conflict change. Some conflicts may be left, if the container has no room at all.
     ``hopeless_at``: logarithm of size that an item loses before one is moved to a void;
-    ``hurries``: asked before each check; once it is so, items lose more at a time.
+    ``hurries``: asked before each check, once it is so, items lose more at a time.
 
     >>> from packwork.geometry.outline import Outline
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
@@ -103,11 +100,7 @@ def separate(
 def relocate_stuck(
     arrangement: Arrangement, gap: float, hurries: Callable[[], bool] = bool
 ) -> bool:
-    """Relocate items still in conflict to voids and separate again; whether few are left.
-
-    Items that are next to nothing and yet too near each other ask for more room than there
-    is: nothing that a finish could do would change that.
-    """
+    """Relocate items still in conflict to voids and separate again; whether few are left."""
     for _ in range(RESCUES):
         left = _items(arrangement.conflicts(arrangement.pairs(gap), gap), arrangement.count)
         if len(left) <= HOPELESS_SHARE * arrangement.count:
@@ -122,8 +115,8 @@ def separate_evenly(
 ) -> None:
     """Make all items smaller until none is in conflict and all have shrunk alike, nearly.
 
-    Where one size is asked for in the end, the few that had to shrink by far would
-    else have to grow back through neighbours that lie tight.
+    Where one size is asked for in the end, the few that had to shrink by far would else have to
+    grow back through neighbours that lie tight.
 
     >>> from packwork.geometry.outline import Outline
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
@@ -161,12 +154,12 @@ def _smaller_of(bad: IntArray, worn: BoolArray, arrangement: Arrangement) -> Int
 
 
 PIXELS_PER_ITEM = 24.0
-"""Pixels of the image of voids along the side of an item's share of the container. More
-sees smaller voids and takes longer. Tried."""
+"""Pixels of the image of voids along the side of an item's share of the container. More sees
+smaller voids and takes longer. Tried."""
 
 ACROSS = 4.0
-"""Pixels of that image across the container's mean thickness, at least: a spiral of thin lines has
-no room at all on a coarse one. Larger takes longer. Chosen."""
+"""Pixels of that image across the container's mean thickness, at least, or thin lines have no room
+at all. Larger takes longer. Chosen."""
 
 LEAST_SIDE, MOST_SIDE = 128, 2_048
 """Bounds of that image's longer side, px. Chosen."""
@@ -179,15 +172,11 @@ FAINT = 1e-3
 """Coverage of a pixel that counts as none. Chosen."""
 
 SMALLEST_VOID = 0.5
-"""Radius of the smallest void that takes an item, px: below it the image is not to be
-believed. Chosen."""
+"""Radius of the smallest void that takes an item, px of that image, which is not exact. Chosen."""
 
 
 def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
-    """Move items ``(m,)``, the largest first, to the largest voids; smaller, never larger.
-
-    An item for which there is no room stays where it is.
-    """
+    """Move items ``(m,)``, the largest first, smaller but never larger, to the largest voids."""
     others = np.setdiff1d(np.arange(arrangement.count), items)
     room, px_per_cu, corner = free_room(arrangement, others)
     order = items[np.argsort(-arrangement.radii[items], kind="stable")]

@@ -96,10 +96,9 @@ def _nearest_in_columns(mask):
 
 @helper
 def _nearest_in_row(rows, r, away, columns):
-    """Column in which the True pixel nearest to each pixel of a row lies.
+    """Column in which the True pixel nearest to each pixel of row ``r`` lies, in ``columns``.
 
-    ``rows``, ``r``: of the nearest in each column, and the row's own; ``away``, ``columns``:
-    overwritten: squared distance down each column (-1 for none), and what is asked for.
+    ``rows``: of the nearest in each column; ``away``: squared distances down columns, overwritten.
     """
     width = len(rows)
     for c in range(width):
@@ -134,10 +133,7 @@ def _is_hidden(left, middle, right, away):
 
 @kernel
 def label_components(mask, labels):
-    """Number the parts of a mask from 1 on, in ``labels``, all 0 before; pixels join by sides.
-
-    Returns how many there are.
-    """
+    """Number components of a mask, joined by sides, in ``labels``, 0 before; returns how many."""
     height, width = mask.shape
     waiting = np.empty(mask.size, np.int64)
     count = 0

@@ -39,9 +39,7 @@ def distance_to(mask: BoolArray) -> FloatArray:
 
 
 def nearest_to(mask: BoolArray) -> tuple[Indices, Indices]:
-    """Rows and columns, each ``(rows, columns)``, of the True pixel nearest to each pixel.
-
-    ``mask``: with one True pixel at least.
+    """Rows and columns ``(rows, columns)`` of the True pixel, one at least, nearest to each pixel.
 
     >>> nearest_to(np.array([[True, False, False]]))[1].tolist()
     [[0, 0, 0]]
@@ -52,9 +50,7 @@ def nearest_to(mask: BoolArray) -> tuple[Indices, Indices]:
 
 
 def label_components(mask: BoolArray) -> tuple[Indices, int]:
-    """Number ``(rows, columns)``, from 1 on, of each pixel's part, and how many parts there are.
-
-    Pixels are of one part if they share a side; those that are False are 0.
+    """Number of each pixel's component, from 1 on, by sides, 0 where False; and how many there are.
 
     >>> labels, count = label_components(np.array([[True, False, True]]))
     >>> labels.tolist(), count

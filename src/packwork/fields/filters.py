@@ -16,13 +16,9 @@ from packwork.fields import _kernels
 
 
 def box_mean(image: Image, size: int) -> Image:
-    """Mean over the square of ``size`` pixels centred on each pixel; zero off the image.
+    """Mean over the square of ``size`` pixels, odd, centred on each pixel; zero off the image.
 
-    Linear and its own adjoint, so it also carries derivatives back.
-
-    ``image``: ``(rows, columns)``, float32 or float64, contiguous; ``size``: odd, at least 1.
-
-    Raises ``ShapeError`` if the size is even or below 1.
+    Linear and its own adjoint, so it also carries derivatives back. ``image``: contiguous.
 
     >>> box_mean(np.array([[0.0, 9.0, 0.0]]), 3).tolist()
     [[1.0, 1.0, 1.0]]
@@ -37,12 +33,12 @@ def box_mean(image: Image, size: int) -> Image:
 
 
 BLANK = 0.01
-"""Standard deviation of a picture, of 1, below which nothing in it stands out: compression
-leaves about that much of a plain colour. Chosen."""
+"""Standard deviation of a picture, of 1, below which nothing in it stands out: about that of
+compression. Chosen."""
 
 MARGIN_PX = 12
-"""Margin of mirror image. Without it corners stand out; a whole mirror image, four times the
-picture, puts all that stands out into the middle, whatever is there. Tried."""
+"""Margin of mirror image. Without it corners stand out, with a whole image all is drawn to the
+middle. Tried."""
 
 _NEIGHBOURS = 3
 
@@ -55,11 +51,9 @@ _FLOOR = 1e-6
 def spectral_residual(picture: FloatArray) -> FloatArray:
     """Saliency of each pixel, 0..1; zeros for a picture of one colour.
 
-    The logarithm of a picture's spectrum is smooth but for what is peculiar to it; what is left
-    once the smooth part is off leads back to where that is.
-
-    ``picture``: ``(rows, columns, channels)``, 0..1, about 64 pixels long: the method finds what is
-    as large as a few pixels.
+    The logarithm of a picture's spectrum is smooth but for what is peculiar to it. ``picture``:
+    ``(rows, columns, channels)``, 0..1, about 64 pixels long: what is found is as large as a few
+    pixels.
 
     >>> picture = np.random.default_rng(0).normal(0.5, 0.03, (48, 64, 1))
     >>> picture[20:26, 40:46] = 1.0

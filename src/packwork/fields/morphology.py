@@ -74,8 +74,8 @@ take longer. Chosen."""
 class Thickness:
     """Morphological openings of a region by discs of several radii.
 
-    ``radii_px``: ``(m,)``, growing; ``missing``: ``(m,)`` share of the region that is farther than
-    some reach from every place that a disc of that radius inside the region can cover; growing.
+    ``missing``: ``(m,)`` share of the region that is farther than some reach from every place that
+    a disc of that radius inside the region can cover. Both grow.
     """
 
     radii_px: FloatArray
@@ -107,7 +107,7 @@ class Thickness:
 
 
 def thickness(mask: BoolArray, reach_px: float) -> Thickness:
-    """Thickness of a mask ``(rows, columns)`` that holds at least one pixel; lengths in pixels.
+    """Thickness of a mask ``(rows, columns)`` of at least one pixel; lengths in pixels.
 
     >>> bar = np.zeros((30, 60), dtype=bool)
     >>> bar[10:20, 5:55] = True
@@ -140,9 +140,8 @@ def _removable() -> BoolArray:
 def medial_axis(mask: BoolArray) -> BoolArray:
     """True on the line, one pixel wide, that runs midway between the region's edges.
 
-    Thinned, not read from the distance field: the same mask always
-    has the same axis, and the staircases of slanting edges grow no branches. Every part
-    of the region keeps at least one pixel. What lies off the image counts as outside.
+    Thinned, not read from the distance field: staircases of slanting edges grow no branches. Every
+    part of the region keeps at least one pixel. What lies off the image counts as outside.
 
     >>> medial_axis(np.ones((3, 6), dtype=bool)).any(axis=1).tolist()
     [False, True, False]

@@ -18,9 +18,7 @@ from packwork.fields.distance_transform import distance_inside
 
 
 class Clearance:
-    """Radius of the largest free disc about each pixel's centre.
-
-    ``free``: ``(rows, columns)``, True where there is room.
+    """Radius of the largest free disc about each pixel's centre; ``free``: where there is room.
 
     >>> room = Clearance(np.ones((9, 9), dtype=bool))
     >>> room.largest()
@@ -44,9 +42,7 @@ class Clearance:
         return self._largest
 
     def largest_among(self, pixels: IntArray) -> tuple[float, float, float]:
-        """Like :meth:`largest`, of some pixels only.
-
-        ``pixels``: ``(n,)``, n > 0: ``row * columns + column`` of each.
+        """Like :meth:`largest`, of pixels ``(n,)`` alone, ``row * columns + column`` each.
 
         >>> Clearance(np.ones((3, 9), dtype=bool)).largest_among(np.array([9, 10]))
         (1.5, 1.5, 1.5)
@@ -74,10 +70,7 @@ class Clearance:
 
 
 class Void(NamedTuple):
-    """Place of one item: centre and radius of the largest empty circle that was left, px.
-
-    The radius is below 0 if no room was left.
-    """
+    """Centre and radius of the largest empty circle left for an item, px; below 0 for no room."""
 
     item: int
     x: float
@@ -94,14 +87,12 @@ def largest_voids(
     among: Callable[[int], IntArray | None] | None = None,
     preferred: IntArray | None = None,
 ) -> Iterator[Void]:
-    """Void of each item in turn, beside what earlier ones have taken.
+    """Void of each item in turn, beside what earlier ones have taken away from ``room``.
 
-    ``room``: where there is room; what items take is taken away from it; ``items``: indices, in the
-    order in which they choose; ``taken_px``: radius that an item takes of a void of a given radius;
-    ``least_px``: radius of the smallest void that is used: the first item without one ends the
-    search, unless it was bound to some pixels; ``among``: pixels ``(m,)``, ``row * columns +
-    column``, that an item is bound to; None for any; ``preferred``: pixels that items not bound to
-    any take as long as they fit there.
+    ``taken_px``: radius that an item takes of a void of a given radius; ``least_px``: radius of the
+    smallest void that is used: the first item without one ends the search, unless it was bound to
+    some pixels; ``among``: pixels ``(m,)`` that an item is bound to, None for any; ``preferred``:
+    pixels that items not bound to any take as long as they fit there.
 
     >>> room = Clearance(np.ones((10, 30), dtype=bool))
     >>> [(void.item, void.radius) for void in largest_voids(room, [7, 5], lambda *_: 4.0)]

@@ -51,36 +51,30 @@ ANGLE_TRUST = 0.08
 """Trust region of the round in which they grow alone, as above. Tried."""
 
 PATIENCE, HASTE = 0.8, 0.55
-"""Area that may be missing when a trial's first round begins, shares of an item's share of
-the container, and how that falls with each round. Larger ones save a few trials that
-begin badly and spend rounds on the many that end so. Of 984 trials, 95 % of those that
-gained stayed within. Measured."""
+"""Area that may be missing when a trial's first round begins, shares of an item's share of the
+container, and how that falls with each round. Larger spends rounds on trials that end badly.
+Measured."""
 
 HEAT = 0.03
-"""Mean area that a trial may lose and be kept all the same, shares of an item's share of
-the container, at the begin; it falls to nothing. Larger wanders, smaller stays in the
-first optimum. Tried."""
+"""Mean area that a trial may lose and be kept, shares of an item's share of the container, at the
+begin. Larger wanders, smaller stays in the first optimum. Tried."""
 
 SWEEPS, SWEEP_ROUNDS = 3, 4
-"""Linear programmes over all items after as many trials as there are items, or so many times
-in all if that is oftener: what trials free here lets others grow there. Tried."""
+"""Linear programmes over all items after as many trials as there are items, or so many times in all
+if that is oftener. Tried."""
 
 AT_ONCE = 16
-"""Trials made at once at most, which are looked for among twice as many. What they are depends on
-no number of threads. More keep more cores busy, and know less of each other. Chosen."""
+"""Trials made at once at most, which are looked for among twice as many, whatever the number of
+threads. More keep more cores busy, and know less of each other. Chosen."""
 
 ROOM = 0.25
-"""How far an item may go in such a trial, shares of the side of an item's share of the
-container; a trial that would go farther is undone. Larger lets fewer be made at once. Chosen."""
+"""How far an item may go in such a trial, or it is undone, shares of the side of an item's share of
+the container. Larger lets fewer be made at once. Chosen."""
 
 
 @dataclass(frozen=True)
 class Lengths:
-    """Lengths of a finish, canvas units.
-
-    ``spacing``: side of an item's share of the container; ``hair``: part of the gap that was not
-    asked for.
-    """
+    """Lengths of a finish, canvas units; ``spacing``: side of an item's share of the container."""
 
     spacing: float
     gap: float
@@ -100,14 +94,10 @@ def anneal(
 ) -> int:
     """Anneal a compacted layout by turns and exchanges of items; how many trials were kept.
 
-    The arrangement has no conflicts and gets none. Where all area is worth the same, a
-    trial may lose a little and be kept: ever less, at last nothing.
-
-    ``arrangement``: changed in place; ``objective_at``: objective and bounds at places ``(n, 4)``;
-    asked again after each trial; ``stop``: asked before each batch of trials that are made at once,
-    and before each group of blocks of the rounds over all items; True ends the search; ``tell``:
-    called with the number of each trial, once it has been kept or undone; ``exchanges``: share of
-    trials that exchange items; with 0 each stays about where it is.
+    The arrangement, changed in place, has no conflicts and gets none. Where all area is worth the
+    same, a trial may lose a little and be kept: ever less, at last nothing. ``objective_at``:
+    objective and bounds at places ``(n, 4)``; ``tell``: called with the number of each trial;
+    ``exchanges``: share of trials that exchange items, with 0 each stays about where it is.
     """
     search = _Search(arrangement, objective_at, lengths, rng, pulling, exchanges)
     if not search.has_choice:
@@ -129,8 +119,6 @@ def anneal(
 
 
 class _Search:
-    """Trials that wait, and those that are made."""
-
     def __init__(
         self,
         arrangement: Arrangement,
@@ -215,7 +203,6 @@ class _Search:
         return found
 
     def _gain(self, trial: Trial, allowed: float) -> float:
-        """Gain of a trial, though it may lose what is allowed; -inf if it was undone."""
         return made(
             self._arrangement, self._objective, trial, self._rounds, self._lengths, allowed,
             self._least,
@@ -247,10 +234,7 @@ def made(
     allowed: float = np.inf,
     least: float = -np.inf,
 ) -> float:
-    """Make a trial; what it gained, -inf if it was undone since it lost more than ``allowed``.
-
-    ``least``: logarithm of size below which none may end.
-    """
+    """Make a trial; what it gained, -inf if it was undone since it lost more than ``allowed``."""
     board = arrangement.board
     return float(
         attempt(board, objective, trial, rounds, allowed, least, lengths.gap, lengths.hair)
@@ -260,6 +244,5 @@ def made(
 def _sweep(
     arrangement: Arrangement, objective: Objective, lengths: Lengths, turn: int, stop: Stop
 ) -> None:
-    """Rounds of compaction over all items."""
     for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
         compact_all(arrangement, objective, turn + index, trust, lengths.gap, lengths.hair, stop)

@@ -36,14 +36,14 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
 FIRST_TRUST, LAST_TRUST = 0.08, 0.003
-"""Trust region of the first and the last round, shares of the side of an item's share of
-the container. A larger first one lets items pass each other and fails more checks, a
-smaller last one gains what is not seen. Tried."""
+"""Trust region of the first and the last round, shares of the side of an item's share of the
+container. A larger first one lets items pass each other and fails more checks, a smaller last one
+gains nothing. Tried."""
 
 SPARSE = 16.0
-"""Side of an item's share of the container, in radii of the usual item, above which steps go by
-the items. Larger looks at thousands of edges that no item comes near, smaller lets small items in
-a large container move little. Chosen: in fills it is 1 to 3."""
+"""Side of an item's share of the container, in radii of the usual item, above which steps go by the
+items; 1 to 3 is usual. Larger looks at edges that no item comes near, smaller lets small items move
+little. Chosen."""
 
 REFINING_TRUST = 0.03
 """The same of the first round where a clean layout is refined. Larger moves what lies well,
@@ -72,8 +72,8 @@ in which all come down to the smallest. Larger than a full layout grants moves n
 
 
 LEVELLING_ROOM = 1.5
-"""Trust region of such a round over what the largest item has to come down. Larger lets
-items move about for nothing, smaller leaves them too large. Chosen."""
+"""Trust region of such a round over what the largest item has to come down. Larger moves items for
+nothing, smaller leaves them too large. Chosen."""
 
 RESCUES = 3
 """Times that items which stay behind are moved to voids. Chosen."""
@@ -89,9 +89,8 @@ TOLD = 10
 class Finished:
     """Result of a finish.
 
-    ``clean``: whether no two items, and no item and the edge, are nearer than was asked;
-    ``undersized``: items that found no room at the size that they should have at least; ``rounds``:
-    linear programmes for each item.
+    ``clean``: whether nothing is nearer than was asked for; ``undersized``: items that found no
+    room at the size that they should have at least; ``rounds``: linear programmes for each item.
     """
 
     poses: Poses
@@ -147,8 +146,6 @@ def finish(
 
 
 class _Finish:
-    """State of one finish between its rounds."""
-
     def __init__(
         self,
         container: Container,
@@ -331,7 +328,6 @@ class _Finish:
                 return
 
     def _come_down(self, sizing: SharedSize, back: float) -> None:
-        """Rounds in which the larger ones shrink, as long as they do."""
         for _ in range(COMMON_ROUNDS * self._options.rounds):
             spread = np.ptp(self.arrangement.places[:, 3])
             self._level_round(sizing, back)
@@ -340,7 +336,6 @@ class _Finish:
                 break
 
     def _level_round(self, sizing: SharedSize, back: float) -> None:
-        """All come down towards the smallest."""
         growth = self.arrangement.places[:, 3]
         objective = sizing.levelling(growth, back)
         # As small a trust region as lets the largest item come down at once.

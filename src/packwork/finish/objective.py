@@ -32,17 +32,16 @@ def sizing_of(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing
 
 YIELDING = 0.2
 """Most that a push may be worth where sizes are common, over what growing is worth to the same
-item's rim. Larger keeps forces' aims better and makes all items smaller. Tried."""
+item's rim. Larger makes all items smaller. Tried."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pulling:
     """Forces on the items of a finish, in the unit of its objective.
 
-    ``areas``: ``(n,)`` how much each counts: its area at the begin, so that none is shrunk for
-    lying where it should not; ``unit``: worth of one squared canvas unit; ``gives_way``: whether no
-    push is to count for more than an item's growth: where sizes are common, one item that is
-    pressed small makes all others small.
+    ``areas``: ``(n,)`` at the begin, so that none is shrunk for lying where it should not;
+    ``unit``: value of one squared canvas unit; ``gives_way``: whether no push counts for more than
+    an item's growth: where sizes are common, one that is pressed small makes all others small.
     """
 
     forces: Forces
@@ -65,10 +64,7 @@ class Pulling:
         return objective._replace(push=np.ascontiguousarray(push))
 
     def gains(self, places: FloatArray, item: int, others: IntArray) -> FloatArray:
-        """``(m,)`` gain, about, of an exchange of an item with each of others ``(m,)``.
-
-        In the unit of the objective, at places ``(n, 4)``; 0 for copies of the same thing.
-        """
+        """Gains ``(m,)``, about, of exchanges of an item with others; 0 for copies of one thing."""
         points = places[:, :2]
         there = self.forces.cost_changes(points, self.areas, points[others])[item]
         here = self.forces.cost_changes(points, self.areas, points[[item]])[others, 0]

@@ -10,9 +10,8 @@ from packwork.compaction.options import HOPELESS, MoveOptions
 from packwork.options import SizeMode
 
 HOPELESS_AT_HOME = 1.0
-"""The same as :data:`HOPELESS` of items that are to stay near where they were: they may grow
-back, and do. Smaller lets some jump across the layout, larger leaves dwarfs where there is no
-room. Tried."""
+"""The same as :data:`HOPELESS` of items that are to stay near where they were. Smaller lets some
+jump across the layout, larger leaves dwarfs where there is no room. Tried."""
 
 
 class FinishOptions(MoveOptions):

@@ -19,9 +19,8 @@ EXCHANGES = 0.5
 """Share of trials that exchange two items instead of turning one. Tried."""
 
 SMALL_TURNED, SMALL_EXCHANGED = 0.8, 0.5
-"""Shares of the items, the smallest, that are turned and exchanged. Of 1,200 trials of 100 items
-the largest quarter had a thirtieth of what turns gained, the larger half nothing of what
-exchanges gained, in half of their time. Measured."""
+"""Shares of the items, the smallest, that are turned and exchanged: larger ones gain little.
+Measured."""
 
 ALIKE = 24
 """How many items nearest in size are considered for an exchange. Tried."""
@@ -30,8 +29,8 @@ WITH_FORCES = 0.5
 """Share of exchanges with the item that forces like best there, where there are forces. Tried."""
 
 BEHIND, BEHIND_SHARE = 0.125, 0.7
-"""Where the smallest is worth most: which share of the items are the smallest, and share
-of the turns that are theirs. Larger shares leave no turn to their neighbours. Tried."""
+"""Where the smallest is worth most: share of the items that are the smallest, and share of the
+turns that are theirs. Larger leaves none to their neighbours. Tried."""
 
 LOSS = 0.1
 """Logarithm of size that moved items begin with less. Tried."""
@@ -65,8 +64,8 @@ class Proposal(NamedTuple):
 def pools_of(arrangement: Arrangement, smallest_counts: bool, is_forced: bool) -> Pools:
     """Items that trials are made of: small ones, which have somewhere to go.
 
-    ``smallest_counts``: whether growth of the smallest is worth most: then those that have grown
-    least come first; ``is_forced``: whether there are forces, which have aims with large ones too.
+    Those that have grown least come first where ``smallest_counts``; forces have aims with large
+    ones too.
     """
     radii, everyone = arrangement.radii, np.arange(arrangement.count)
     if smallest_counts:
@@ -95,12 +94,10 @@ def proposed(
 
 
 def _some(items: IntArray, share: float) -> IntArray:
-    """The first of some items, at least one."""
     return items[: max(round(share * len(items)), 1)]
 
 
 def _turned(count: int, pools: Pools, rng: np.random.Generator) -> IntArray:
-    """One item that is turned."""
     if rng.random() < pools.share:
         return rng.choice(pools.first, size=1)
     return rng.integers(count, size=1)

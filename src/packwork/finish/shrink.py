@@ -33,12 +33,8 @@ def admitted(
 ) -> tuple[IntArray, Poses]:
     """``(m,)`` indices of the items that stay, and their poses: no two of them in conflict.
 
-    The last ``fillers`` items shrink until they are free of all others; those that do
-    not come free are left out. All others stay as they are.
-
-    ``outlines``: one per item, item units; ``poses``: of all items; without the fillers they have
-    no conflicts; ``gap_cu``: gap between items and to the container's edge; a hair is added, as in
-    the finish.
+    The last ``fillers`` items shrink until they are free of all others, or are left out; all
+    others, which have no conflicts, stay as they are. A hair is added to the gap, as in the finish.
 
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = Container("", "", box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]])), 10, 10)
@@ -72,10 +68,8 @@ def separate_pinned(
 ) -> Poses:
     """Poses in which some items, without the others, are no nearer than ``gap``, if that can be.
 
-    Those in conflict shrink as far as they may, and move along the line that they are
-    pinned to, if it is one.
-
-    ``container``: whose edge counts as well.
+    Those in conflict, with the container's edge too, shrink as far as they may, and move along the
+    line that they are pinned to, if it is one.
 
     >>> from packwork.geometry.affine import similarity
     >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])

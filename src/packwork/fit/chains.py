@@ -110,10 +110,7 @@ class Crossing(NamedTuple):
 def without_loops(chain: FloatArray, tolerance: float) -> FloatArray | None:
     """The chain with its small loops cut off; None if it crosses itself otherwise.
 
-    ``chain``: ``(k, 3, 2)``; comes back as it is where it does not cross itself; ``tolerance``: of
-    the flattening in which crossings are looked for.
-
-    A triangle whose sides run past one of its corners:
+    ``tolerance``: of the flattening in which crossings are looked for.
 
     >>> from packwork.fit.chains import straight_chain
     >>> chain = straight_chain(np.array([[0, 0], [4, 0], [2, 4.2]]))
@@ -135,10 +132,7 @@ def without_loops(chain: FloatArray, tolerance: float) -> FloatArray | None:
 
 
 def crossings(curves: list[FloatArray]) -> list[Crossing]:
-    """Proper crossings of a closed chain's flattened curves, along the chain.
-
-    ``curves``: ``(n, 2)`` points of each, as :func:`flattened` gives them.
-    """
+    """Proper crossings of a closed chain's flattened curves ``(n, 2)``, along the chain."""
     ends = np.concatenate(curves)
     begins = np.roll(ends, 1, axis=0)
     edges = shapely.linestrings(np.stack([begins, ends], axis=1))

@@ -36,8 +36,8 @@ FALLBACK = 2e-3
 Larger needs fewer points, smaller is nearer. Chosen."""
 
 CURVES_LESS = 2
-"""Curves left out in the one more try where every level's fit crosses itself: other cuts
-rarely fail at the same place. With one less, an icon failed twice. Tried."""
+"""Curves left out in the one more try where every level's fit crosses itself. Fewer fail again.
+Tried."""
 
 
 class FitEnding(Enum):

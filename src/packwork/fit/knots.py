@@ -61,8 +61,7 @@ def resampled(ring: FloatArray, count: int) -> ComplexArray:
 def arc_fits(samples: ComplexArray, stride: int) -> ArcFits:
     """Least-squares cubic of every arc between two sites, its ends held.
 
-    ``samples``: ``(n,)`` points at equal steps along a closed curve; ``stride``: every how manieth
-    sample is a site; divides n.
+    ``samples``: ``(n,)`` points at equal steps along a closed curve; each ``stride``-th is a site.
 
     >>> square = resampled(np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]]), 64)
     >>> fits = arc_fits(square, 16)
@@ -111,8 +110,7 @@ def _bernstein_moments(
 def _running_moments(samples: ComplexArray) -> tuple[list[ComplexArray], FloatArray]:
     """Integrals of z, s z, s^2 z, s^3 z and |z|^2 from the first sample on, twice round.
 
-    Exact for the polygon of the samples: anything less would not cancel in ``arc_fits``,
-    where short arcs leave small differences of these.
+    Exact for the polygon of the samples, or differences for short arcs would not cancel.
     """
     n = len(samples)
     begin = np.concatenate([samples, samples])
@@ -133,8 +131,7 @@ def _dot(a: ComplexArray, b: ComplexArray) -> FloatArray:
 
 
 SITES_PER_CURVE = 6
-"""Places offered for each cut: larger finds better cuts in its square of the time. 8 and
-12 end at the same IoU within 0.0006. Tried."""
+"""Places offered for each cut: more find better cuts in their square of the time. Tried."""
 
 MOST_SITES = 400
 """Sites of one ring at most: their square is the memory. Chosen."""
@@ -175,12 +172,9 @@ def best_chain(ring: FloatArray, curves: int) -> FloatArray:
 
 
 def closed_path(cost: FloatArray, arcs: int, first: int) -> IntArray:
-    """Sites at which a ring is cut into ``arcs`` arcs of least total cost.
+    """Sites ``(arcs,)`` at which a ring is cut into arcs of least total cost, ``first`` in front.
 
-    ``cost``: ``(m, m)``: of the arc from site i on to site j; ``arcs``: from 2 to m; ``first``: the
-    site that must be a cut.
-
-    Returns ``(arcs,)`` in their order along the ring, ``first`` at the front.
+    ``cost``: ``(m, m)``: of the arc from site i on to site j.
 
     >>> cost = np.array([[9, 1, 2, 9], [9, 9, 3, 5], [5, 9, 9, 1], [0, 5, 9, 9.0]])
     >>> closed_path(cost, 3, 0).tolist()

@@ -15,13 +15,12 @@ import numpy as np
 from packwork.arrays import FloatArray
 
 FLATTENING = 2e-5
-"""Largest distance of a curve from its chords, as a share of the drawing's extent: half
-a pixel of a print 25,000 px wide. Smaller costs vertices everywhere, larger shows on
-posters. Chosen."""
+"""Largest distance of a curve from its chords, as a share of the drawing's extent: half a pixel of
+a print 25,000 px wide. Smaller costs vertices, larger shows on posters. Chosen."""
 
 MAX_STEPS = 2_000
-"""Steps in one curve at most: larger costs memory on hostile files, smaller loosens
-the tolerance on curves thousands of times larger than it. Chosen."""
+"""Steps in one curve at most: larger costs memory on hostile files, smaller loosens the tolerance
+on huge curves. Chosen."""
 
 
 def flatten_cubic(

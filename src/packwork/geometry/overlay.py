@@ -21,16 +21,15 @@ Region: TypeAlias = Any
 """A Shapely Polygon or MultiPolygon (Shapely ships no types)."""
 
 GRIDS = (0.0, 1e-12, 1e-10, 1e-8)
-"""Steps of the grids tried in turn on regions that were repaired, as shares of their extent; 0
-is none. Coarser ones answer more and are less exact. Chosen: the last is still a hundred times
-finer than what readers follow curves to."""
+"""Steps of the grids tried in turn on regions that were repaired, as shares of their extent; 0 is
+none. Coarser ones answer more and are less exact; the last is far finer than what readers follow
+curves to. Chosen."""
 
 _ROOM = 0.01
 
 LONGEST_RING = 20_000
-"""Points of a ring that GEOS simplifies in one: it calls itself once for each corner of a zigzag,
-and at 60,000 has used up the stack, which ends the process. Larger may crash, smaller keeps a few
-more points. Derived."""
+"""Points of a ring that GEOS simplifies in one: it calls itself for each corner of a zigzag, and at
+60,000 the stack ends the process. Derived."""
 
 PIECE = 2_000
 """Points of the pieces of a longer one. Of a zigzag each takes time with its square. Chosen."""

@@ -20,13 +20,9 @@ from packwork.geometry.overlay import Region, buffered, polygon_parts, simplify
 def simplified(outline: Outline, tolerance: float) -> Outline:
     """Outline with fewer vertices, its boundary within twice ``tolerance`` of the old one.
 
-    Once ``tolerance`` for the simplification, once because GEOS may then drop the vertex
-    at which a ring starts.
+    Twice, because GEOS may drop the vertex at which a ring starts. Rings stay simple; if no area
+    would be left, the outline comes back as it was.
 
-    Never collapses: if simplifying would leave no area, the outline comes back as it
-    was. Rings stay simple (topology is kept).
-
-    >>> import numpy as np
     >>> t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
     >>> circle = Outline.from_rings([np.column_stack([np.cos(t), np.sin(t)])])
     >>> len(simplified(circle, 0.05).points) < 20
@@ -51,10 +47,8 @@ def _ring_count(region: Region) -> int:
 def closed(outline: Outline, radius: float) -> Outline:
     """Outline with every cleft, bay's mouth and hole narrower than twice ``radius`` filled.
 
-    Morphological closing: grown by ``radius`` and shrunk again. A large radius tends to
-    the hull; zero leaves the outline as it is.
+    Morphological closing: grown by ``radius`` and shrunk again.
 
-    >>> import numpy as np
     >>> dart = Outline.from_rings([np.array([[0, 0], [4, 2], [0, 4], [1, 2.0]])])
     >>> closed(dart, 9.0).area > dart.area
     True
@@ -74,10 +68,8 @@ def closed(outline: Outline, radius: float) -> Outline:
 def grown(outline: Outline, distance: float) -> Outline:
     """Outline moved outwards by ``distance`` all round, inwards if it is negative.
 
-    Corners become round. Never vanishes: if nothing would be left, the outline comes
-    back as it was.
+    Corners become round. If nothing would be left, the outline comes back as it was.
 
-    >>> import numpy as np
     >>> square = Outline.from_rings([np.array([[0, 0], [4, 0], [4, 4], [0, 4.0]])])
     >>> grown(square, -1.0).area
     4.0
@@ -91,7 +83,6 @@ def grown(outline: Outline, distance: float) -> Outline:
 def hull(outline: Outline) -> Outline:
     """Convex hull of the outline.
 
-    >>> import numpy as np
     >>> dart = Outline.from_rings([np.array([[0, 0], [4, 2], [0, 4], [1, 2.0]])])
     >>> len(hull(dart).points)
     3

@@ -1,11 +1,10 @@
 """Regions whose rings keep a distance from themselves that rounding cannot take away.
 
 Snap rounding (J. Hobby, "Practical segment intersection with finite precision output",
-Computational Geometry 13 (1999), 199-214), repeated until it changes nothing (D. Halperin and
-E. Packer, "Iterated snap rounding", Computational Geometry 23 (2002), 209-225), of those regions
-alone whose minimum clearance asks for it: the smallest distance by which a vertex
-may move before a ring meets itself or another. An outline that all but touches itself would
-cross itself once it is turned, or written with so many digits.
+Computational Geometry 13 (1999), 199-214), repeated until it changes nothing (D. Halperin and E.
+Packer, "Iterated snap rounding", Computational Geometry 23 (2002), 209-225), of those regions alone
+whose minimum clearance asks for it: the smallest distance by which a vertex may move before rings
+meet. An outline that all but touches itself would cross itself once it is turned or written.
 """
 
 from __future__ import annotations
@@ -17,9 +16,9 @@ from packwork.geometry.distance import is_clear
 from packwork.geometry.overlay import Region, buffered, polygon_parts, quiet, union, valid
 
 STEP = 1e-7
-"""Clearance that regions keep at least, and the grid's step, as shares of their extent. Larger
-moves vertices farther; smaller drowns in the digits of files. Chosen: a two hundredth of what
-readers follow curves to."""
+"""Clearance that regions keep at least, and the grid's step, as shares of their extent: a two
+hundredth of what readers follow curves to. Larger moves vertices farther; smaller drowns in the
+digits of files. Chosen."""
 
 CLEFT = FLATTENING
 """Width of a bay's mouth, as a share of the extent, below which it counts as closed: what readers
@@ -33,10 +32,8 @@ MOST_ROUNDS = 8
 def sound(shape: Region, step: float = STEP) -> Region:
     """The region itself if its rings keep clear of each other, else one whose rings do.
 
-    ``shape``: any region; one that is not valid is repaired; ``step``: clearance, as a share of the
-    region's extent.
-
-    Returns each vertex within a few steps of where it was; empty if nothing is as wide as a step.
+    Each vertex is within a few steps, shares of the extent, of where it was; empty if nothing is as
+    wide as a step. A region that is not valid is repaired.
 
     >>> nearly = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 1e-12), (0, 4)])
     >>> sound(nearly).geom_type, sound(nearly).area
@@ -60,11 +57,9 @@ def sound(shape: Region, step: float = STEP) -> Region:
 
 
 def without_clefts(shape: Region, width: float = CLEFT) -> Region:
-    """The region with bays filled whose mouths are narrower than ``width`` of its extent.
+    """A region without holes, bays filled whose mouths are narrower than ``width`` of its extent.
 
-    Nothing else changes: of a region without such bays it is the region itself.
-
-    ``shape``: a valid region without holes.
+    Of a valid region without such bays it is the region itself.
 
     >>> ring = shapely.box(0, 0, 4, 4) - shapely.box(1, 1, 3, 3)
     >>> slit = ring - shapely.box(1.9, 0, 1.900001, 2)

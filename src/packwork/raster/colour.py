@@ -31,15 +31,14 @@ MAX_REACH_PX = {np.dtype(np.float32): 1e5, np.dtype(np.float64): 1e9}
 cross. Chosen."""
 
 SHORT_PX = 1e-10
-"""How far off a line of the grid the record has a short edge's crossing, px: a multiple of what
-rounding does to the x of the largest image. Derived."""
+"""How far off a line of the grid the record has a short edge's crossing, px. Derived: a multiple of
+what rounding does to the x of the largest image."""
 
 
 class ColourImage:
     """Renders what a rasteriser has swept last, in colours, again and again.
 
-    ``rasteriser``: whose sweeps are seen. The image has its size and dtype; ``channels``: how many
-    numbers a colour has, 1 to ``MAX_CHANNELS``.
+    ``channels``: how many numbers a colour has, 1 to ``MAX_CHANNELS``.
 
     >>> rasteriser = Rasteriser((1, 3), np.float64)
     >>> image = ColourImage(rasteriser, 1)
@@ -66,9 +65,8 @@ class ColourImage:
     ) -> Image:
         """Image ``(rows, columns, channels)`` of the rings swept last.
 
-        ``colours``: ``(rings, channels)``; the rings of one item have one colour, holes too;
-        ``background``: ``(channels,)``: what shows where nothing lies; ``out``: image to write to,
-        of this size and dtype; a new one if None.
+        ``colours``: ``(rings, channels)``, holes have their item's; ``background``:
+        ``(channels,)``.
         """
         self.take(colours, background)
         rasteriser, records = self._rasteriser, self._rasteriser.swept.records
@@ -92,8 +90,7 @@ class ColourImage:
     def pullback(self, adjoint: Image, gradient: FloatArray) -> None:
         """Add the derivative of sum(adjoint * image) by the swept vertices to ``gradient``.
 
-        ``adjoint``: d loss / d image, ``(rows, columns, channels)``; of colours and background as
-        rendered last. Contiguous; ``gradient``: ``(n, 2)``, changed in place.
+        ``adjoint``: d loss / d image, contiguous; of colours and background as rendered last.
         """
         flat = adjoint.reshape(-1, self.channels)
         records = self._rasteriser.swept.records
@@ -106,10 +103,7 @@ class ColourImage:
         return gradient
 
     def by_colours(self, adjoint: Image) -> tuple[FloatArray, FloatArray]:
-        """Derivatives of sum(adjoint * image) by colours and background.
-
-        Returns ``(rings, channels)`` and ``(channels,)``.
-        """
+        """Derivatives of sum(adjoint * image) by colours and background."""
         rows, columns = self._rasteriser.shape
         below = np.empty((rows + 1, columns * self.channels), adjoint.dtype)
         kernels.sum_below(adjoint.reshape(rows, -1), np.empty(below.shape[1]), below)

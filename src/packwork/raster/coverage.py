@@ -22,9 +22,8 @@ from packwork.raster.kernels.coverage import record_bounds
 from packwork.threads import at_once
 
 _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
-"""Deposits are multiples of 2**-bits pixel. More bits: finer coverage, but sums stay
-exact only while fewer than 2**(24 - bits) (float32) or 2**(53 - bits) items share a
-pixel; beyond that they are merely rounded. Derived."""
+"""Deposits are multiples of 2**-bits pixel. More bits: finer coverage, but sums stay exact only
+while fewer than 2**(24 - bits) (float32) or 2**(53 - bits) items share a pixel. Derived."""
 
 _X_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 38}
 """The walk's x are multiples of 2**-bits pixel; it bounds the width of an image."""
@@ -33,16 +32,15 @@ MAX_SIDE_PX = 8_192
 """Largest image side: beyond it the float64 walk would lose its exact sums."""
 
 CACHE_BYTES = 2**21
-"""Images larger than this are swept from top to bottom: a second-level cache holds less.
-Larger leaves big images to chance, smaller sorts where nothing is gained. Tried."""
+"""Images larger than this, which a second-level cache does not hold, are swept from top to bottom.
+Tried."""
 
 BANDS = 4
 """Bands of rows whose rings are swept at once. More keep more cores busy and have more rings on
-their borders, which are swept after. Chosen."""
+their borders. Chosen."""
 
 PARTED = 200_000
-"""Length of the record, at most, from which rings are swept so: 0.6 ms of one core. Smaller parts
-what is done before another thread has begun. Measured."""
+"""Length of the record, at most, from which rings are swept so: 0.6 ms of one core. Measured."""
 
 APART = 3
 """Rows between a ring swept with one band and the next: what a walk deposits beyond its cells.
@@ -72,10 +70,9 @@ class Record:
 class Swept(NamedTuple):
     """Record of a rasteriser's last walk, for whatever reads it.
 
-    ``points``, ``starts``: the rings, ``(n, 2)`` in pixels and ``(rings + 1,)``; ``records``: of
-    rings that lie in one band each, then of the rest: only the last one's deposits may be anywhere;
-    ``x_magic``, ``area_magic``: what rounds x and deposits to the lattice when it is added and
-    taken away again.
+    ``points``, ``starts``: the rings, in pixels; ``records``: of rings that lie in one band each,
+    then of the rest; ``x_magic``, ``area_magic``: what rounds x and deposits to the lattice when it
+    is added and taken away again.
     """
 
     points: FloatArray
@@ -130,10 +127,8 @@ class Rasteriser:
     def sweep(self, points_px: FloatArray, starts: IntArray) -> None:
         """Walk every edge once: deposit its swept areas and record the cells it crosses.
 
-        The points are kept by reference until the next sweep; they are not checked.
-
-        ``points_px``: ``(n, 2)`` float64, contiguous, finite. Rings may leave the image;
-        ``starts``: ``(rings + 1,)`` int64.
+        The points, ``(n, 2)`` float64, contiguous, finite, on or off the image, are kept by
+        reference until the next sweep and not checked.
         """
         self._points, self._starts = points_px, starts
         self._reserve()
@@ -149,21 +144,16 @@ class Rasteriser:
         )  # fmt: skip
 
     def density(self, out: Image | None = None) -> Image:
-        """Sum of all coverages per pixel; empties the accumulation buffer.
-
-        ``out``: image to write to, of this size and dtype; a new one if None.
-        """
+        """Sum of all coverages per pixel; empties the accumulation buffer."""
         density = np.empty(self.shape, dtype=self.dtype) if out is None else out
         kernels.accumulate(self.accumulation, density)
         return density
 
     def pullback(self, adjoint: Image, beyond: float = 0.0) -> FloatArray:
-        """Derivative of sum(adjoint * coverage) with respect to the swept vertices.
+        """Derivative ``(n, 2)`` of sum(adjoint * coverage) by the swept vertices; a buffer.
 
-        ``adjoint``: d loss / d density, of this size; ``beyond``: constant adjoint of the plane
-        outside the image, so that items that leave it still feel a force back.
-
-        Returns ``(n, 2)``; a buffer that the next call reuses.
+        ``beyond``: constant adjoint of the plane outside the image, so that items that leave it
+        still feel a force back. The next call reuses the buffer.
         """
         flat = adjoint.reshape(-1)
         at_once(self._pull_back, [(record, flat, beyond) for record in self._used])
@@ -176,11 +166,9 @@ class Rasteriser:
         )  # fmt: skip
 
     def ring_integrals(self, image: Image) -> FloatArray:
-        """Integral of ``image`` (constant in each pixel, zero off it) inside each ring.
+        """Integrals ``(rings,)`` of ``image``, constant in pixels and zero off it, inside rings.
 
-        Exact for the swept polygons, by Green's theorem; holes come out negative.
-
-        Returns ``(rings,)``, in pixel areas.
+        In pixel areas, exact for the swept polygons, by Green's theorem; holes come out negative.
         """
         prefix = np.zeros((self.shape[0] + 1, self.shape[1]))
         np.cumsum(image, axis=0, dtype=np.float64, out=prefix[1:])

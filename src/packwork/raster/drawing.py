@@ -19,9 +19,9 @@ _DPI = 96
 _LONGEST_REASON = 160
 
 LONG = 100_000
-"""Characters of a document from which a process of its own draws it: resvg takes up to a second
-for them, more for longer ones, and a process 0.03 s to start. Larger leaves Ctrl-C unheard,
-smaller starts processes for icons. Measured on one core: 1.6 s for a path of 1.6 million."""
+"""Characters of a document from which a process of its own draws it: resvg takes up to a second for
+them, a process 0.03 s to start. Larger leaves Ctrl-C unheard, smaller starts processes for icons.
+Measured."""
 
 _WORK = f"""{END_WITH_PARENT}
 import json
@@ -40,11 +40,10 @@ else:
 
 
 def drawn_png(document: str) -> bytes:
-    """PNG of an SVG document at its own size; it must be one of ours or a cleaned one.
+    """PNG of an SVG document, one of ours or a cleaned one, at its own size.
 
-    Its letters are set in fonts that we choose, from where we look for them.
-
-    Raises ``ValueError`` if resvg gives up; the message is one line.
+    Its letters are set in fonts that we choose. Raises ``ValueError`` if resvg gives up; the
+    message is one line.
 
     >>> drawn_png('<svg xmlns="http://www.w3.org/2000/svg" width="2" height="2"/>')[1:4]
     b'PNG'

@@ -15,10 +15,7 @@ from packwork.raster.kernels import membership as kernels
 def centre_count(
     points_px: npt.ArrayLike, starts: npt.ArrayLike, shape: tuple[int, int]
 ) -> npt.NDArray[np.int32]:
-    """Number of outlines that hold each pixel's centre.
-
-    ``points_px``: ``(n, 2)`` vertices in pixels; rings may leave the image; ``starts``: ring
-    starts, as in :class:`packwork.geometry.outline.Outline`; ``shape``: ``(rows, columns)``.
+    """Number of outlines that hold each pixel's centre; rings, in pixels, may leave the image.
 
     >>> square = [[0, 0], [2, 0], [2, 2], [0, 2]]
     >>> centre_count(square, [0, 4], (2, 3)).tolist()

@@ -21,8 +21,8 @@ Picture = npt.NDArray[np.uint8]
 """``(rows, columns, 4)``: red, green, blue and alpha; premultiplied where it says so."""
 
 FINENESS = 2.0
-"""Pixels of a texture per pixel of the frame, about: a texture is blurred by two of its
-pixels, so that one sample sees all of them. More: edges shimmer; fewer: they blur. Derived."""
+"""Pixels of a texture per pixel of the frame, about: a texture is blurred by two of its pixels, so
+that one sample sees all. More: edges shimmer; fewer: they blur. Derived."""
 
 _EDGE = 2
 """Clear pixels round each level: one for the blur, one for the outermost sample."""
@@ -36,19 +36,15 @@ class Texture:
     """One drawing in several sizes.
 
     ``levels``: premultiplied and blurred pictures, each half as fine as the one before, with a
-    clear edge; ``matrix``: 2 x 3 map from the drawing's units to the pixels of the first level,
-    without its edge.
+    clear edge; ``matrix``: from the drawing's units to the pixels of the first level, without its
+    edge.
     """
 
     levels: tuple[Picture, ...]
     matrix: FloatArray
 
     def lay(self, image: Picture, place: FloatArray) -> None:
-        """Draw it over ``image``, which is premultiplied and changed.
-
-        ``image``: ``(rows, columns, 4)``, C-contiguous; ``place``: 2 x 3 map from the drawing's
-        units to the image's pixels; one that makes nothing of it draws nothing.
-        """
+        """Draw it over ``image``, premultiplied; ``place``: from the drawing's units to pixels."""
         if abs(np.linalg.det(place[:, :2])) < 1e-12:
             return
         inverse = affine.compose(self.matrix, affine.inverse(place))
@@ -61,10 +57,7 @@ class Texture:
 
 
 def texture_of(picture: Picture, matrix: FloatArray) -> Texture:
-    """Texture of a picture whose alpha is not premultiplied.
-
-    ``picture``: as fine as any frame will need; see ``FINENESS``; ``matrix``: 2 x 3 map from the
-    drawing's units to its pixels.
+    """Texture of a picture whose alpha is not premultiplied; ``matrix``: of the drawing's units.
 
     >>> dot = np.full((4, 4, 4), 255, dtype=np.uint8)
     >>> texture = texture_of(dot, affine.identity())

@@ -35,12 +35,10 @@ def exchange(
 ) -> tuple[Poses, list[int]]:
     """Poses in which items have changed places, and the indices of those that were moved.
 
-    ``smallest``, ``largest``: ``(n,)`` bounds of scales.
-
-    Among the parts of a container, where sizes may change, until all parts can fill
-    alike; then down what forces ask for; then, where kinds matter, until few items lie beside
-    their kind. An item takes the place and, within its bounds, the size of hull of the one
-    that lay there.
+    Among the parts of a container, where sizes may change, until all parts can fill alike; then
+    down what forces ask for; then, where kinds matter, until few items lie beside their kind. An
+    item takes the place and, within its bounds ``(n,)``, the size of hull of the one that lay
+    there.
     """
     groups = limits.groups if limits.binds else np.zeros(len(poses), dtype=np.int64)
     hulls = hull_areas(outlines)
@@ -67,7 +65,6 @@ def _order_apart(
     groups: IntArray,
     rng: np.random.Generator,
 ) -> IntArray:
-    """Order in which few items lie beside one of their kind; see ``assignment.orders``."""
     placed = [outline.mapped(poses.matrix(k)) for k, outline in enumerate(outlines)]
     return min_conflicts_order(kinds, side_by_side(placed, poses.x, poses.y), groups, rng)
 
@@ -80,7 +77,6 @@ def _order_by_forces(
     smallest: FloatArray,
     largest: FloatArray,
 ) -> IntArray:
-    """Order in which items lie where forces cost least; see ``forces.exchanges``."""
     areas = np.array([outline.area for outline in outlines]) * poses.scale**2
     places = np.column_stack([poses.x, poses.y])
     lengths = np.sqrt(hull_areas(outlines))
@@ -99,11 +95,7 @@ def _order_among_parts(
     groups: IntArray,
     rng: np.random.Generator,
 ) -> IntArray:
-    """Order in which items fill as much of their hulls in one part as in the others.
-
-    Hulls fill all parts alike; a part that has more sketchy items than others stays
-    emptier all the same.
-    """
+    """Order in which items fill as much of their hulls in one part as in the others."""
     hulls = hull_areas(outlines)
     solid = np.array([outline.area for outline in outlines]) / hulls
     sizes = np.log(np.sqrt(hulls) * poses.scale) / np.log(ALIKE)

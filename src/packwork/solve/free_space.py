@@ -25,8 +25,7 @@ distance transform that no item notices. Chosen."""
 class FreeSpace:
     """Room that may be filled, at one resolution, and the way back to the container.
 
-    ``room``: ``(rows, columns)`` share of each pixel that may be filled; ``recall``: distance from
-    the container of items whose centre lies outside it.
+    ``room``: ``(rows, columns)`` share of each pixel that may be filled.
     """
 
     room: Image
@@ -63,13 +62,10 @@ def _image(container: Container, resolution: int) -> Image:
 class ZonePull:
     """Pull of a zone on its items: a price on their area outside it, and on lost centres.
 
-    Only these items are drawn, into an image of their own: the price has to depend on
-    whose area it is. It is linear in that area, as containment is, and the same in all of
-    the plane, so that the adjoint image is made once.
-
-    ``zone``: the part of the container, and the items that stay in it; ``outlines``: one per item
-    of the whole layout, item units, as the level sees them; ``shape``: rows and columns of the
-    level's image.
+    Only these items are drawn, into an image of their own: the price has to depend on whose area it
+    is. It is linear in that area, as containment is, and the same in all of the plane, so that the
+    adjoint image is made once. ``outlines``: of the whole layout, item units, as the level sees
+    them; ``shape``: of the level's image.
     """
 
     def __init__(
@@ -93,8 +89,8 @@ class ZonePull:
     def add(self, by_pose: FloatArray, poses: Poses, price: float) -> None:
         """Add the derivatives of the zone's items to those of all, ``(n, 5)``.
 
-        ``by_pose``: per canvas unit, rad, log scale and log stretch; changed; ``price``: of a
-        squared canvas unit outside the zone.
+        By canvas unit, rad, log scale and log stretch; ``price``: of a squared canvas unit outside
+        the zone.
         """
         own = poses.subset(self.items)
         points = self._ensemble.place(own, self._px_per_cu)

@@ -34,11 +34,9 @@ from packwork.solve.outlines import Ensemble
 class Level:
     """Renders all items at one resolution and reads the losses' pose gradients.
 
-    ``outlines``: one per item, item units, as this level shall see them; ``resolution``: pixels on
-    the canvas' longer side; ``losses``: those that will be weighed, by name or as functions;
-    ``nominal``: ``(n,)`` scales that were asked for; all ones if None; ``limits``: zones that items
-    stay in and kinds to keep apart; ``free_space``: what there is to fill; of the container unless
-    given.
+    ``outlines``: one per item, item units, as this level sees them; ``losses``: those that will be
+    weighed; ``nominal``: ``(n,)`` scales that were asked for; ``free_space``: what there is to
+    fill, of the container unless given.
     """
 
     def __init__(
@@ -87,12 +85,11 @@ class Level:
     ) -> FloatArray:
         """Derivative of the losses by x, y, angle, log scale and log stretch, ``(n, 5)``.
 
-        Losses count in squared canvas units (sums over pixels times a pixel's area), so
-        that a level change does not change the physics.
-
-        ``weights``: by loss; one that is not named weighs nothing; ``recall``: weight of the pull
-        on items whose centre is outside the container or their zone, and price of a pixel's area
-        beyond the image or outside a zone; ``force``: factor on the slopes of the forces.
+        Losses count in squared canvas units (sums over pixels times a pixel's area), so that a
+        level change does not change the physics. ``weights``: of losses, 0 unless named;
+        ``recall``: of the pull on items whose centre is outside the container or their zone, and of
+        a pixel's area beyond the image or outside a zone; ``force``: factor on the slopes of the
+        forces.
         """
         points = self.ensemble.place(poses, self.px_per_cu)
         self.rasteriser.sweep(points, self.ensemble.ring_starts)
@@ -126,10 +123,7 @@ class Level:
         recall: float = 0.0,
         force: float = 1.0,
     ) -> ObjectiveTerms:
-        """Objective of :meth:`gradient`, over the canvas's area, and its terms.
-
-        Parameters are those of :meth:`gradient`.
-        """
+        """Objective of :meth:`gradient`, over the canvas's area, and its terms."""
         density = self.density(poses)
         canvas = density.size / self.px_per_cu**2
         terms: dict[str, float] = {}
@@ -178,10 +172,7 @@ class Level:
         return self.rasteriser.density()
 
     def shares(self, density: Image) -> tuple[float, float, float]:
-        """Shares of the container: covered, covered twice, covered outside it.
-
-        ``density``: ``(rows, columns)`` of this level.
-        """
+        """Shares of the container, by a density: covered, covered twice, covered outside it."""
         # A container that no pixel of this level shows counts as one pixel.
         whole = max(float(self.container_image.sum()), 1.0)
         covered = np.minimum(density, 1)

@@ -16,19 +16,16 @@ from packwork.solve import _kernels
 from packwork.solve.options import SolveOptions
 
 STILLNESS = 1.5e-2
-"""Gradients this small against the typical one move an item less than a full step.
-Adam divides by the gradient's own size, so without it a trapped item, whose forces
-cancel to rounding noise, would dance at full speed. Larger slows settling. Tried."""
+"""Gradients this small against the typical one move an item less than a full step; without it a
+trapped item, whose forces cancel to rounding, would dance. Larger slows settling. Tried."""
 
 
 class Adam:
     """Moments of one quantity of n items, possibly a vector of several components.
 
-    Components of one item share their second moment, so that a step's direction does
-    not depend on how the canvas is turned.
-
-    ``shape``: ``(n, components)``; ``decay``: of the first and of the second moment; both 0.9 as in
-    Wang and Lu 2025.
+    Components of one item share their second moment, so that a step's direction does not depend on
+    how the canvas is turned. ``decay``: of the first and of the second moment; both 0.9 in Wang and
+    Lu 2025.
 
     >>> adam = Adam((1, 2))
     >>> adam.step(np.array([[3.0, 4.0]]), 1.0).round(2).tolist()
@@ -78,9 +75,8 @@ class Adam:
 class Motion:
     """Moves, turns, resizes and stretches items step by step, within their bounds.
 
-    ``poses``: where they begin; copied; ``nominal``: ``(n,)`` scales that bounds and proportions
-    refer to; ``side``: longer side of the canvas; ``limits``: bounds of single items, in place of
-    those of the options.
+    ``nominal``: ``(n,)`` scales that bounds and proportions refer to; ``side``: longer side of the
+    canvas.
     """
 
     def __init__(

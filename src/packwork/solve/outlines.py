@@ -18,10 +18,7 @@ from packwork.solve.options import OutlineChoice
 
 
 def stand_ins(outlines: Sequence[Outline], choice: OutlineChoice) -> list[Outline]:
-    """Outlines for the stages to see, in the units and about the origin of the true ones.
-
-    ``outlines``: the true ones, one per item; ``choice``: ``exact`` gives them back, ``hull`` their
-    convex hulls, one for all copies.
+    """Outlines for the stages to see: the true ones, or their convex hulls, one for all copies.
 
     >>> dart = Outline.from_rings([[[0.0, 0], [4, 2], [0, 4], [1, 2]]])
     >>> first, second = stand_ins([dart, dart], "hull")
@@ -46,9 +43,9 @@ CLEFT_PX = 0.26
 items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
 
 MARGIN_RUNGS = 8
-"""Steps of size, to a factor of two, within which copies share one outline with its margin, that of
-the first of them. Larger makes thousands of outlines for thousands of marks, smaller makes margins
-wrong by more than the 9 % that they may differ now; the exact finish keeps them in full. Chosen."""
+"""Steps of size, to a factor of two, within which copies share one outline with its margin. Larger
+makes thousands of outlines for thousands of marks, smaller makes margins wrong by more than 9 %;
+the exact finish keeps them in full. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,13 +66,10 @@ def seen_posed(
 ) -> list[Outline]:
     """Outlines simplified to a level's pixels in the shape and size of their poses.
 
-    A pixel and a margin are as wide as high on the canvas, so an item that is stretched
-    gets its detail and its margin stretched; the result is in item units all the same.
-
-    ``outlines``: one per item, item units; ``poses``: scales and stretches are read; as many as
-    outlines; ``margin_cu``: every outline is grown by this much all round, canvas units;
-    ``before``: what was made in earlier calls for the same level and margin, of outlines that are
-    still in use; more is added.
+    A pixel and a margin are as wide as high on the canvas, so an item that is stretched gets its
+    detail and its margin stretched; the result is in item units all the same. ``margin_cu``:
+    outlines are grown by this much all round; ``before``: what was made for the same level and
+    margin.
 
     >>> half = np.array([[-8.0, -8], [8, -8], [8, 8], [-8, 8]])
     >>> one = np.ones(1)
@@ -102,11 +96,8 @@ def seen_at(
 ) -> list[Outline]:
     """Outlines simplified to a level's pixels; copies of about one size are made once.
 
-    What a level cannot resolve must not lock items into each other: clefts are closed
-    first, so that coarse levels work on something near the hull.
-
-    ``outlines``: one per item, item units; ``scales``: ``(n,)`` canvas units per item unit;
-    ``known``: what was made before, by outline and size; more is added.
+    What a level cannot resolve must not lock items into each other: clefts are closed first, so
+    that coarse levels work on something near the hull. ``known``: what was made before.
     """
     done = {} if known is None else known
     seen = []
@@ -132,7 +123,6 @@ def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
 def _stretched_once(
     outlines: Sequence[Outline], ratios: FloatArray, done: dict[tuple[Outline, float], Outline]
 ) -> list[Outline]:
-    """Stretched outlines; copies stretched alike are made once, others left as they are."""
     result = []
     for outline, ratio in zip(outlines, ratios.tolist(), strict=True):
         key = (outline, ratio)
@@ -144,9 +134,6 @@ def _stretched_once(
 
 class Ensemble:
     """Points of all items, placed by poses, and gradients gathered back to poses.
-
-    ``outlines``: one per item, in item units, origin at the item's centroid; copies may repeat one
-    object.
 
     >>> square = Outline.from_rings([np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])])
     >>> two = Ensemble([square, square])

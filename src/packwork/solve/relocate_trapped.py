@@ -64,9 +64,8 @@ def relocate_trapped(
 ) -> tuple[Poses, list[Relocation]]:
     """Relocate the worst trapped items to the largest voids.
 
-    ``areas``: ``(n,)`` areas of the items' outlines, item units squared; ``smallest``, ``largest``:
-    ``(n,)`` bounds of the scales; equal where an item may not change; ``limits``: which items are
-    held in place, and which stay in which zone of the level's.
+    ``areas``: ``(n,)`` item units squared; ``smallest``, ``largest``: ``(n,)`` bounds of the
+    scales.
     """
     density = level.density(poses)
     shares = violation_shares(level, poses, density)

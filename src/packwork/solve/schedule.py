@@ -14,16 +14,14 @@ import numpy as np
 from packwork.solve.options import ImageLossFunction, SolveOptions
 
 STEADY = frozenset({"filling"})
-"""Losses that do not harden. All others do: at a constant weight, evenness or a loss of
-one's own is drowned at the end, where it is needed. Tried."""
+"""Losses that do not harden; others would be drowned at the end, where they are needed. Tried."""
 
 REWARDS = frozenset({"filling", "evenness"})
 """Losses that draw items into contact, cut while a run settles."""
 
 FADING = 20.0
-"""By how much forces fade over the run. They lead while items still pass through each other; what
-presses on at the end makes items smaller. Larger ends fuller and keeps less of what was asked.
-Tried."""
+"""By how much forces fade over the run: they lead while items still pass through each other. Larger
+ends fuller and keeps less of what was asked. Tried."""
 
 
 def epochs_per_level(epochs: int, shares: Sequence[float]) -> list[int]:
@@ -123,10 +121,7 @@ class EpochPace:
 
 
 class TimePace:
-    """As many epochs as a given time allows, shared among the levels like epochs.
-
-    ``seconds``: time from now on; 0 allows no epoch.
-    """
+    """As many epochs as a given time from now on allows, shared among the levels like epochs."""
 
     def __init__(self, seconds: float, shares: Sequence[float]) -> None:
         self._began = time.perf_counter()

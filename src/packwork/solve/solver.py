@@ -31,9 +31,8 @@ from packwork.solve.relocate_trapped import Relocation, relocate_trapped
 from packwork.solve.schedule import force_factor, growth, pace_of, rate_factor, weights_at
 
 EXCHANGES = (0.15, 0.3, 0.45)
-"""When, as shares of the run, items leave the side of their kind, or a part of the container
-with too many of their sort. Later ones leave fewer together and less time to settle: a part
-of the coverage. Tried."""
+"""When, as shares of the run, items leave the side of their kind, or a part of the container with
+too many of their sort. Later ones leave less time to settle. Tried."""
 
 FORCED_EXCHANGES = tuple(np.arange(0.05, 0.61, 0.05).round(2).tolist())
 """The same where forces act: in a crowd there is no other way past each other. Chosen."""
@@ -85,11 +84,9 @@ def solve(
 ) -> Outcome:
     """Move, turn and size items so that they fill the container and do not overlap.
 
-    Wang and Lu 2025, section 3. Deterministic: no randomness, fixed order of sums.
-
-    ``outlines``: one per item, item units, origin at its centroid; ``nominal``: ``(n,)`` scales
-    that weights ask for: the middle of the range in mode free, the proportions in mode shared;
-    ``limits``: bounds of single items, which the start has to keep.
+    Wang and Lu 2025, section 3. Deterministic: no randomness, fixed order of sums. ``outlines``:
+    one per item, item units, origin at its centroid; ``nominal``: ``(n,)`` scales that weights ask
+    for.
     """
     run = _Solve(container, outlines, start, nominal, options, observer, stop, limits, forces)
     reports: list[LevelReport] = []
@@ -105,8 +102,6 @@ def solve(
 
 
 class _Solve:
-    """State of one solve between its epochs."""
-
     def __init__(
         self,
         container: Container,
@@ -189,7 +184,6 @@ class _Solve:
         return relocations
 
     def _exchange(self) -> None:
-        """Exchanges of items."""
         poses = self.motion.poses
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
         region = self._container.outline

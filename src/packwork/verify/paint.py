@@ -35,8 +35,8 @@ NEAR_PX = 2.0
 
 SEEN, DOUBLE = 0.5, 1.25
 """Opacity from which a pixel outside is paint, and sum of opacities from which it is that of two
-items: two that meet in a pixel come to one. What is drawn from pixels, such as patterns, is
-softened by up to another: pixels count of which four are together. Chosen."""
+items: two that meet in a pixel come to one. What is drawn from pixels is softened by up to another:
+pixels count of which four are together. Chosen."""
 
 _NEVER = frozenset({"defs", "style", "symbol", "clipPath", "mask", "filter", "linearGradient",
                     "radialGradient", "pattern", "marker"})  # fmt: skip
@@ -64,9 +64,7 @@ class PaintedPixels:
 
 
 def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> PaintedPixels:
-    """Paint the items of an SVG of ours.
-
-    ``is_own``: whether it was made just now; else it goes through the gate first.
+    """Paint the items of an SVG of ours, which goes through the gate unless it was made just now.
 
     Raises ``UnfitError`` if it cannot be painted item by item.
 

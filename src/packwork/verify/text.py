@@ -25,7 +25,7 @@ from packwork.units import convert
 
 AGREEMENT = HAIR / 2
 """How far paths of a PDF may lie from those of the SVG that it was made of, as a share of the
-canvas: half of the least gap that is certified, so that two items cannot meet. Derived."""
+canvas. Derived: half of the least gap that is certified, so that two items cannot meet."""
 
 _BEYOND_PATHS = ("filter", "marker", "mask", "pattern")
 """Elements that in a PDF become what is not held against them: pictures, paths, soft masks."""
@@ -135,10 +135,7 @@ def on_trust_in_file(path: str | Path, layout: Layout) -> tuple[str, ...]:
 
 
 def is_clear(layout: Layout, gap: float) -> bool:
-    """Whether no item is nearer than a gap to another one, or to the container's edge.
-
-    Quicker than to measure how near they are.
-    """
+    """Whether no item is nearer than a gap to another one, or to the container's edge."""
     regions = np.array([outline.region for outline in layout.outlines], dtype=object)
     whole = layout.container.outline.region
     edge = whole.boundary

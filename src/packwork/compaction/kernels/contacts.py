@@ -14,32 +14,30 @@ from packwork.compaction.kernels import broad_phase, distances, interior_point
 from packwork.compiled import helper, kernel
 
 REACH = 3.0
-"""Distance within which features bind, trust regions. Larger gives more conditions,
-smaller lets items run into what was not seen. Tried."""
+"""Distance within which features bind, trust regions. Larger gives more conditions, smaller lets
+items run into what was not seen. Tried."""
 
 BEND = 0.25
-"""Distance kept beyond the gap for what turning bends: squares of the trust region over
-the mean arm. Larger wastes room while trust is large, smaller fails more checks. Tried."""
+"""Distance kept beyond the gap for what turning bends: squares of the trust region over the mean
+arm. Larger wastes room, smaller fails more checks. Tried."""
 
 TIGHT = 1.2
 """Hair that steps aim at, over the one that is checked. Larger wastes room, smaller fails
 more checks. Tried."""
 
 LEAST_SLANT = 0.05
-"""Angle by which a vertex may miss being the nearest of its neighbours to an edge and
-still bind, rad, beyond what the items may turn. Larger gives more conditions of which few
-matter. Tried."""
+"""Angle by which a vertex may miss being the nearest of its neighbours to an edge and still bind,
+rad, beyond what items may turn. Larger gives conditions that hardly matter. Tried."""
 
 
 @helper
 def contacts(board, pairs, reach, slants, pair_of, numbers):
     """Write what keeps pairs apart; returns how many, counting on past the end.
 
-    ``pair_of``: which pair. ``numbers``: normal from the second polygon to the first, point on
-    the first, point on the second, distance. Only features within ``reach`` bind: convex
-    vertices against edges that they see from outside, near the edge's own span, and
-    against convex corners that face them. ``slants``: by how much the two polygons of each
-    pair may turn against each other, rad.
+    ``pair_of``: which pair; ``numbers``: normal from the second polygon to the first, point on the
+    first, point on the second, distance; ``slants``: by how much the two of each pair may turn
+    against each other, rad. Only features within ``reach`` bind: convex vertices against edges that
+    they see from outside, near the edge's own span, and against convex corners that face them.
     """
     most = distances.most_points(board.starts, pairs)
     kept, edges = np.empty((2, most), np.int64), np.empty((2, 9, most))
@@ -188,8 +186,8 @@ def _motion(board, i, nx, ny, x, y, sign, out):
 def constraint_rows(board, pairs, pair_of, numbers, where, trust, gap):
     """Contacts as rows of a programme, lengths in units of ``trust``.
 
-    ``where``: each polygon's number in the programme, -1 if it stands still. Rows that no
-    step within the trust region can reach are left out.
+    ``where``: each polygon's number in the programme, -1 if it stands still. Rows that no step
+    within the trust region can reach are left out.
     """
     most = pair_of.shape[0]
     first, second = np.empty(most, np.int64), np.empty(most, np.int64)

@@ -19,11 +19,11 @@ from packwork.compiled import helper, kernel, shared
 class Board(NamedTuple):
     """Polygons in place; arrays that the kernels write to.
 
-    ``own``: points of all polygons about their own origins; ``starts``: first point of each
-    polygon; ``after``, ``before``: neighbours of each point in its ring; ``points``: in
-    place; ``boxes``: left, top, right, bottom of each; ``spans``: the same of every
-    ``stride`` successive edges of the container, which stands still; ``places``: x, y, turn,
-    logarithm of growth of each item; ``arms``: farthest point of each item at growth 0.
+    ``own``: points of all about their own origins; ``starts``: first point of each polygon;
+    ``after``, ``before``: neighbours of each point in its ring; ``points``: in place; ``boxes``:
+    left, top, right, bottom of each; ``spans``: the same of every ``stride`` successive edges of
+    the container; ``places``: x, y, turn, logarithm of growth of each item; ``arms``: farthest
+    point of each at growth 0.
     """
 
     own: np.ndarray
@@ -139,7 +139,6 @@ def _winding(x, y, board, j):
 
 @helper
 def _is_in(board, v, j):
-    """True if a vertex lies in polygon ``j``."""
     x, y = board.points[v, 0], board.points[v, 1]
     # The container's rings run backwards: round a point inside once, the wrong way.
     return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
@@ -164,13 +163,12 @@ def _enters(board, kept, count, j):
 
 
 RUN = 8
-"""Edges that share a box where two polygons have many near each other. Tried: 16 and 32 are slower,
-without the boxes outlines of hundreds of points take ten times as long."""
+"""Edges that share a box where two polygons have many near each other. Larger and smaller are
+slower. Tried."""
 
 
 @helper
 def _to_edge_squared(x, y, points, v, w):
-    """Squared distance of a point from the edge between two vertices."""
     dx, dy = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
     ex, ey = x - points[v, 0], y - points[v, 1]
     length = dx * dx + dy * dy
@@ -234,7 +232,6 @@ def _boxes_of_runs(board, edges):
 
 @helper
 def _box_squared(box, points, v, w):
-    """Squared distance of a box from the box of an edge between two vertices."""
     squared = 0.0
     for c in range(2):
         low, high = min(points[v, c], points[w, c]), max(points[v, c], points[w, c])

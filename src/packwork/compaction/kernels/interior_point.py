@@ -20,14 +20,14 @@ import numpy as np
 from packwork.compiled import helper, kernel
 
 MOST_STEPS = 30
-"""Newton steps at most. Programmes of this kind take 7 to 15. Tried."""
+"""Newton steps at most; 7 to 15 are usual. Tried."""
 
 STEP_BACK = 0.99
 """Share of the way to the nearest bound that one step may go. Usual."""
 
 FIRST_BARRIER, FIRST_SLACK = 0.1, 0.2
-"""First products of slack and dual, and smallest first slack: trust regions. With slacks
-as small as those of items that touch, the first steps lead nowhere. Tried."""
+"""First products of slack and dual, and smallest first slack, trust regions: with slacks as small
+as those of items that touch, the first steps lead nowhere. Tried."""
 
 LEAST_WIDTH = 1e-6
 """Least distance of two bounds: an unknown that is held is held by this. Chosen."""
@@ -150,7 +150,6 @@ def substitute(band, begins, width, right):
 
 @helper
 def _row(rows, z, k):
-    """Product of a row with the unknowns."""
     i, j = 4 * rows.first[k], 4 * rows.second[k]
     total = 0.0
     for c in range(4):

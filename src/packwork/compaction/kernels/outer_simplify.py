@@ -49,8 +49,8 @@ def _change(points, after, before, v, corner):
 def _rank(costs, best, v):
     """Play all matches of vertex ``v`` anew, from its own up to the final.
 
-    ``best`` is a tournament (a segment tree): ``best[1]`` is the cheapest vertex of all, that of
-    the lowest number among equals, and ``best[k]`` the winner of ``best[2k]`` and ``best[2k + 1]``.
+    ``best`` is a tournament (a segment tree): ``best[k]`` the cheaper of ``best[2k]`` and ``best[2k
+    + 1]``, the one of the lower number among equals.
     """
     k = (best.shape[0] // 2 + v) // 2
     while k >= 1:
@@ -65,8 +65,7 @@ def simplify_outward(points, tolerance):
     """Vertices of a ring whose polygon holds that of ``points``, the cheapest changes first.
 
     The polygon lies where a positive ring has its inside. No change grows it by more than
-    ``tolerance``; together they may by a third more, since they get larger and larger. Takes
-    n log n steps: the cheapest is known from a tournament, not looked for among all.
+    ``tolerance``, together they may by a third more. Takes n log n steps.
     """
     count = points.shape[0]
     points = points.copy()

@@ -14,21 +14,20 @@ from packwork.compaction.kernels import distances
 from packwork.compiled import helper, kernel
 
 TRAVEL = 7.2
-"""Trust regions by which two items can come nearer in one step: each by the diagonal of
-its move, its turn and its growth, and a little for the curve. Derived."""
+"""Trust regions by which two items can come nearer in one step. Derived: each by the diagonal of
+its move, its turn and its growth, and a little for the curve."""
 
 RETURN_WEIGHT = 10.0
-"""How much more a return to the allowed sizes is worth than growth within them. Larger
-lets one item that is out of them push all others aside. Chosen."""
+"""How much more a return to the allowed sizes is worth than growth within them. Larger lets one
+item that is out of them push all others aside. Chosen."""
 
 ACCURACY = 0.1
-"""Share of the growth that a programme may miss. Smaller costs time and drives items to
-the ends of their freedom; larger leaves them in the middle of their room. Tried."""
+"""Share of the growth that a programme may miss. Smaller costs time and drives items to the ends of
+their freedom; larger leaves them amid their room. Tried."""
 
 FIRST_CUT = 0.004
-"""First cut of size of items in conflict after a step, trust regions at their farthest
-vertex; doubled while the conflict lasts. Larger gives room away, smaller needs more
-checks. Tried."""
+"""First cut of size of items in conflict after a step, trust regions at their farthest vertex,
+doubled while it lasts. Larger gives room away, smaller needs more checks. Tried."""
 
 CUTS = 7
 """Doublings before an item stays where it was: the last cut is half a trust region."""
@@ -42,8 +41,8 @@ LEAST_GROWTH = -10.0
 """Logarithm of size below which no item falls: a 20,000th. Chosen."""
 
 CHECKS = 16
-"""Checks of one step before it is halved for all. Smaller halves steps that one more cut
-would have saved. Tried."""
+"""Checks of one step before it is halved for all. Smaller halves steps that one more cut would have
+saved. Tried."""
 
 HALVINGS = 4
 """Halvings before the whole step is given up. Chosen."""
@@ -52,11 +51,9 @@ HALVINGS = 4
 class Objective(NamedTuple):
     """Objective and bounds of a compaction: what growth is worth, how far items may turn and grow.
 
-    Logarithms of growth and radians, ``(n,)`` each.
-
-    An item of growth g is worth ``weights * exp(power * g) / power``: its area with power
-    2; with a large negative power, the smallest items count most. ``push``: ``(n, 2)`` what
-    a move by one canvas unit is worth, by x and y.
+    Logarithms of growth and radians, ``(n,)`` each. An item of growth g is worth ``weights *
+    exp(power * g) / power``: its area with power 2; with a large negative power, the smallest items
+    count most. ``push``: ``(n, 2)`` what a move by one canvas unit is worth.
     """
 
     smallest: np.ndarray
@@ -163,11 +160,10 @@ def _apply_share(board, items, before, step, share, pairs, gap, unit):
 
 @helper
 def apply_step(board, items, step, pairs, gap, trust):
-    """Move ``items`` by as much of ``step`` as leaves no conflict; how many halvings.
+    """Move ``items`` by as much of ``step`` as is free; how many halvings, -1 for no move.
 
-    Curves that the linear programme took for straight leave conflicts far smaller than
-    the step: items in one are made a little smaller rather than sent back. -1 if the
-    step was given up and nothing has moved.
+    Curves that the linear programme took for straight leave conflicts far smaller than the step:
+    items in one are made a little smaller rather than sent back.
     """
     n = items.shape[0]
     before, unit = np.empty((n, 4)), np.empty(n)

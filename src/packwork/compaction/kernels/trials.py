@@ -19,18 +19,17 @@ CUT, CHECKS = 0.06, 25
 Chosen."""
 
 FINALISTS = 2
-"""Places in which the moved items grow, of those where they come clear at the largest size.
-Larger takes longer and finds little more. Tried."""
+"""Places in which the moved items grow, of those where they come clear at the largest size. More
+take longer and find little. Tried."""
 
 
 class Trial(NamedTuple):
     """Trial move: items, and poses that are tried for them.
 
-    ``moved``: ``(m,)`` items that are put elsewhere; ``places``: ``(k, m, 4)``, of which the best
-    is taken; ``items``: ``(n,)`` those that move afterwards, the moved ones among them, neighbours
-    near each other; ``near``: ``(r,)`` all that they may come near, ascending; ``bounds``:
-    ``(n, 4)`` boxes that they must not leave, or ``(0, 4)``. Where none is moved, it is
-    plain compaction.
+    ``moved``: ``(m,)`` items that are put elsewhere, none in plain compaction; ``places``: ``(k, m,
+    4)``, of which the best is taken; ``items``: ``(n,)`` those that move afterwards, the moved ones
+    among them, neighbours near each other; ``near``: ``(r,)`` all that they may come near,
+    ascending; ``bounds``: ``(n, 4)`` boxes that they must not leave, or ``(0, 4)``.
     """
 
     moved: np.ndarray
@@ -84,7 +83,6 @@ def _least(board, items):
 
 @helper
 def _keep(board, items, places):
-    """Write where items are."""
     for k in range(items.shape[0]):
         for c in range(4):
             places[k, c] = board.places[items[k], c]
@@ -92,7 +90,6 @@ def _keep(board, items, places):
 
 @helper
 def _are_within(board, items, bounds):
-    """True if items are in the boxes that they must not leave."""
     for k in range(bounds.shape[0]):
         if broad_phase.sticks_out(board.boxes[items[k]], bounds[k]):
             return False
@@ -133,10 +130,9 @@ def attempt(board, objective, trial, rounds, allowed, least, gap, hair):
     """Make a trial; what it gained, or -inf where it was undone, for it gained too little.
 
     First the moved items grow by themselves, where they come clear at the largest sizes, all others
-    standing still; from the best of those places on, all move.
-
-    ``allowed``: value that it may lose; ``least``: logarithm of size that none may end below.
-    Plain compaction is not undone; -inf says that nothing could move.
+    standing still; from the best of those places on, all move. ``allowed``: value that it may lose;
+    ``least``: logarithm of size that none may end below. Plain compaction is not undone; -inf says
+    that nothing could move.
     """
     items, moved, count = trial.items, trial.moved, trial.places.shape[0]
     before, chosen = np.empty((items.shape[0], 4)), np.empty((moved.shape[0], 4))
@@ -188,12 +184,12 @@ def attempt(board, objective, trial, rounds, allowed, least, gap, hair):
 
 
 class Chosen(NamedTuple):
-    """Room for what is chosen: trials that may be made at once, and where each may reach.
+    """Room for trials that may be made at once, and where each may reach.
 
     ``trials``: ``(c,)`` which of those that were asked for; ``items``: of all of them one after
-    another, from ``begins[k, 0]`` on those of the k-th, which ``bounds`` are the boxes of that they
-    must not leave; ``near``: from ``begins[k, 1]`` on what they may come near, ascending;
-    ``reached``: from ``begins[k, 2]`` on all boxes that they may be in.
+    another, from ``begins[k, 0]`` on those of the k-th, with the boxes ``bounds`` that they must
+    not leave; ``near``: from ``begins[k, 1]`` on what they may come near, ascending; ``reached``:
+    from ``begins[k, 2]`` on all boxes that they may be in.
     """
 
     trials: np.ndarray
@@ -282,7 +278,6 @@ def _bound(board, item, moved, pair, places, room, bound):
 
 @helper
 def _hull(boxes, begin, end, hull):
-    """Write the box about some boxes."""
     hull[0] = hull[1] = np.inf
     hull[2] = hull[3] = -np.inf
     for k in range(begin, end):
@@ -292,7 +287,6 @@ def _hull(boxes, begin, end, hull):
 
 @helper
 def _comes_near(boxes, begin, end, left, top, right, bottom):
-    """True if some boxes meet the one between these bounds."""
     for b in range(begin, end):
         if (
             boxes[b, 0] <= right
@@ -336,10 +330,10 @@ def _add_near(boxes, begin, end, hull, polygons, moved, margin, near, count):
 def disjoint(board, radii, moved, places, neighbours, room, margin, chosen):
     """Choose the first of some trials and those after it whose neighbourhoods do not meet.
 
-    As many as there is room for; returns how many. ``radii``: ``(n,)`` of all items; ``moved``:
-    ``(p, 2)`` those that are put elsewhere, the second -1 for one alone; ``places``: ``(p, 2, 4)``
-    where; ``neighbours``: how many give way for each of these; ``room``: how far each may go;
-    ``margin``: how near to what else.
+    As many as there is room for; returns how many. ``moved``: ``(p, 2)`` those that are put
+    elsewhere, the second -1 for one alone; ``places``: ``(p, 2, 4)`` where; ``neighbours``: how
+    many give way for each of these; ``room``: how far each may go; ``margin``: how near to what
+    else.
     """
     begins, reached = chosen.begins, chosen.reached
     hull = np.empty(4)

@@ -37,10 +37,9 @@ def _walk(
 ):  # fmt: skip
     """Walk one edge piece that lies on the canvas; return the record's new length.
 
-    Steps are chosen without branches, since no predictor could guess them. An edge that
-    ends on a corner of the grid may take its last two steps in the wrong order, when
-    rounding says so; the pieces after that are empty, but the cell may then lie one
-    beyond the image, for which ``buffer`` has spare rows.
+    Steps are chosen without branches, which no predictor could guess. An edge that ends on a corner
+    of the grid may, by rounding, take its last two steps in the wrong order; the pieces after that
+    are empty, but the cell may lie one beyond the image, for which ``buffer`` has spare rows.
     """
     cell = cell_y * width + cell_x
     dx = x1 - x0
@@ -202,8 +201,8 @@ def _first_row(points, starts, order, height):
 def _fetch(image, reached, until):
     """Read one pixel of each cache line from ``reached`` to ``until``; return their sum.
 
-    Edges wander down columns, which no hardware foresees; whole rows read beforehand are
-    in the cache when they come. The sum has no other use than to keep the loop.
+    Edges wander down columns, which no hardware foresees. The sum has no other use than to keep the
+    loop.
     """
     total = 0.0
     for pixel in range(reached, until, PIXELS_PER_LINE):
