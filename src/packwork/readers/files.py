@@ -50,12 +50,7 @@ def _read_file(path: str | Path, most: int) -> bytes:
 def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
     """Lines of a UTF-8 file of at most ``most`` bytes that this program goes on writing.
 
-    What is no UTF-8 is replaced by a mark of that.
-
-    Parameters
-    ----------
-    longest
-        Characters of a line at most.
+    What is no UTF-8 is replaced by a mark of that; ``longest`` bounds the characters of a line.
 
     Examples
     --------

@@ -86,16 +86,9 @@ _LOG = logging.getLogger("packwork")
 
 @dataclass(frozen=True)
 class Listing:
-    """Files of a folder or a pattern.
+    """Files of a folder or a pattern whose ending is read, by name; others that look like drawings.
 
-    Parameters
-    ----------
-    files
-        Those whose ending is read, by name.
-    unread
-        Why others that look like drawings or pictures are not.
-    inner
-        Folders in a folder that hold such files too, and are not read.
+    ``inner`` are the folders in a folder that hold such files too, and are not read.
     """
 
     files: list[str]
@@ -119,13 +112,7 @@ class Listing:
 
 
 def listed(folder: Path, endings: Collection[str]) -> Listing:
-    """Files in a folder; where it holds none, those in the folders inside. Hidden are passed over.
-
-    Parameters
-    ----------
-    endings
-        That are read, in lower case.
-    """
+    """Files in a folder that are not hidden; where it holds none, those in the folders inside."""
     try:
         here = here_of(folder)
         found = _sorted_out((folder / each.name for each in here.iterdir()), endings)
@@ -186,14 +173,9 @@ def _sorted_out(paths: Iterable[Path], endings: Collection[str]) -> Listing:
 
 @dataclass(frozen=True)
 class Sample:
-    """Choice of some of many items.
+    """Choice of some of many items, drawn by a seed, or the first of them.
 
-    Parameters
-    ----------
-    seed
-        Of the draw among all of them; None takes the first.
-    wanted
-        Patterns of names: all of a plain name are taken before others, and one of a pattern.
+    All of a plain name in ``wanted`` are taken before others, and one of a pattern.
     """
 
     most: int

@@ -34,15 +34,7 @@ _READERS: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
 
 @dataclass(frozen=True)
 class ItemsRead:
-    """Items that were read, and files that were not.
-
-    Parameters
-    ----------
-    items
-        In the order of the sources, files of a folder by name.
-    skipped
-        Why files among many were left out.
-    """
+    """Items in the order of their sources, and files among many that were left out."""
 
     items: tuple[Item, ...]
     skipped: tuple[ReadError, ...]

@@ -35,18 +35,9 @@ HALF = 0.5
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """Choices that a file cannot state itself.
+    """Choices that a file cannot state itself, as the options of those names.
 
-    Parameters
-    ----------
-    trim
-        Whether a container's canvas is its drawing alone; None: where that is small.
-    close_gaps
-        Slits of a container that are closed: ``auto``, ``none`` or a width.
-    keep_page
-        Whether the page behind an item's drawing is part of it; None: what it looks like.
-    alpha_threshold
-        Opacity from which a picture's paint belongs to the outline.
+    None leaves ``trim`` and ``keep_page`` to what the drawing looks like.
 
     Examples
     --------

@@ -38,13 +38,7 @@ DROPPED = (PageFate.LEFT_OUT, PageFate.CUT_AWAY)
 
 @dataclass(frozen=True, eq=False)
 class Read:
-    """An item, where it was read, and what became of its page.
-
-    Parameters
-    ----------
-    file
-        Its path; None of a built-in one.
-    """
+    """An item, its file (None of a built-in one), its page's fate, and a way to keep the page."""
 
     item: Item
     file: str | None = None

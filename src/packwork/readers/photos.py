@@ -52,10 +52,7 @@ right angle, so that prints keep their corners."""
 class PhotoCrop:
     """Part of a photo that is shown, in its upright pixels.
 
-    Parameters
-    ----------
-    is_cut
-        Whether the picture is less than its window: shaped, or clear in places.
+    ``is_cut`` says that the picture is less than its window: shaped, or clear in places.
     """
 
     window: Window
@@ -71,14 +68,10 @@ def framed(
     threshold: float = HALF,
     shape: Region | None = None,
 ) -> PhotoCrop:
-    """Frame of a photo: its rectangle, its cut-out, or the largest shape in its middle.
+    """Frame of a photo: its rectangle, its cut-out, or the largest ``shape`` in its middle.
 
-    Parameters
-    ----------
-    threshold
-        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
-    shape
-        Region that the photo is cut to, of any size.
+    ``threshold`` is the opacity from which a cut-out's pixel is inside, over that of the most
+    opaque.
     """
     width, height = negative.width, negative.height
     full = (0.0, 0.0, float(width), float(height))
@@ -150,14 +143,7 @@ def read_photo(
     threshold: float = HALF,
     shape: Region | None = None,
 ) -> Item:
-    """Item of a photo, its units the pixels of the file.
-
-    Parameters
-    ----------
-    number
-        Which photo of a run it is: one file may be there twice.
-    shape
-        Region that the photo is cut to, of any size; None where ``options`` ask for no shape.
+    """Item of a photo, its units the file's pixels; ``number`` tells apart files that come twice.
 
     Examples
     --------
@@ -235,16 +221,9 @@ def read_photos(
 ) -> ItemsRead:
     """Items of all photos, in the order of the sources, files of a folder by name.
 
-    A file named by itself must be usable; one among many of a folder or a pattern is left
-    out with a notice if it is not.
-
-    Parameters
-    ----------
-    strict
-        Whether an unusable file among many is an error too.
-    sample
-        Which are taken where there are more than are needed; few others are read. Of those named
-        by themselves all are, unless these alone are too many.
+    A file named by itself must be usable; one among many of a folder or a pattern is left out
+    with a notice if it is not, and refused if ``strict``. Of those named by themselves a sample
+    takes all, unless these alone are too many.
 
     Examples
     --------

@@ -23,21 +23,11 @@ Box: TypeAlias = tuple[float, float, float, float]
 
 
 def canvas_box(box: Box, page: tuple[float, float], trim: bool | None, unit: Unit | None) -> Box:
-    """Left, top, width and height of the canvas: the page, or the box of what is drawn on it.
+    """Left, top, width and height of the canvas: the page, or the box of what is drawn on it, px.
 
     A page in a real unit is a sheet on which the drawing has its size and place: it stays
-    unless it is to be trimmed, which leaves the drawing as large as it is.
-
-    Parameters
-    ----------
-    box
-        Left, top, right and bottom of what is to be filled, in px.
-    page
-        Width and height, in px.
-    trim
-        What is asked for; None for what looks right, which is said.
-    unit
-        In which the page keeps its size; None if it is scaled to the canvas.
+    unless it is to be trimmed, which leaves the drawing as large as it is. None for ``trim``
+    takes what looks right, which is said.
 
     Examples
     --------
@@ -113,14 +103,7 @@ def clean_union(*regions: Region, speck: float = SPECK) -> Region:
 
 
 def tell_if_full(share: float, why: str) -> None:
-    """Notice that a container is nearly all of its page, which is seldom meant.
-
-    Parameters
-    ----------
-    share
-        Of the page that it fills.
-    why
-        What makes it so, and what would do.
+    """Notice that a container is nearly all of its page, which is seldom meant, and why it is so.
 
     Examples
     --------

@@ -48,15 +48,7 @@ _SIMPLIFY_PX = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Quiet:
-    """Saliency of a picture and its quiet part.
-
-    Parameters
-    ----------
-    saliency
-        ``[row, col]`` 0..1, ``MAP_PX`` long.
-    region
-        The quiet part, in pixels of the upright picture.
-    """
+    """Saliency of a picture, ``[row, col]`` 0..1, and its quiet part, in the picture's pixels."""
 
     saliency: FloatArray
     region: Region
@@ -125,14 +117,9 @@ ReadRegion = Callable[[str, CanvasSize], Container]
 
 @dataclass(frozen=True)
 class QuietOptions:
-    """Choice of the part of a picture that is filled.
+    """Choice of the part of a picture that is filled: the quietest ``share`` of its area.
 
-    Parameters
-    ----------
-    share
-        Of the picture's area, the quietest.
-    keep_clear
-        What is left out of that: masks, or boxes as ``left,top,width,height``.
+    ``keep_clear`` are left out of that: masks, or boxes as ``left,top,width,height``.
     """
 
     share: float = QUIET_SHARE

@@ -46,12 +46,7 @@ _LEAST = 1e-3
 
 
 def closed_slits(container: Container, asked: str) -> Container:
-    """Container whose slits are closed, which is said.
-
-    Parameters
-    ----------
-    asked
-        ``auto``, ``none`` or the width of the widest slit, a length.
+    """Container whose slits are closed, which is said: ``auto``, ``none`` or up to a width.
 
     Examples
     --------
@@ -94,14 +89,10 @@ def closed_slits(container: Container, asked: str) -> Container:
 
 
 def without_slits(region: Region, width: float, *, is_auto: bool) -> Region:
-    """Region with what lies between edges that face each other within a width.
+    """Region with what lies between edges that face each other within a width; outer edges stay.
 
-    Outer edges stay where they are.
-
-    Parameters
-    ----------
-    is_auto
-        Whether it is left alone if nothing of that parts it or is long: notches are not slits.
+    With ``is_auto`` it is left alone if nothing of that parts it or is long: notches are not
+    slits.
     """
     style = {"join_style": "mitre", "mitre_limit": 2.0}
     grown = buffered(region, width / 2, **style)

@@ -46,12 +46,8 @@ def read_target(
 ) -> TargetPicture:
     """Picture of a file, laid so that it covers the container's box, on white where it is clear.
 
-    Of a cut-out or an SVG that is what is seen of it, so that a container made of it lies on it.
-
-    Parameters
-    ----------
-    reading
-        How an SVG is read: with its white page or without.
+    Of a cut-out or an SVG that is what is seen of it, so that a container made of it lies on
+    it.
     """
     data = read_bytes(source, MAX_PICTURE_BYTES)
     if Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<":

@@ -51,12 +51,7 @@ MOST_KNOWN = 1024
 class Letter:
     """One letter, or several that join, as a font draws them, in ems, y down, base line at 0.
 
-    Parameters
-    ----------
-    region
-        What it covers, with holes and parts; empty for a space.
-    advance
-        How far it moves the origin of the next letter to the right.
+    ``region`` is empty for a space; ``advance`` is how far right the next letter's origin lies.
     """
 
     region: Region
@@ -169,18 +164,11 @@ MARGIN = 0.02
 def container_of_words(
     source: str, side: float = 600.0, font: str | Path | None = None
 ) -> Container:
-    """Container of ``text:`` and words, ``|`` between lines, on a canvas about them.
+    """Container of ``text:`` and words, ``|`` between lines, on a canvas about them, ``side`` long.
 
-    Words of any script, shaped as its readers expect. Letters stand apart, but those that
-    join in writing, as in Arabic and Hindi. The counters of letters are holes.
-
-    Parameters
-    ----------
-    side
-        Longer side of the canvas, in canvas units.
-    font
-        A TTF, OTF or TTC file, or an installed family. If None the bundled bold sans, and
-        installed fonts for what it lacks.
+    Words of any script, shaped as its readers expect, in a font file or an installed family.
+    Letters stand apart, but those that join in writing, as in Arabic and Hindi. Counters of
+    letters are holes.
 
     Examples
     --------
@@ -243,15 +231,10 @@ def lines_of(text: str) -> list[str]:
 
 
 def set_lines(lines: Sequence[Sequence[Letter]]) -> Region:
-    """Region of centred lines, one under the other, in ems.
+    """Region of centred lines, one under the other, in ems, letters from left to right.
 
     Letters stand by their advance, moved apart where they would come nearer than
     ``LETTER_GAP``; lines stand ``LINE_GAP`` under each other's ink.
-
-    Parameters
-    ----------
-    lines
-        Letters of each from left to right.
 
     Examples
     --------

@@ -31,19 +31,7 @@ SAME = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Vectors:
-    """Rows of numbers.
-
-    Parameters
-    ----------
-    names
-        One per row; None where the file has none.
-    rows
-        ``(n, d)``, finite.
-    columns
-        What their numbers are called, where the file says so.
-    groups
-        Of what group each row is, where a column of texts says so.
-    """
+    """Rows of numbers ``(n, d)``, finite, and names of rows, columns and groups that a file has."""
 
     file: str
     names: tuple[str, ...] | None

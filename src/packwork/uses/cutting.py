@@ -25,17 +25,7 @@ its extent: smaller would pale the item's own edges, which are drawn softly too.
 
 @dataclass(frozen=True, eq=False)
 class Cut:
-    """An item of which a part is seen.
-
-    Parameters
-    ----------
-    item
-        That part, with a centroid of its own.
-    centre
-        Where that centroid lies, in the units of the whole item.
-    share
-        Of the whole item's area.
-    """
+    """The part of an item that is seen, its centroid's place in the whole, and its share."""
 
     item: Item
     centre: tuple[float, float]
@@ -44,18 +34,10 @@ class Cut:
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """Opening through which a part of a drawing is seen.
+    """Opening through which a part of a drawing is seen: an SVG element in units of the whole item.
 
-    Parameters
-    ----------
-    name
-        Its own in any document.
-    clip
-        The SVG element that is the opening, in the units of the whole item.
-    place
-        2 x 3 map from those to units that begin at the part's own centroid.
-    is_traced
-        Of the drawing behind it.
+    ``place`` is a 2 x 3 map from those to units that begin at the part's own centroid; the name
+    is the window's own in any document.
     """
 
     name: str
@@ -89,12 +71,7 @@ class CutOriginal:
 def cut(item: Item, matrix: FloatArray, window: Region, name: str) -> Cut | None:
     """Part of an item in place that lies in a window; None if that is nothing to speak of.
 
-    Parameters
-    ----------
-    matrix
-        2 x 3 map from the item's units to those of the window.
-    name
-        Of the window, its own in any document.
+    ``matrix`` is a 2 x 3 map from the item's units to the window's, whose name no other has.
 
     Examples
     --------

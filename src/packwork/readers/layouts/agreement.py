@@ -53,17 +53,7 @@ _SAMPLED = np.hstack([
 
 @dataclass(frozen=True, kw_only=True)
 class Differences:
-    """Paths that only one of two drawings has.
-
-    Parameters
-    ----------
-    paths
-        How many the PDF paints.
-    strange
-        Those of the PDF that are not in the SVG.
-    missing
-        Those of the SVG that are not in the PDF, though they leave paint.
-    """
+    """Number of paths of a PDF, those that it alone has, and those of the SVG that it lacks."""
 
     paths: int
     strange: Sequence[Painted]

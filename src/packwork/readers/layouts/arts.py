@@ -34,19 +34,10 @@ _ENCODED = re.compile(rb"""^\s*<\?xml[^>]*encoding\s*=\s*["'](?!utf-8["'])""", r
 
 
 def insides(data: bytes, wanted: Set[int]) -> dict[int, str]:
-    """Text between the tags of elements, by their number in the document's order.
+    """Text between the tags of elements, by their number in the document's order, the root 0.
 
-    Parameters
-    ----------
-    data
-        A document that has been parsed before, so that it is known to be harmless.
-    wanted
-        Numbers of the elements; the root's is 0.
-
-    Returns
-    -------
-    dict
-        Nothing for a document that is not in UTF-8, or declares entities.
+    Nothing for a document that is not in UTF-8, or declares entities. It has to have been
+    parsed before, so that it is known to be harmless.
 
     Examples
     --------
@@ -112,11 +103,8 @@ _OF_PICTURES = frozenset(
 def place_and_art(source: ET.Element, drawn: ET.Element) -> tuple[FloatArray, FloatArray]:
     """Maps (2 x 3) of one copy: from its item's units to where it lies, from its markup's to those.
 
-    Parameters
-    ----------
-    source, drawn
-        The element that draws, and the one that stands among the items: the same for a copy in
-        full.
+    ``source`` is the element that draws, ``drawn`` the one among the items: the same for a full
+    copy.
 
     Examples
     --------
@@ -171,13 +159,7 @@ class _Drawing:
 
 @final
 class Arts:
-    """Items of one file; copies of one drawing that look the same are one item.
-
-    Parameters
-    ----------
-    sources
-        Elements that draw.
-    """
+    """Items of one file; copies of one drawing that look the same are one item."""
 
     def __init__(self, root: ET.Element, data: bytes, sources: list[ET.Element]) -> None:
         wanted = set(sources)

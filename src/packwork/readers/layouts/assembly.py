@@ -31,15 +31,7 @@ rounding of a file's digits."""
 
 @dataclass(frozen=True, eq=False)
 class FoundItem:
-    """One item as a file shows it.
-
-    Parameters
-    ----------
-    shape
-        Region in place, canvas units, of a file that holds no more; else the item.
-    place
-        2 x 3 map from the item's units to canvas units; None where the shape is in place.
-    """
+    """An item as a file shows it: a region in canvas units, or an item and a 2 x 3 map to them."""
 
     name: str
     shape: Region | Item
@@ -51,18 +43,10 @@ class FoundItem:
 class FoundSheet:
     """Sheet of a file, and what it states of all items together.
 
-    Parameters
-    ----------
-    gap
-        Smallest distance that its run promised; None if that promised nothing.
-    areas_in_shares
-        Whether it promised areas in the shares of the weights.
-    on_trust
-        What of it could not be seen and was believed, a sentence each.
-    walls
-        Lines that are seen of a container with openings, canvas units; None: all of its edge.
-    said
-        What else the file says, as a manifest has it.
+    ``gap`` and ``areas_in_shares`` are what its run promised; ``on_trust`` are sentences about
+    what could not be seen and was believed; ``walls`` the lines that are seen of a container
+    with openings, canvas units, None for all of its edge; ``said`` what else the file says, as
+    a manifest has it.
     """
 
     width: float

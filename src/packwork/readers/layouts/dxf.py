@@ -44,15 +44,7 @@ _FIRST_EXTENDED = 1_000
 
 @dataclass(frozen=True, eq=False)
 class DxfLine:
-    """One polyline.
-
-    Parameters
-    ----------
-    points
-        ``(n, 2)``, drawing units, y up.
-    said
-        What our files say of it: numbers and texts in order.
-    """
+    """A polyline: points ``(n, 2)`` in drawing units, y up, and what our files say of it."""
 
     layer: str
     points: FloatArray

@@ -48,15 +48,7 @@ _TEXT = frozenset({"Tj", "TJ", "'", '"'})
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedPage:
-    """A page's paint.
-
-    Parameters
-    ----------
-    width, height
-        Of the sheet that is left after trimming, CSS pixels.
-    shapes
-        Paths and frames of pictures, in painting order; each is either filled or stroked.
-    """
+    """A page's paint: the trimmed sheet in CSS pixels, and shapes in painting order."""
 
     width: float
     height: float

@@ -99,14 +99,9 @@ def read_written(path: str | Path) -> Layout:
 
 
 def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) -> Layout:
-    """Layout of what is, or is to be, such a file's content.
+    """Layout of what is, or is to be, the content of a file whose ending says what it is.
 
-    Parameters
-    ----------
-    path
-        Its ending says what that is.
-    outlines_only
-        Whether nothing but outlines is wanted, of plain items.
+    With ``outlines_only`` items are plain.
     """
     ending = Path(path).suffix.lower()
     with reading_file(str(path)):

@@ -85,13 +85,9 @@ _NOT_OURS = "as packwork writes it; give an SVG of ours, or the layout saved as 
 def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Layout:
     """Layout of an SVG's bytes, its outlines those of the drawings in it.
 
-    Of drawings that only a rendering tells (text, masks) the file holds the outline that
-    was placed; embedded pictures are followed as they were when they were read.
-
-    Parameters
-    ----------
-    outlines_only
-        Whether items are to be plain, as what they look like is not wanted.
+    Of drawings that only a rendering tells (text, masks) the file holds the outline that was
+    placed; embedded pictures are followed as they were when they were read. With
+    ``outlines_only`` items are plain.
 
     Examples
     --------
@@ -161,13 +157,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
 
 @final
 class _Drawings:
-    """Regions of the drawings of one file, each followed once, as its largest copy needs.
-
-    Parameters
-    ----------
-    side
-        Longer side of the canvas, in the file's units.
-    """
+    """Regions of the drawings of one file, each followed once, as its largest copy needs."""
 
     def __init__(self, root: ET.Element, drawn: Sequence[ET.Element], side: float) -> None:
         # Of one id the first counts, as in browsers.

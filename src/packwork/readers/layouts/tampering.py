@@ -78,14 +78,9 @@ def examined(
 ) -> tuple[list[str], list[str]]:  # fmt: skip
     """Sentences about changes of a file, and about all of it that has to be believed.
 
-    Of files without our groups, which promise nothing, only the latter.
-
-    Parameters
-    ----------
-    drawn, sources
-        The element of each item, and the one that draws it.
-    container, size
-        Region that was filled, and width and height of the page, canvas units.
+    Of files without our groups, which promise nothing, only the latter. ``drawn`` and
+    ``sources`` are the element of each item and the one that draws it; region and page size are
+    in canvas units.
 
     Examples
     --------
@@ -107,11 +102,6 @@ def changes(
     root: ET.Element, data: bytes, drawn: Sequence[ET.Element], sources: Sequence[ET.Element]
 ) -> list[str]:
     """Sentences about parts that are drawn otherwise than they are measured.
-
-    Parameters
-    ----------
-    drawn, sources
-        The element of each item, and the one that draws it: itself, or what it uses.
 
     Examples
     --------

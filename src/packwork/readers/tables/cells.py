@@ -185,16 +185,10 @@ def is_date(text: str) -> bool:
 def written_numbers(
     cells: Sequence[object], file: str, column: str, *, usual: str = "", asked: str | None = None
 ) -> list[float]:
-    """Number of each cell; NaN for what is none.
+    """Number of each cell of a column; NaN for what is none. Numbers are as they are.
 
-    Parameters
-    ----------
-    cells
-        Of one column: texts; numbers are as they are.
-    usual
-        What parts the fraction where nothing in the column tells; empty to ask.
-    asked
-        What parts it in any case.
+    ``usual`` parts the fraction where nothing in the column tells, empty to refuse; ``asked``
+    in any case.
 
     Examples
     --------
@@ -372,12 +366,7 @@ def categories(rows: Sequence[Mapping[str, Any]], column: str) -> tuple[list[str
 def names_of_all(
     rows: Sequence[Mapping[str, Any]], column: str, shown_names: Iterable[str]
 ) -> tuple[str, ...]:
-    """Names of all categories of a column by the alphabet, of rows that are not shown too.
-
-    Parameters
-    ----------
-    shown_names
-        Categories of the rows that are shown, as those write them.
+    """Categories of a column by the alphabet, of rows that are not shown too.
 
     Examples
     --------

@@ -71,12 +71,7 @@ class Decoded:
 
 
 def decoded(data: bytes, file: str, encoding: str | None = None) -> Decoded:
-    """Text of a file's bytes, without its byte order mark.
-
-    Parameters
-    ----------
-    encoding
-        What its letters are stored in; None finds it.
+    """Text of a file's bytes, without its byte order mark; without an encoding, that is found.
 
     Examples
     --------

@@ -37,15 +37,7 @@ _DECLARED = re.compile(r'"?sep=(.)"?[ \t]*\r?(?:\n|$)', re.IGNORECASE)
 
 @dataclass(frozen=True, eq=False)
 class TextTable:
-    """A file of lines of cells, its letters and its delimiter known.
-
-    Parameters
-    ----------
-    text
-        Without a line that only says what the delimiter is.
-    notice
-        What has to be told of how it was read; empty if nothing.
-    """
+    """A file of lines of cells, its letters and delimiter known, and how it was read."""
 
     file: str
     text: str

@@ -12,12 +12,9 @@ from packwork.readers.tables.delimited import MOST_ROWS
 def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, Any]]:
     """Rows of a data frame (pandas, polars, pyarrow), a dict of columns, or dicts.
 
-    An index of pandas that is more than numbers of rows becomes columns, as ``reset_index`` has it.
-
-    Parameters
-    ----------
-    has_row_numbers
-        Whether that holds of numbers of rows that were sorted or left out, too.
+    An index of pandas that is more than numbers of rows becomes columns, as ``reset_index`` has
+    it; unless ``has_row_numbers`` is false, numbers of rows that were sorted or left out as
+    well.
 
     Examples
     --------

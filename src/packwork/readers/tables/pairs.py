@@ -27,19 +27,7 @@ NUMBER_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
 
 @dataclass(frozen=True)
 class Pair:
-    """A row of such a table.
-
-    Parameters
-    ----------
-    name
-        Empty where there is none.
-    number
-        NaN where there is none.
-    written
-        The number as it stands in the file; None where nothing does.
-    where
-        ``line 3``, for messages.
-    """
+    """A row of such a table: a name or none, a number or NaN, and that as it stands in the file."""
 
     name: str
     number: float

@@ -42,18 +42,10 @@ Fields: TypeAlias = dict[int, Any]
 class ColumnChunk:
     """One column of one group of rows.
 
-    Parameters
-    ----------
-    name
-        Of the column; of one in a structure, the structure's.
-    rows, values, stated
-        By the file's own account; ``stated`` are its bytes unpacked.
-    size, found
-        Bytes unpacked, and values, by the headers of its pages.
-    is_shared
-        Whether texts are told by what they share with the one before.
-    is_delta
-        Whether texts are in an encoding that Arrow does not read as a dictionary.
+    ``rows``, ``values`` and ``stated`` (bytes unpacked) are the file's own account; ``size``
+    (bytes unpacked) and ``found`` (values) that of its pages. ``is_shared``: texts are told by
+    what they share with the one before; ``is_delta``: in an encoding that Arrow does not read
+    as a dictionary.
     """
 
     name: str
@@ -200,14 +192,9 @@ _INDEX = "__index_level_"
 
 
 def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[dict[str, Any]]:
-    """Rows of a Parquet file, as values of Python.
+    """Rows of a Parquet file, as values of Python, with needed columns in any case.
 
     What pandas notes in such files for itself is not looked at.
-
-    Parameters
-    ----------
-    needed
-        Columns that are read in any case.
     """
     try:
         parquet = importlib.import_module("pyarrow.parquet")

@@ -37,14 +37,7 @@ is no table with a total. Chosen."""
 
 
 def total_row(names: Sequence[str], numbers: Sequence[float]) -> int | None:
-    """Index of the row that is the sum of the others; None if none is.
-
-    Parameters
-    ----------
-    names
-        Empty ones where rows have none.
-    numbers
-        Positive, or NaN.
+    """Index of the row that is the sum of the others; None if none is. Numbers: positive or NaN.
 
     Examples
     --------
@@ -81,21 +74,11 @@ Row: TypeAlias = dict[str, Any]
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Rows under named columns.
+    """Rows under named columns; cells that are not there are missing.
 
-    Parameters
-    ----------
-    name
-        For messages: the file, or ``data``.
-    columns
-        In the order of the file.
-    rows
-        Cells by column; those that are not there are missing.
-    usual_decimal
-        What parts the fraction of a number in a cell of text, where its column does not tell;
-        empty where that has to be asked.
-    notices
-        What has to be told of how it was read.
+    ``usual_decimal`` parts the fraction of a number in a cell of text, where its column does
+    not tell; it is empty where that has to be asked. ``notices`` tell of how the table was
+    read.
     """
 
     name: str
@@ -120,13 +103,9 @@ class Table:
     def with_numbers(self, column: str, decimal: str | None, *, whole: bool) -> Table:
         """The same table, where the texts of a column know which numbers they are.
 
-        Parameters
-        ----------
-        decimal
-            What parts a fraction in any case; None to tell it from the column.
-        whole
-            Whether the column is one of numbers only if all that it holds are some: so
-            categories such as ``1.200`` need no decision.
+        Without a decimal sign, that is told from the column. With ``whole`` the column is
+        one of numbers only if all that it holds are some: so categories such as ``1.200``
+        need no decision.
 
         Examples
         --------
@@ -161,10 +140,7 @@ def read_table(
 ) -> Table:
     """Table of a file (.csv, .tsv, .json, .parquet), or of rows.
 
-    Parameters
-    ----------
-    needed
-        Columns that are read of large files in any case.
+    Of large files the columns that are ``needed`` are read in any case.
 
     Examples
     --------

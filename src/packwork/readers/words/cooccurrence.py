@@ -59,14 +59,8 @@ def related(sentences: Sequence[Sequence[str]], words: Sequence[Word], most: int
 def places_of(sentences: Iterable[Sequence[str]], words: Sequence[str], most: int = 1) -> IntArray:
     """Number of the word at each place of a text, -1 of others; a phrase lies at its first word.
 
-    Parameters
-    ----------
-    sentences
-        Words in their order.
-    words
-        What is looked for, in any case; English plurals count as their singulars.
-    most
-        Words of the longest phrase among them.
+    English plurals count as their singulars; ``most`` is the number of words of the longest
+    phrase.
 
     Examples
     --------

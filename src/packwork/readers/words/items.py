@@ -52,28 +52,13 @@ _LOG = logging.getLogger("packwork")
 
 @dataclass(frozen=True, eq=False)
 class WordsRead:
-    """Words as items.
+    """Words as items, one em of each being ``EM_PX``, the largest weights first.
 
-    Parameters
-    ----------
-    items
-        One per word, the largest weights first; one em is ``EM_PX``.
-    areas
-        ``(n,)`` share of area of each, such that heights are as asked for.
-    undrawn
-        Words that could not be set, each with the reason.
-    found
-        How many different words there were; the largest are kept.
-    told
-        What has to be told of how the source was read, and of rows that are left out.
-    stopped
-        Words of a text that are left out since they say little, the most frequent first.
-    vectors
-        ``(n, d)`` of the items, by which of them stand together; None unless asked for.
-    order
-        Names and texts of all rows of a table, as they stand there; None of a text.
-    values
-        What each column of a table holds, of words that are not set too, by the alphabet.
+    ``areas`` ``(n,)`` are shares such that heights are as asked for; ``undrawn`` words that
+    could not be set, with the reasons; ``found`` the number of different words; ``stopped``
+    frequent words of a text that say little; ``vectors`` ``(n, d)`` tell which stand together;
+    ``order`` has names and texts of all rows of a table; ``values`` what each of its columns
+    holds, by the alphabet.
     """
 
     items: tuple[Item, ...]
@@ -95,14 +80,9 @@ def read_word_items(
     *,
     is_related: bool = False,
 ) -> WordsRead:
-    """Items of the words that a source holds.
+    """Items of the words that a source holds, with vectors of which stand together if wanted.
 
-    Parameters
-    ----------
-    holes
-        Of all items; those of words are kept with the option ``nest`` too.
-    is_related
-        Whether vectors are made of which words stand together.
+    Holes of words are kept with the option ``nest`` too.
 
     Examples
     --------
@@ -168,15 +148,7 @@ def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
 
 @dataclass(frozen=True, eq=False)
 class ShapedWord:
-    """A word's outline; what draws it is made once it is asked for.
-
-    Parameters
-    ----------
-    place
-        2 x 3 map from an em of ``EM_PX`` to the units of the outline.
-    language
-        Of the word; empty if not known.
-    """
+    """A word's outline, and the 2 x 3 map from an em of ``EM_PX`` to it; drawn once asked for."""
 
     word: Word
     name: str

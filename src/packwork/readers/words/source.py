@@ -158,19 +158,11 @@ _TEXT_ENDINGS = frozenset({".txt", ".md", ".rst", ".text", ".json", *ENDINGS})
 
 @dataclass(frozen=True, eq=False)
 class Ranked:
-    """Words that could be set, the largest weights first.
+    """Words that could be set, the largest weights first, and what has to be told of their source.
 
-    Parameters
-    ----------
-    told
-        What has to be told of how the source was read, and of rows that are left out.
-    stopped
-        Words of a text that are left out as those of its language that say little, the most
-        frequent first; none where the language was asked for.
-    sentences
-        Words of a text in their order; none of a table.
-    order
-        Words of all rows of a table, as they stand there; None of a text.
+    ``stopped`` are left out as those of the text's language that say little, the most frequent
+    first; none where the language was asked for. ``sentences`` are words of a text in their
+    order, ``order`` those of all rows of a table.
     """
 
     words: tuple[Word, ...]

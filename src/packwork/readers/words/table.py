@@ -21,17 +21,7 @@ MAX_BYTES = 50_000_000
 
 @dataclass(frozen=True, eq=False)
 class TableRead:
-    """Words of a table.
-
-    Parameters
-    ----------
-    words
-        One per row that has a word and a weight.
-    notices
-        What has to be told of how it was read.
-    lost
-        What has to be told of rows with data that are left out.
-    """
+    """Words of a table, one for each row with a weight; notices, and those of rows with data."""
 
     words: tuple[Word, ...]
     notices: tuple[str, ...] = ()
@@ -113,15 +103,7 @@ _DAY = re.compile(r"\d{4}(-\d\d){1,2}([T ][0-9:.]+)?")
 
 @dataclass(frozen=True)
 class WordSteps:
-    """Weights of words, step by step.
-
-    Parameters
-    ----------
-    weights
-        By step, in their order, then by word.
-    notices
-        What has to be told of how the table was read.
-    """
+    """Weights of words by step, in the order of steps, then by word."""
 
     column: str
     weights: Mapping[str, Mapping[str, float]]

@@ -226,14 +226,10 @@ sys.stdout.buffer.write(json.dumps(found).encode())
 
 
 def found_in(pattern: str, texts: Sequence[str], *, groups: bool = False) -> list[list[Any]]:
-    r"""All that a regular expression finds in each text.
+    r"""All that a regular expression, which compiles, finds in each text.
 
-    Parameters
-    ----------
-    pattern
-        Known to compile.
-    groups
-        As ``re.findall`` has it: groups, where the pattern has some, in place of the whole.
+    With ``groups`` as ``re.findall`` has it: groups, where there are some, in place of the
+    whole.
 
     Examples
     --------

@@ -32,18 +32,10 @@ look brown. Chosen by eye."""
 
 @dataclass(frozen=True)
 class ChartColours:
-    """Colours of marks, and what they mean.
+    """Colour of each mark, None for its own, and what colours mean.
 
-    Parameters
-    ----------
-    marks
-        One per mark; None for one that keeps its own.
-    keys
-        Colour of each category, by the alphabet, that of no value last; of a ramp that alone.
-    ramp
-        Its colours from small to large; empty for categories.
-    ends
-        Smallest and largest number of the ramp.
+    ``keys`` are categories by the alphabet, that of no value last; ``ramp`` the colours from
+    the smaller to the larger of ``ends``, empty for categories.
     """
 
     marks: tuple[str | None, ...]

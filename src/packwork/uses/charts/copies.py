@@ -145,10 +145,7 @@ def _single(job: Job, chart: Chart, pattern: Container) -> Container:
 def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int) -> Job:
     """One group as a job of its own; its padding is in units, as shares are of other canvases.
 
-    Parameters
-    ----------
-    left
-        Marks of this group and those after it: they share the time.
+    It shares the time with the ``left`` marks of itself and the groups after it.
     """
     plan = replace(job.plan, gap=job.plan.gap + HAIR * job.container.side)
     if plan.seconds is not None:

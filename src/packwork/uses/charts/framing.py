@@ -43,19 +43,7 @@ LONGEST_NAME = 40
 
 @dataclass(frozen=True)
 class LegendFrame:
-    """Places of a legend's parts, canvas units.
-
-    Parameters
-    ----------
-    left, width
-        Of all that is drawn.
-    top
-        Of the title.
-    below
-        Top of the legend.
-    em
-        Size of its letters.
-    """
+    """Places about what is drawn, canvas units: of the title, of the legend, and its em."""
 
     left: float
     width: float

@@ -17,15 +17,7 @@ from packwork.solve.solver import LevelReport
 
 @dataclass(frozen=True, eq=False)
 class Grouped:
-    """All groups of a chart in their places.
-
-    Parameters
-    ----------
-    container
-        All that is filled; of several parts.
-    unplaced
-        Marks without a place, numbered as in the job.
-    """
+    """All groups of a chart in their places, and the container of several parts that they fill."""
 
     poses: Poses
     kept: IntArray
@@ -36,15 +28,7 @@ class Grouped:
 
 
 class GroupSteps:
-    """Passes steps of one group on, the groups before it beside it.
-
-    Parameters
-    ----------
-    poses
-        Of all marks, those of the groups before in their places.
-    offset
-        ``(2,)`` from where the group is filled to its place on the canvas.
-    """
+    """Passes steps of one group on, moved to its place, the groups before it beside it."""
 
     def __init__(
         self,

@@ -41,21 +41,11 @@ _DATE = re.compile(r"\d{4}-\d{2}(-\d{2}([T ][\d:.,+Z-]*)?)?")
 
 @dataclass(frozen=True, eq=False)
 class Groups:
-    """Rows that belong together.
+    """Rows that belong together, by the number of each row's group, -1 for those in none.
 
-    Parameters
-    ----------
-    names
-        In the order in which they are shown; steps without rows are among them.
-    of_row
-        Number of each row's group; -1 for those in none.
-    has_steps
-        Whether they are steps of a scale, on which empty ones show.
-    is_ordered
-        Whether they ascend.
-    notices
-        Sentences about what was left out or put together, and whether that says something of a
-        group.
+    ``names`` stand in the order in which groups are shown. ``has_steps``: they are steps of a
+    scale, on which empty ones show; ``is_ordered``: they ascend. ``notices`` are sentences
+    about what was left out or put together, and whether that says something of a group.
     """
 
     names: tuple[str, ...]

@@ -82,17 +82,7 @@ in docs' example: 1.01 to 1.16, the middle one 1.06."""
 
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Place of one group.
-
-    Parameters
-    ----------
-    width
-        Of its name, along x.
-    line
-        What the name stands on: y.
-    is_turned
-        Whether the name is read upwards, for want of width.
-    """
+    """Place of one group; its name is so wide, stands on a line (y), and may be read upwards."""
 
     name: str
     room: Outline
@@ -129,12 +119,8 @@ class Cell:
 class Chart:
     """Marks of a chart, their colours, and where its groups, title and legend go.
 
-    Parameters
-    ----------
-    cells
-        Where groups go; empty if there are none.
-    single
-        The container of which each group has a copy; None where they are bars.
+    There are no ``cells`` where there are no groups; ``single`` is the container of which each
+    group has a copy, None where they are bars.
     """
 
     read: ChartRead
@@ -168,10 +154,7 @@ def spread_out(
 ) -> tuple[Chart, Container]:
     """A chart on its canvas, and all that is filled: of several parts where there are groups.
 
-    Parameters
-    ----------
-    single
-        The container to fill, or of which each group has a copy; None for bars.
+    ``single`` is the container to fill, or of which each group has a copy; None for bars.
     """
     if single is None and not chart.groups:
         raise RecipeError("container", "none shows groups as bars: give --by COL, or a container")
@@ -226,16 +209,9 @@ def _aspect(
 def bars(
     names: Sequence[str], height_share: float, em_share: float, unit: Unit, turned: float = 0.0
 ) -> tuple[Container, tuple[Cell, ...]]:
-    """Rectangles side by side on one line, as high as there is room.
+    """Rectangles side by side on one line, as high as there is room; all lengths over the width.
 
-    Parameters
-    ----------
-    height_share
-        Height of all, names included, over the width.
-    em_share
-        Height of letters over the width.
-    turned
-        Height of names that are read upwards, in ems; 0 for names that are not.
+    ``turned`` is the height of names that are read upwards, in ems; 0 for names that are not.
 
     Examples
     --------
@@ -271,12 +247,8 @@ def copies(
 ) -> tuple[Container, tuple[Cell, ...]]:
     """Copies of a container in rows, a name over each, in the units of the container.
 
-    Parameters
-    ----------
-    aspect
-        Height over width that all are to have, about.
-    em_share
-        Height of letters over the width of all.
+    All are about ``aspect`` times as high as wide; letters are ``em_share`` of the width of
+    all.
 
     Examples
     --------
@@ -332,18 +304,9 @@ def is_alike_and_round(chart: ChartRead) -> bool:
 
 
 def rows_in_hollows(most: int, width: float, height: float, gap: float) -> tuple[int, float]:
-    """Number of discs in a row, and their distance, so that they are as large as goes.
+    """Number of discs in a row, and their distance, so that those of the fullest bar are largest.
 
     Bars are as wide as so many discs and a half: rows then lie in the hollows of those below.
-
-    Parameters
-    ----------
-    most
-        Discs of the fullest bar.
-    width, height
-        Of a bar at most.
-    gap
-        Between discs.
 
     Examples
     --------

@@ -41,38 +41,15 @@ SHAPES = ("circle", "square", "triangle", "diamond", "star", "cross", "hexagon",
 
 @dataclass(frozen=True, eq=False)
 class ChartRead:
-    """Marks of a chart and what they stand for.
+    """Marks of a chart and what they stand for; ``(n,)`` of all marks, in the order of the table.
 
-    Parameters
-    ----------
-    items
-        One per mark, in the order of the table.
-    areas
-        ``(n,)`` share of area of each.
-    values
-        ``(n,)`` what each stands for: in the unit of the size column, or a number of rows.
-    rows, row_of
-        Row of each, and its number; marks of one row share both.
-    marks
-        Drawing of each category that has its own; under an empty name if all have one.
-    colour_of
-        Category that each mark's colour says; None if colours are numbers or not asked for.
-    is_ramp
-        Whether colours go by numbers.
-    groups
-        Names of the groups, in the order in which they are shown; none if there are none.
-    group_of
-        ``(n,)`` which of them each mark is in.
-    is_ordered
-        Whether groups stand on a scale, so that a few names tell all.
-    notices
-        What was left out, put together or is odd, a sentence each.
-    lost
-        Those of them about rows with data that are left out.
-    ends
-        Smallest and largest number that marks stand for, of all, whichever are shown.
-    decimal
-        What parts fractions of its numbers, as in the table.
+    ``areas`` are shares, ``values`` in the unit of the size column or numbers of rows. Marks of
+    one row share ``rows`` and ``row_of``. ``marks`` are the drawings of categories that have
+    their own, under an empty name if all have one. ``colour_of`` is None if colours are numbers
+    (``is_ramp``) or not asked for. ``groups`` stand in the order in which they are shown; on a
+    scale, a few names tell all (``is_ordered``). ``lost`` are those of the notices that are
+    about rows with data. ``ends`` are the smallest and largest value of all, whichever are
+    shown.
     """
 
     options: ChartOptions

@@ -164,11 +164,7 @@ def shortened(text: str, em: float, room: float) -> str:
 def spoken(number: float, decimal: str = ".") -> str:
     """Number as people say it, or as the table that it comes from would write it.
 
-    Parameters
-    ----------
-    decimal
-        What parts the fraction: with a comma points group thousands, and no English names stand
-        for large numbers.
+    With a decimal comma points group thousands, and no English names stand for large numbers.
 
     Examples
     --------

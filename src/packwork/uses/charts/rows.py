@@ -160,18 +160,10 @@ def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> st
 
 @dataclass(frozen=True, eq=False)
 class Amounts:
-    """Rows that are shown, and how much each stands for.
+    """Rows that are shown, or one for all that are shown alike, and how much each stands for.
 
-    Parameters
-    ----------
-    rows
-        As in the table, or one for all that are shown alike.
-    amounts
-        ``(n,)`` in the unit of the size column, or numbers of rows.
-    groups
-        ``(n,)`` number of each one's group; zeros where there are none.
-    notices
-        Sentences about what was left out, and whether they are about rows with data.
+    ``amounts`` ``(n,)`` are in the unit of the size column, or numbers of rows; ``notices`` are
+    sentences about what was left out, and whether they are about rows with data.
     """
 
     rows: list[Row]

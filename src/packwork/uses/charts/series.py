@@ -24,13 +24,7 @@ from packwork.uses.icons import NO_CONTAINER
 
 @dataclass(frozen=True, eq=False)
 class ChartStep:
-    """Marks of one step.
-
-    Parameters
-    ----------
-    names
-        ``(n,)`` what tells marks apart: one that two steps have is one mark.
-    """
+    """Marks of one step, and ``(n,)`` names: one that two steps have is one mark."""
 
     label: str
     job: Job
@@ -40,11 +34,7 @@ class ChartStep:
 def read_steps(recipe: Recipe) -> list[ChartStep]:
     """Steps of a chart, one for each group of its rows that has marks.
 
-    Parameters
-    ----------
-    recipe
-        Of a chart in groups: those of ``by`` are the steps. A title may name the step, as
-        ``Harvest of {year}``.
+    A title may name the step, as ``Harvest of {year}``.
     """
     asked = recipe.chart
     if asked is None or asked.by is None:

@@ -60,20 +60,10 @@ _HELD = {"region", "scale"}
 
 @dataclass(frozen=True, eq=False)
 class Cropped:
-    """Items cut at the container's line.
+    """Items cut at the container's line: those of which enough is seen, numbered by ``kept``.
 
-    Parameters
-    ----------
-    job
-        Its items are those of which enough is seen, cut.
-    poses
-        Where those are.
-    kept
-        Which of the items that were placed they are.
-    centres
-        ``(n, 2)`` their centroids in the units of the whole items.
-    whole
-        Poses of all whole items, on the grown canvas.
+    ``centres`` ``(n, 2)`` are their centroids in the units of the whole items, whose poses
+    ``whole`` are on the grown canvas.
     """
 
     job: Job
@@ -162,17 +152,7 @@ def _back(poses: Poses, depth: float) -> Poses:
 
 
 def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: float) -> Cropped:
-    """Items of a grown container, cut at the line of the one that was asked for.
-
-    Parameters
-    ----------
-    asked
-        In its own container.
-    placed
-        In the grown one, fillers among its items.
-    largest
-        ``(n,)`` scales that none is to exceed.
-    """
+    """Items of a grown container, fillers among them, cut at the line of the one asked for."""
     container = asked.container
     gap = asked.plan.gap + CLEARANCE * container.side
     window = buffered(container.outline.region, -gap, join_style="mitre")
@@ -275,15 +255,7 @@ class CropAtEdge(RunStep):
 
 
 class CutRecorder(Recorder):
-    """Way of whole items as that of what is seen of them.
-
-    Parameters
-    ----------
-    numbers
-        ``(n,)`` what the whole ones are called by.
-    depth
-        By how much the canvas had been grown.
-    """
+    """Way of whole items, on a canvas grown by ``depth``, as that of what is seen of them."""
 
     def __init__(self, whole: Recorder, found: Cropped, numbers: IntArray, depth: float) -> None:
         super().__init__()

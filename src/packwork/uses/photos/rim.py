@@ -50,18 +50,9 @@ def spread_to(
 ) -> Poses:
     """Poses at which more of the items is seen in a window, which may hide parts of them.
 
-    Behind the window's edge nothing is seen, so items may overlap there.
-
-    Parameters
-    ----------
-    largest
-        ``(n,)`` scales that none exceeds.
-    gap
-        What is kept between what is seen of two items.
-    least
-        Share of an item that has to be seen.
-    smallest
-        Factor by which an item of which less is seen may become smaller, at most.
+    Behind the window's edge nothing is seen, so items may overlap there. None exceeds its
+    ``largest`` scale; of each at least a share ``least`` has to be seen, for which it may
+    become smaller, down to a factor ``smallest``; ``gap`` is kept between what is seen.
 
     Examples
     --------
