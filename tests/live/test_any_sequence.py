@@ -11,14 +11,12 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.live.commands.any_command import COMMANDS, AnyCommand
 from packwork.live.commands.command import Library
 from packwork.live.commands.container import PlaceContainer, Reshape, SetOption
-from packwork.live.commands.gestures import Drop, Grab
-from packwork.live.commands.holding import Hold, Release
+from packwork.live.commands.gestures import Drop, Grab, Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
-from packwork.live.commands.together import Together
+from packwork.live.commands.together import COMMANDS, AnyCommand, Together
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
@@ -102,14 +100,14 @@ class AnySequence(RuleBasedStateMachine):
         self.session.flow(epochs=epochs)
         self._nothing_held_moved(before)
 
-    @precondition(lambda self: not self.session._grabbed)
+    @precondition(lambda self: not self.session.is_grabbed)
     @rule()
     def settle(self) -> None:
         before = self.session.document
         self.session.settle()
         self._nothing_held_moved(before)
 
-    @precondition(lambda self: not self.session._grabbed)
+    @precondition(lambda self: not self.session.is_grabbed)
     @rule(trials=st.integers(1, 9))
     def polish(self, trials: int) -> None:
         before, was_certified = self.session.document, self.session.is_certified
@@ -117,7 +115,7 @@ class AnySequence(RuleBasedStateMachine):
         self._nothing_held_moved(before)
         assert self.session.is_certified == was_certified
 
-    @precondition(lambda self: not self.session._grabbed)
+    @precondition(lambda self: not self.session.is_grabbed)
     @rule()
     def replay(self) -> None:
         self.session.log.flush()
@@ -127,7 +125,7 @@ class AnySequence(RuleBasedStateMachine):
             one, other = (getattr(s.document.poses, name) for s in (self.session, again))
             assert one.tobytes() == other.tobytes()
 
-    @precondition(lambda self: not self.session._grabbed and self.session.history.can_undo)
+    @precondition(lambda self: not self.session.is_grabbed and self.session.history.can_undo)
     @rule()
     def there_and_back(self) -> None:
         before = self.session.document

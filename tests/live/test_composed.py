@@ -9,10 +9,9 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.live.commands.any_command import COMMANDS
 from packwork.live.commands.items import Duplicate
 from packwork.live.commands.placing import Move
-from packwork.live.commands.together import Together
+from packwork.live.commands.together import COMMANDS, Together
 
 QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
 

@@ -15,9 +15,8 @@ import pytest
 
 import packwork as pw
 from packwork.errors import ReadError
-from packwork.live.file import archive, disk, documents
-from packwork.live.file.archive import packed, unpacked
-from packwork.live.file.session_file import read_session
+from packwork.live.file import disk, documents
+from packwork.live.file.session_file import EASILY_UNPACKED, packed, read_session, unpacked
 from packwork.readers import json_text
 
 MOST_TAKEN = 64_000_000
@@ -103,7 +102,7 @@ def test_numbers_that_no_array_holds_are_refused(good: bytes) -> None:
 def test_a_small_file_may_not_unpack_to_a_large_one(good: bytes) -> None:
     parts = dict(unpacked(good))
     font = next(name for name in parts if name.startswith("fonts/"))
-    parts[font] = bytes(archive.EASILY_UNPACKED)
+    parts[font] = bytes(EASILY_UNPACKED)
     assert "unpacks to more than 100 MB" in refusal(packed(parts))
 
 

@@ -24,9 +24,8 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError, ReadError, RecipeError, WriteError
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import Document
-from packwork.live.file.archive import packed, unpacked
-from packwork.live.file.arrays import text_of
-from packwork.live.file.session_file import read_session
+from packwork.live.file.session_file import packed, read_session, unpacked
+from packwork.live.file.values import text_of
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 

@@ -13,10 +13,10 @@ import pytest
 import packwork as pw
 from packwork.live.document import Document
 from packwork.live.face.opening import Opening
-from packwork.studio.bringing import Bringer
-from packwork.studio.desk import Desk
+from packwork.studio.files import Uploads
+from packwork.studio.importer import Importer
 from packwork.studio.tab import Tab
-from packwork.studio.uploads import Uploads
+from packwork.studio.workspace import Workspace
 from studio.browsing import WIDE, Server, chromium
 from studio.browsing import Desk as PageDesk
 
@@ -75,7 +75,7 @@ class Page:
                 await self.changed.wait()
 
 
-Scenario = Callable[[Desk, Callable[[], Page]], Coroutine[Any, Any, None]]
+Scenario = Callable[[Workspace, Callable[[], Page]], Coroutine[Any, Any, None]]
 
 
 @pytest.fixture(scope="session")
@@ -101,12 +101,12 @@ def play(opening: Opening) -> Callable[[Scenario], None]:
 
 
 async def _played(scenario: Scenario, opening: Opening) -> None:
-    desk, uploads, sending = Desk(opening), Uploads(), []
-    bringer = Bringer(desk, uploads)
+    desk, uploads, sending = Workspace(opening), Uploads(), []
+    importer = Importer(desk, uploads)
 
     def open_page() -> Page:
         page = Page()
-        page.tab = Tab(desk, page, bringer.acts)
+        page.tab = Tab(desk, page, importer)
         sending.append(asyncio.create_task(page.tab.send()))
         return page
 

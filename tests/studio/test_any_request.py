@@ -12,16 +12,16 @@ from urllib.parse import quote
 
 import pytest
 
-from packwork.live.commands.any_command import AnyCommand
+from packwork.live.commands.together import AnyCommand
 from packwork.live.face.exporting import FILM_FORMATS, FORMATS
 from packwork.live.face.opening import Opening
 from packwork.recipe.verbs import FilmOptions
-from packwork.studio import wire
+from packwork.studio import messages as requests
 from packwork.studio.app import guarded
-from packwork.studio.desk import Desk
+from packwork.studio.files import Uploads
 from packwork.studio.guard import TOKEN_HEADER
 from packwork.studio.proof import Secret
-from packwork.studio.uploads import Uploads
+from packwork.studio.workspace import Workspace
 from packwork.writers.options import DrawingOptions
 
 HOST = "127.0.0.1:9"
@@ -70,11 +70,11 @@ async def asked(
     return Answer(sent[0]["status"], data)
 
 
-def talk(opening: Opening, scenario: Callable[[Ask, Desk, Uploads], Awaitable[None]]) -> None:
+def talk(opening: Opening, scenario: Callable[[Ask, Workspace, Uploads], Awaitable[None]]) -> None:
     """Have a scenario ask a studio that is open."""
 
     async def played() -> None:
-        secret, uploads, desk = Secret(HOST), Uploads(), Desk(opening)
+        secret, uploads, desk = Secret(HOST), Uploads(), Workspace(opening)
         app = guarded(desk, uploads, secret)
 
         async def ask(method: str, path: str, body: bytes, headers: Mapping[str, str]) -> Answer:
@@ -115,7 +115,7 @@ def exports() -> Iterator[Any]:
 
 
 def test_an_export_is_made_or_refused_in_a_line(opening: Opening) -> None:
-    async def scenario(ask: Ask, desk: Desk, uploads: Uploads) -> None:
+    async def scenario(ask: Ask, desk: Workspace, uploads: Uploads) -> None:
         for what in exports():
             answer = await ask("POST", "/export", json.dumps(what).encode(), {})
             assert answer.status == 200 or is_line(answer), (what, answer)
@@ -139,7 +139,7 @@ def test_an_export_is_made_or_refused_in_a_line(opening: Opening) -> None:
     ],
 )  # fmt: skip
 def test_a_file_of_any_name_is_kept(opening: Opening, name: str) -> None:
-    async def scenario(ask: Ask, desk: Desk, uploads: Uploads) -> None:
+    async def scenario(ask: Ask, desk: Workspace, uploads: Uploads) -> None:
         batch = json.loads((await ask("POST", "/files", b"", {})).body)["batch"]
         header = {"x-name": quote(name, errors="surrogatepass")}
         for _ in range(3):
@@ -154,7 +154,7 @@ def test_a_file_of_any_name_is_kept(opening: Opening, name: str) -> None:
 
 @pytest.mark.parametrize("batch", ["0" * 16, "..", "%2e%2e", "é", "a" * 5_000, "0" * 16 + "\n"])
 def test_a_batch_that_is_none_is_refused_in_a_line(opening: Opening, batch: str) -> None:
-    async def scenario(ask: Ask, desk: Desk, uploads: Uploads) -> None:
+    async def scenario(ask: Ask, desk: Workspace, uploads: Uploads) -> None:
         answer = await ask("POST", f"/files/{batch}", b"", {"x-name": "a.svg"})
         assert is_line(answer), answer
         raw = await ask("POST", f"/files/{batch}", b"", {"x-name": "\xff%ff%"})
@@ -172,7 +172,7 @@ def messages() -> Iterator[dict[str, Any]]:
         "frame": 1, "options": {"padding": 1}, "factor": 1.1, "share": 0.2, "colour": "red",
         "asset": "none", "property": "place", "to": "undo",
     }  # fmt: skip
-    models = [*_members(wire.Told), *_members(AnyCommand)]
+    models = [*_members(requests.Told), *_members(AnyCommand)]
     for model in models:
         fields = model.model_fields
         key = "type" if "type" in fields else "kind"
@@ -198,7 +198,7 @@ SLOW = {"pour", "more", "order", "alike", "fill", "count", "room", "bring"}
 
 
 def test_a_message_of_any_types_is_done_or_refused_in_a_line(play: Any) -> None:
-    async def scenario(desk: Desk, open_page: Callable[[], Any]) -> None:
+    async def scenario(desk: Workspace, open_page: Callable[[], Any]) -> None:
         page, told = open_page(), []
         await page.until(lambda: page.is_certified)
         assert desk.owner is not None
@@ -206,8 +206,8 @@ def test_a_message_of_any_types_is_done_or_refused_in_a_line(play: Any) -> None:
         for message in messages():
             text = json.dumps(message)
             try:
-                is_slow = wire.read(text).type in SLOW
-            except wire.UnreadableError:
+                is_slow = requests.read(text).type in SLOW
+            except requests.UnreadableError:
                 continue
             if not is_slow:
                 page.tab.receive(text)

@@ -16,12 +16,12 @@ import uvicorn
 from packwork.live.document import Document
 from packwork.live.face.opening import Opening
 from packwork.studio import app as routes
-from packwork.studio import connections, guard
+from packwork.studio import guard, serving
 from packwork.studio.app import guarded
-from packwork.studio.connections import MOST_CONNECTIONS, BoundedProtocol
-from packwork.studio.desk import Desk
+from packwork.studio.files import Uploads
 from packwork.studio.proof import Secret
-from packwork.studio.uploads import Uploads
+from packwork.studio.serving import MOST_CONNECTIONS, BoundedProtocol
+from packwork.studio.workspace import Workspace
 
 PATIENCE_SECONDS = 60.0
 HALF = b"GET / HTTP/1.1\r\nhost: x\r\nx: "
@@ -35,7 +35,7 @@ class Running:
         self.place = self._bound.getsockname()
         self.host = f"127.0.0.1:{self.place[1]}"
         self.secret, self.uploads = Secret(self.host), Uploads()
-        app = guarded(Desk(Opening(document=document)), self.uploads, self.secret)
+        app = guarded(Workspace(Opening(document=document)), self.uploads, self.secret)
         config = uvicorn.Config(
             app, http=BoundedProtocol, ws="websockets-sansio", log_level="critical", lifespan="on"
         )
@@ -97,7 +97,7 @@ def test_the_page_comes_through_hundreds_of_half_sent_requests(running: Running)
 def test_a_request_whose_head_does_not_come_is_ended(
     running: Running, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "HEAD_SECONDS", 0.2)
+    monkeypatch.setattr(serving, "HEAD_SECONDS", 0.2)
     whole = f"GET /static/main.js HTTP/1.1\r\nhost: {running.host}\r\n\r\n".encode()
     for sent in (b"", HALF, whole + HALF):
         with running.open(sent) as made:

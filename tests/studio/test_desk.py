@@ -15,9 +15,9 @@ import packwork as pw
 from packwork.errors import PackworkError
 from packwork.live.face.opening import Opening, opening_of
 from packwork.studio import wire
-from packwork.studio.desk import Desk
-from packwork.studio.exporting import Exporter
+from packwork.studio.files import Exporter
 from packwork.studio.view import View
+from packwork.studio.workspace import Workspace
 
 
 def poses_of(frame: bytes) -> np.ndarray:
@@ -25,7 +25,7 @@ def poses_of(frame: bytes) -> np.ndarray:
 
 
 def test_a_page_hears_shapes_then_the_scene_then_frames(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
         kinds = [message["type"] for message in page.messages]
@@ -38,7 +38,7 @@ def test_a_page_hears_shapes_then_the_scene_then_frames(play) -> None:
 
 
 def test_one_frame_is_in_flight(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page, other = open_page(), open_page()
         page.acknowledges = False
         await page.until(lambda: page.frames)
@@ -54,7 +54,7 @@ def test_one_frame_is_in_flight(play) -> None:
 
 
 def test_a_drag_moves_neighbours_settles_and_is_one_step_back(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
         before = poses_of(page.frames[-1])
@@ -80,7 +80,7 @@ def test_a_drag_moves_neighbours_settles_and_is_one_step_back(play) -> None:
 
 
 def test_two_pages_see_one_session(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         one, other = open_page(), open_page()
         await one.until(lambda: one.is_certified)
         await other.until(lambda: other.is_certified)
@@ -95,7 +95,7 @@ def test_two_pages_see_one_session(play) -> None:
 
 
 def test_what_has_no_meaning_is_a_line_and_nothing_else(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         page.tell(type="do", n=1, command={"kind": "remove", "items": [99]})
@@ -118,7 +118,7 @@ def test_what_has_no_meaning_is_a_line_and_nothing_else(play) -> None:
 
 
 def test_items_come_go_and_are_exchanged(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         page.tell(type="bring", sources=["builtin:star", "builtin:moon"])
@@ -134,7 +134,7 @@ def test_items_come_go_and_are_exchanged(play) -> None:
 
 
 def test_another_container_is_filled_anew_in_one_step(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         page.tell(type="room", source="builtin:bear")
@@ -147,7 +147,7 @@ def test_another_container_is_filled_anew_in_one_step(play) -> None:
 
 
 def test_no_scene_is_said_to_be_certified_by_what_was_said_of_another(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         for name in ("bear", "cat"):
@@ -166,7 +166,7 @@ def test_no_scene_is_said_to_be_certified_by_what_was_said_of_another(play) -> N
 
 
 def test_undo_is_counted_as_commands_are(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         page.tell(type="do", n=1, command={"kind": "hold", "items": [3]})
@@ -178,7 +178,7 @@ def test_undo_is_counted_as_commands_are(play) -> None:
 
 
 def test_pouring_anew_keeps_what_is_held(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
         before = poses_of(page.frames[-1])
@@ -195,7 +195,7 @@ def test_pouring_anew_keeps_what_is_held(play) -> None:
 
 
 def test_items_are_put_in_an_order_or_like_beside_like(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
         names = np.array([thing["name"] for thing in page.last("scene")["items"]])
@@ -226,11 +226,11 @@ KINDS = ["svg", "pdf", "png", "dxf", "geojson", "packwork", "recipe", "film.svg"
 
 
 def test_all_formats_are_exported(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         found = {kind: await Exporter(desk).file({"format": kind, "options": {}}) for kind in KINDS}
         assert [kind for kind, (data, media) in found.items() if not (data and media)] == []
 
-    async def waiting(desk: Desk, open_page: Callable) -> None:
+    async def waiting(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         await scenario(desk, open_page)
@@ -239,7 +239,7 @@ def test_all_formats_are_exported(play) -> None:
 
 
 def test_an_exported_recipe_runs(play, tmp_path: Path) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         data, _ = await Exporter(desk).file({"format": "recipe"})
@@ -261,7 +261,7 @@ def test_an_exported_recipe_runs(play, tmp_path: Path) -> None:
     ],
 )
 def test_what_cannot_be_exported_is_refused_in_a_line(play, asked: dict, said: str) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
         with pytest.raises(PackworkError, match=said) as refusal:
@@ -273,7 +273,7 @@ def test_what_cannot_be_exported_is_refused_in_a_line(play, asked: dict, said: s
 
 def test_a_desk_begins_with_a_run_that_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     recipe = opening_of(["circle", "star"], 5, levels="50", epochs=60).recipe
-    desk = Desk(Opening(recipe=recipe))
+    desk = Workspace(Opening(recipe=recipe))
     counts: list[int] = []
     see = desk._see
     monkeypatch.setattr(
@@ -297,7 +297,7 @@ def test_a_view_is_like_another_but_for_poses(opening: Opening) -> None:
 
 
 def test_nothing_is_called_certified_that_the_page_does_not_show(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page, other = open_page(), open_page()
         page.acknowledges = False
         await other.until(lambda: other.is_certified)
@@ -315,7 +315,7 @@ def test_nothing_is_called_certified_that_the_page_does_not_show(play) -> None:
 
 
 def test_pages_are_told_what_is_poor_though_it_is_certified(play) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
         desk.change(lambda session: session.cover("8%"))

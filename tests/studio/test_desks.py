@@ -12,11 +12,11 @@ import packwork as pw
 from packwork.errors import PackworkError
 from packwork.live.commands.items import Rename
 from packwork.live.document import Document
-from packwork.live.face import keeping
+from packwork.live.face import opening
 from packwork.live.face.opening import Opening, kept_in, opened
-from packwork.live.named import NamedSession
-from packwork.studio import desks
-from packwork.studio.desk import Desk
+from packwork.live.session import Session
+from packwork.studio import kept_workspaces
+from packwork.studio.workspace import Workspace
 
 
 @pytest.fixture(autouse=True)
@@ -27,28 +27,26 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_the_desk_left_alone_for_longest_is_written_over(folder: Path) -> None:
     with pytest.raises(PackworkError, match="no desk to go on with"):
-        desks.last()
-    for time in range(desks.MOST_DESKS):
-        kept = desks.new()
+        kept_workspaces.last()
+    for time in range(kept_workspaces.MOST_WORKSPACES):
+        kept = kept_workspaces.new()
         assert kept is not None
         kept.file.write_bytes(b"")
         os.utime(kept.file, (1_000 + time, 1_000 + time))
-    assert desks.last().file.name == f"desk-{desks.MOST_DESKS}.packwork"
-    again = desks.new()
+    assert kept_workspaces.last().file.name == f"desk-{kept_workspaces.MOST_WORKSPACES}.packwork"
+    again = kept_workspaces.new()
     assert again is not None
     assert again.file.name == "desk-1.packwork"
 
 
 def test_a_desk_that_somebody_works_at_is_nobody_elses(folder: Path) -> None:
-    first = desks.new()
+    first = kept_workspaces.new()
     assert first is not None
-    session = NamedSession(
-        Document.of(pw.fill("circle", "star", count=3, effort="draft", levels="50"))
-    )
+    session = Session(Document.of(pw.fill("circle", "star", count=3, effort="draft", levels="50")))
     keeper = kept_in(first.file, session)
     os.utime(first.file, (1_000, 1_000))
-    os.utime(keeping.lock_of(first.file), (1_000, 1_000))
-    others = [desks.new() for _ in range(desks.MOST_DESKS)]
+    os.utime(opening.lock_of(first.file), (1_000, 1_000))
+    others = [kept_workspaces.new() for _ in range(kept_workspaces.MOST_WORKSPACES)]
     assert all(one is not None and one.file != first.file for one in others)
     assert first.file.exists()
     keeper.end(session)
@@ -56,13 +54,13 @@ def test_a_desk_that_somebody_works_at_is_nobody_elses(folder: Path) -> None:
 
 def test_two_that_begin_at_once_have_a_desk_each(folder: Path) -> None:
     # Neither has written anything yet.
-    first, second = desks.new(), desks.new()
+    first, second = kept_workspaces.new(), kept_workspaces.new()
     assert first is not None
     assert second is not None
     assert first.file != second.file
 
 
-def read(file: Path) -> NamedSession:
+def read(file: Path) -> Session:
     """What a file holds, left as it is."""
     session, keeper = opened(file)
     keeper.end(session)
@@ -70,7 +68,7 @@ def read(file: Path) -> NamedSession:
 
 
 def test_a_place_is_remembered_for_its_user_alone() -> None:
-    kept = desks.of_file(Path("work.packwork"))
+    kept = kept_workspaces.of_file(Path("work.packwork"))
     assert kept.address == (0, "")
     kept.remember(8123, "a" * 64)
     assert kept.address == (8123, "a" * 64)
@@ -81,7 +79,7 @@ def test_a_place_is_remembered_for_its_user_alone() -> None:
 
 @pytest.mark.parametrize("said", ["", "[]", "{}", '{"port": 1, "key": "short"}', '{"port": "x"}'])
 def test_a_place_that_means_nothing_is_none(said: str) -> None:
-    kept = desks.of_file(Path("work.packwork"))
+    kept = kept_workspaces.of_file(Path("work.packwork"))
     assert kept.place is not None
     kept.place.write_text(said, encoding="utf-8")
     assert kept.address == (0, "")
@@ -89,7 +87,7 @@ def test_a_place_that_means_nothing_is_none(said: str) -> None:
 
 def test_what_was_done_before_a_crash_is_there_again(dozen: pw.Layout, tmp_path: Path) -> None:
     file = tmp_path / "desk.packwork"
-    session = NamedSession(Document.of(dozen))
+    session = Session(Document.of(dozen))
     left = kept_in(file, session)
     for name in ("one", "two"):
         session.apply(Rename(item=0, name=name))
@@ -105,8 +103,8 @@ def test_what_was_done_before_a_crash_is_there_again(dozen: pw.Layout, tmp_path:
 def test_a_long_journal_is_written_into_the_file(
     dozen: pw.Layout, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(keeping, "LONGEST_JOURNAL", 300)
-    session = NamedSession(Document.of(dozen))
+    monkeypatch.setattr(opening, "LONGEST_JOURNAL", 300)
+    session = Session(Document.of(dozen))
     keeper = kept_in(tmp_path / "desk.packwork", session)
     assert not keeper.is_long
     for number in range(9):
@@ -122,7 +120,7 @@ def test_a_desk_that_is_closed_is_kept(opening: Opening, tmp_path: Path) -> None
     file = tmp_path / "desk.packwork"
 
     async def work() -> None:
-        desk = Desk(Opening(document=opening.document, kept_in=file))
+        desk = Workspace(Opening(document=opening.document, kept_in=file))
         await desk.begin()
         while desk.owner is None:
             await asyncio.sleep(0.01)

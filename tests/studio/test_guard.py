@@ -11,10 +11,10 @@ from starlette.routing import Mount, Route, WebSocketRoute
 from each import for_each
 from packwork.live.face.opening import Opening
 from packwork.studio.app import Studio
-from packwork.studio.desk import Desk
+from packwork.studio.files import Uploads
 from packwork.studio.guard import AGAIN, OPEN, Guard, Message
 from packwork.studio.proof import Secret, mac
-from packwork.studio.uploads import Uploads
+from packwork.studio.workspace import Workspace
 
 HOST = "127.0.0.1:8123"
 SECRET = Secret(HOST, "a-secret-that-nobody-knows", "k" * 64, nonce="n")
@@ -25,7 +25,7 @@ ORIGIN = f"http://{HOST}"
 def routes() -> list[Any]:
     uploads = Uploads()
     uploads.close()
-    return Studio(Desk(Opening()), uploads, SECRET).routes
+    return Studio(Workspace(Opening()), uploads, SECRET).routes
 
 
 def asked() -> list[tuple[str, str, str]]:

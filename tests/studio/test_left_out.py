@@ -10,8 +10,8 @@ import pytest
 import packwork as pw
 from packwork.live.document import Document
 from packwork.live.face.opening import Opening
-from packwork.studio.desk import Desk
 from packwork.studio.view import MOST_TOLD
+from packwork.studio.workspace import Workspace
 
 SAID = [
     {"item": "bee", "index": 12, "reason": "no void is large enough"},
@@ -27,7 +27,7 @@ def opening(dozen: pw.Layout, request: pytest.FixtureRequest) -> Opening:
 
 
 def test_pages_are_told_what_was_left_out(play, request: pytest.FixtureRequest) -> None:
-    async def scenario(desk: Desk, open_page: Callable) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
         told = page.last("state")["unplaced"]

@@ -18,7 +18,7 @@ import pytest
 from packwork import compiled
 from packwork.live.face.opening import Opening
 from packwork.studio import serving
-from packwork.studio.desks import KeptDesk
+from packwork.studio.kept_workspaces import KeptWorkspace
 from packwork.studio.proof import Secret, mac
 from studio.browsing import WIDE, Desk, Server, in_browser
 
@@ -85,7 +85,7 @@ def test_the_browser_is_given_a_private_file_and_no_secret(
 
     monkeypatch.setattr(serving.webbrowser, "open", open_)
     monkeypatch.setattr(serving.uvicorn, "Server", Idle)
-    kept = KeptDesk(tmp_path / "a.packwork", tmp_path / "a.json")
+    kept = KeptWorkspace(tmp_path / "a.packwork", tmp_path / "a.json")
     serving.serve(Opening(), serving.Address(), kept, browses=True, tell=told.append)
     found = re.search(r"http://(\S+)/#(\S+)", told[0])
     assert found is not None

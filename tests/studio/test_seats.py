@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from packwork.studio.seats import GRACE_SECONDS, Seats
+from packwork.studio.app import GRACE_SECONDS, Presence
 from studio.browsing import PHONE, Desk, Server, in_browser
 
 
 def test_a_desk_is_free_again_some_time_after_the_last_page_is_gone() -> None:
     now = [0.0]
-    seats = Seats(lambda: now[0])
+    seats = Presence(lambda: now[0])
     assert seats.take("ann")
     assert seats.take("ann")
     seats.leave("ann")
@@ -24,7 +24,7 @@ def test_a_desk_is_free_again_some_time_after_the_last_page_is_gone() -> None:
 
 
 def test_pages_that_do_not_say_whose_they_are_keep_nobody_out() -> None:
-    seats = Seats()
+    seats = Presence()
     assert seats.take("")
     assert seats.take("ann")
     assert seats.take("")

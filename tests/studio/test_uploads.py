@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.errors import ReadError
-from packwork.studio import uploads as module
-from packwork.studio.uploads import Uploads, safe_name
+from packwork.studio import files as module
+from packwork.studio.files import Uploads, safe_name
 
 
 @pytest.fixture

@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork import studio
-from packwork.studio import wire
+from packwork.studio import messages
+from packwork.studio.wire import page_types
 
 STATIC = Path(studio.__file__).parent / "static"
 
@@ -41,13 +42,13 @@ BAD = [
 
 @pytest.mark.parametrize("message", GOOD)
 def test_what_a_page_says_is_read(message: dict[str, object]) -> None:
-    assert wire.read(json.dumps(message)).type == message["type"]
+    assert messages.read(json.dumps(message)).type == message["type"]
 
 
 @pytest.mark.parametrize("text", BAD, ids=range(len(BAD)))
 def test_what_means_nothing_is_refused_in_one_line(text: str) -> None:
-    with pytest.raises(wire.UnreadableError) as refused:
-        wire.read(text)
+    with pytest.raises(messages.UnreadableError) as refused:
+        messages.read(text)
     assert "\n" not in str(refused.value)
     assert len(str(refused.value)) < 300
 
@@ -59,8 +60,8 @@ def test_what_means_nothing_is_refused_in_one_line(text: str) -> None:
 ).map(json.dumps))  # fmt: skip
 def test_any_text_is_a_message_or_refused(text: str) -> None:
     try:
-        wire.read(text)
-    except wire.UnreadableError as error:
+        messages.read(text)
+    except messages.UnreadableError as error:
         text = str(error)
         if "\n" in text:
             raise
@@ -77,15 +78,15 @@ def test_ten_thousand_messages_gone_wrong_are_each_read_or_refused() -> None:
                 chance.choice([0, 34, 44, 57, 91, 123, 125, 960])
             )
         try:
-            wire.read("".join(text))
-        except wire.UnreadableError:
+            messages.read("".join(text))
+        except messages.UnreadableError:
             refused += 1
     assert refused > 5_000
 
 
 def test_the_page_knows_the_very_messages() -> None:
     text = (STATIC / "wire.js").read_text(encoding="utf-8")
-    assert text == wire.page_types(), "run tools/write_wire.py"
+    assert text == page_types(messages.schema()), "run tools/write_wire.py"
 
 
 def test_all_that_the_page_sends_is_in_the_schema() -> None:
@@ -96,7 +97,7 @@ def test_all_that_the_page_sends_is_in_the_schema() -> None:
 
 
 def _parts(side: str) -> list[dict[str, dict[str, dict[str, str]]]]:
-    schema = wire.schema()[side]
+    schema = messages.schema()[side]
     return [
         schema["$defs"][name.rpartition("/")[2]]
         for name in schema["discriminator"]["mapping"].values()

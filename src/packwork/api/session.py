@@ -11,15 +11,17 @@ from packwork.api.handing import handed_over
 from packwork.api.layout import Layout, public
 from packwork.api.verbs import read_container, read_items
 from packwork.errors import RecipeError, WriteError
+from packwork.live import edits
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk
 from packwork.live.file.recipe import SessionRecipe, write_recipe
-from packwork.live.named import Coordinate, NamedSession, Which
+from packwork.live.names import Coordinate, Which
+from packwork.live.session import Session as LiveSession
 from packwork.readers.memory.values import Value
 from packwork.scene import layout as scene
 
 
-class Session(NamedSession):
+class Session(LiveSession):
     """A layout under the hand: items are moved, held, added; the others make room.
 
     :meth:`Layout.edit` gives one. Used in a ``with`` block it is settled at the block's end;
@@ -139,6 +141,25 @@ class Session(NamedSession):
         super().__exit__(kind, error, trace)
         self.close()
 
+    move = edits.move
+    turn = edits.turn
+    scale = edits.scale
+    exchange = edits.exchange
+    hold = edits.hold
+    release = edits.release
+    remove = edits.remove
+    duplicate = edits.duplicate
+    weigh = edits.weigh
+    rename = edits.rename
+    recolor = edits.recolor
+    reshape = edits.reshape
+    place_container = edits.place_container
+    set = edits.set
+    count = edits.count
+    cover = edits.cover
+    words = edits.words
+    arrange = edits.arrange
+
     def add(
         self, source: Value, x: Coordinate | None = None, y: Coordinate | None = None
     ) -> tuple[int, ...]:
@@ -149,22 +170,18 @@ class Session(NamedSession):
         x, y
             Where; unless given, where there is most room.
         """
-        return self.add_items(read_items(source), x, y)
+        return edits.add(self, read_items(source), x, y)
 
-    def words(self, source: Any, **options: Any) -> None:
-        """Have the words of another text or table, with its weights.
+    def replace(self, which: Which, source: Value) -> None:
+        """Put another item in an item's place."""
+        found = read_items(source)
+        if len(found) != 1:
+            raise RecipeError("replace", f"takes one item, not {len(found)}")
+        edits.replace(self, which, found[0])
 
-        Words that stay are the same items, where they are; new ones come where most room is.
-
-        Parameters
-        ----------
-        source
-            As for :func:`words`.
-        options
-            What words there are and how they are set, as for :func:`words`; unless given, as in the
-            run that made the layout, or for the words before. Other fonts set all words anew.
-        """
-        self.set_words(source, options)
+    def set_container(self, source: Value) -> None:
+        """Fill another container, whatever :func:`read_container` reads, on a canvas as large."""
+        edits.set_container(self, read_container(source, canvas=self.canvas))
 
     def picture(self, source: Value) -> None:
         """Show a picture, from afar: each item takes on its colour there; photographs keep theirs.
@@ -175,7 +192,7 @@ class Session(NamedSession):
             As ``picture`` of :func:`fill`: a file, or an image in memory.
         """
         with handed_over() as handed:
-            self.show_picture(handed.picture_name_of(source, "picture"))
+            edits.picture(self, handed.picture_name_of(source, "picture"))
 
     def embeddings(self, source: Any, anchors: str | Sequence[str] = (), *, seed: int = 0) -> None:
         """Put all anew, like items side by side; what is held stays.
@@ -185,20 +202,10 @@ class Session(NamedSession):
         source, anchors
             As ``embeddings`` and ``anchors`` of :func:`fill`.
         """
+        listed = (anchors,) if isinstance(anchors, str) else anchors
         with handed_over() as handed:
             name = handed.vectors_name_of(source, "embeddings")
-            self.put_alike(name, (anchors,) if isinstance(anchors, str) else anchors, seed=seed)
-
-    def replace(self, which: Which, source: Value) -> None:
-        """Put another item in an item's place."""
-        found = read_items(source)
-        if len(found) != 1:
-            raise RecipeError("replace", f"takes one item, not {len(found)}")
-        self.replace_by(which, found[0])
-
-    def set_container(self, source: Value) -> None:
-        """Fill another container, whatever :func:`read_container` reads, on a canvas as large."""
-        self.fill_container(read_container(source, canvas=self.canvas))
+            edits.embeddings(self, name, listed, seed=seed)
 
 
 def session_of(layout: scene.Layout, *, record: bool) -> Session:

@@ -73,20 +73,20 @@ def studio(
         for module in ("starlette", "uvicorn", "websockets"):
             found(module, "all that the studio needs: pip install '.[studio]'")
         from packwork.live.face.opening import Opening, opening_of
-        from packwork.studio import desks
+        from packwork.studio import kept_workspaces
         from packwork.studio.serving import Address, serve
 
         if again and (inputs or count is not None):
             raise RecipeError("again", "goes on with what was there; leave all else out")
         opening = opening_of(inputs or [], count, seed=seed)
-        kept: desks.KeptDesk | None
+        kept: kept_workspaces.KeptWorkspace | None
         if again:
-            kept = desks.last()
+            kept = kept_workspaces.last()
             opening = Opening(file=kept.file)
         elif opening.file is not None:
-            kept = desks.of_file(opening.file)
+            kept = kept_workspaces.of_file(opening.file)
         else:
-            kept = desks.new()
+            kept = kept_workspaces.new()
             opening = replace(opening, kept_in=None if kept is None else kept.file)
         place = Address(host="127.0.0.1" if host == "localhost" else host, port=port)
         serve(opening, place, kept, browses=browser, tell=typer.echo)

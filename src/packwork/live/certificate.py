@@ -1,13 +1,18 @@
-"""The certificate of a document, at a cost that follows what has changed."""
+"""Statements about a document: its certificate, and what was asked for and has not been got."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from packwork.live.change import Change, Stale, differing
-from packwork.live.document import Document
+from packwork.live.commands.command import Command
+from packwork.live.commands.items import Replace
+from packwork.live.commands.placing import NEARLY, Arrange, Cover, Exchange, Move, Scale
+from packwork.live.document import Change, Document, Invalidation, differing
+from packwork.live.names import called
 from packwork.metrics.certificate import Promise, off_shares
 from packwork.metrics.violations import Violation, ViolationSet
 from packwork.steps.measure import reason
@@ -82,7 +87,7 @@ def promise_of(document: Document) -> Promise:
 
 def _is_all_stale(before: Document, now: Document) -> bool:
     is_other = before.options.padding != now.options.padding
-    return is_other or Change.between(before, now).stale == Stale.EVERYTHING
+    return is_other or Change.between(before, now).stale == Invalidation.EVERYTHING
 
 
 def _gone_and_changed(
@@ -101,3 +106,70 @@ def _gone_and_changed(
     return dict.fromkeys(gone.tolist()), list(
         zip(changed.tolist(), now.ids[changed].tolist(), strict=True)
     )
+
+
+NEAR = 0.005
+"""Distance from the place asked for, in sides of the canvas, up to which an item is there. Larger
+passes over what is seen, smaller tells of what is not. Chosen."""
+
+ROUNDING = 1e-6
+"""Share by which a size may miss its range and keep it. Derived: rounding of the finish."""
+
+
+class Requests:
+    """Notes of what was asked of items and not taken back since."""
+
+    def __init__(self) -> None:
+        self._places: dict[int, tuple[float, float]] = {}
+        self._sizes: dict[int, tuple[float, float]] = {}
+
+    def note(self, commands: Iterable[Command], before: Document, after: Document) -> None:
+        """Note what commands ask for that have made one document of another."""
+        for one in commands:
+            if isinstance(one, Move):
+                self._places[one.item] = one.x, one.y
+            elif isinstance(one, Scale):
+                row, first = after.index(one.item), before.index(one.item)
+                if row is not None and first is not None:
+                    known = self._sizes.get(one.item, (0.0, _size(before, first)))[1]
+                    self._sizes[one.item] = _size(after, row), known
+            elif isinstance(one, Arrange | Cover | Exchange | Replace):
+                # Other places and sizes are asked for now.
+                self.forget()
+
+    def forget(self) -> None:
+        """Take back all that was asked for."""
+        self._places.clear()
+        self._sizes.clear()
+
+    def unmet(self, document: Document) -> tuple[str, ...]:
+        """Sentences about what items of a document have not got."""
+        poses, told = document.poses, []
+        for number, (x, y) in self._places.items():
+            k = document.index(number)
+            if k is None or math.dist((x, y), (poses.x[k], poses.y[k])) <= (
+                NEAR * document.container.side
+            ):
+                continue
+            told.append(
+                f"{called(document, k)} is at {poses.x[k]:.4g}, {poses.y[k]:.4g}, not at "
+                f"{x:.4g}, {y:.4g}: there is no room for it"
+            )
+        for number, (asked, first) in self._sizes.items():
+            k = document.index(number)
+            spare = NEARLY if document.options.sizes == "free" else 1.0
+            if k is None or _size(document, k) * spare >= asked * (1 - ROUNDING):
+                continue
+            factor = _size(document, k) / first
+            told.append(
+                f"{called(document, k)} is {factor:.3g} times as large as it was, "
+                f"not {asked / first:.3g} times: there is no room for more"
+            )
+        return tuple(told)
+
+
+def _size(document: Document, k: int) -> float:
+    """Size of an item: beside the others' where sizes are in shares."""
+    if document.options.sizes == "shared":
+        return math.sqrt(document.weights[k])
+    return float(document.poses.scale[k])

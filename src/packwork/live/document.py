@@ -1,9 +1,10 @@
-"""A layout under the hand: an immutable value with all that a person may change."""
+"""A layout under the hand, an immutable value with all that a person may change; how two differ."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from enum import IntEnum
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -151,3 +152,73 @@ def _frozen(values: Any) -> Any:
     copy = np.array(values)
     copy.flags.writeable = False
     return copy
+
+
+class Invalidation(IntEnum):
+    """Degree of staleness: the part to be made anew, from nothing to everything."""
+
+    NOTHING = 0
+    DRAWING = 1
+    """Names, colours, art: what is looked at, not what is in the way."""
+    RULES = 2
+    """What is held, ranges of sizes, options that all keep already."""
+    POSES = 3
+    """Where some items are."""
+    ITEMS = 4
+    """Which items there are, or their outlines."""
+    EVERYTHING = 5
+    """The container, a wider gap between all, what pulls at all."""
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """Difference of two documents.
+
+    Parameters
+    ----------
+    items
+        Numbers of the items that changed, came or went.
+    """
+
+    stale: Invalidation
+    items: IntArray
+
+    @classmethod
+    def between(cls, before: Document, after: Document) -> Change:
+        """Difference of two documents."""
+        is_pulled = any(
+            getattr(after.options, name) != getattr(before.options, name)
+            for name in ("force", "evenness")
+        )
+        is_tighter = is_pulled or after.options.padding > before.options.padding
+        if before.container is not after.container or is_tighter:
+            return cls(Invalidation.EVERYTHING, np.union1d(before.ids, after.ids))
+        if not np.array_equal(before.ids, after.ids):
+            return cls(Invalidation.ITEMS, np.setxor1d(before.ids, after.ids))
+        outlines = [
+            a.outline is not b.outline for a, b in zip(before.items, after.items, strict=True)
+        ]
+        if any(outlines):
+            return cls(Invalidation.ITEMS, after.ids[np.array(outlines)])
+        if (moved := differing(before.poses, after.poses)).any():
+            return cls(Invalidation.POSES, after.ids[moved])
+        ruled = (before.held != after.held).any(axis=1) | (before.options != after.options)
+        ruled |= (before.smallest != after.smallest) | (before.largest != after.largest)
+        if ruled.any():
+            return cls(Invalidation.RULES, after.ids[ruled])
+        drawn = [a is not b for a, b in zip(before.items, after.items, strict=True)]
+        drawn_or_weighed = np.array(drawn, dtype=bool) | (before.weights != after.weights)
+        stale = Invalidation.DRAWING if drawn_or_weighed.any() else Invalidation.NOTHING
+        return cls(stale, after.ids[drawn_or_weighed])
+
+
+def differing(before: Poses, after: Poses) -> BoolArray:
+    """``(n,)`` which poses are not the same, bit for bit; both of as many items.
+
+    Examples
+    --------
+    >>> differing(Poses([1, 2], [5, 5]), Poses([1, 3], [5, 5])).tolist()
+    [False, True]
+    """
+    columns = [getattr(before, c.name) != getattr(after, c.name) for c in fields(Poses)]
+    return np.asarray(np.logical_or.reduce(columns))

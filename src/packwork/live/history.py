@@ -1,11 +1,17 @@
-"""History: documents before and after the present one, as many as are kept."""
+"""History of a session: documents to go back to, marks on items, and their way for films."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
 
 from packwork.live.document import Document
+from packwork.scene.pose import Poses
+from packwork.scene.track import Track, track_of
 
 MOST_ENTRIES = 1_000
 """Documents that can be gone back to. Of a thousand items each holds about 0.1 MB. Chosen."""
@@ -67,3 +73,122 @@ class UndoHistory:
             return present
         self._past.append(present)
         return self._future.pop()
+
+
+@dataclass
+class Marks:
+    """Numbers of items that gestures have done something to, and how much was polished.
+
+    Parameters
+    ----------
+    touched
+        To be finished by the next settle.
+    placed_by_user
+        Of these, what lies where the hand has put it.
+    turned
+        Of these, what has the angle that the hand has given it.
+    vacated
+        What lay beside items before the hand took them away.
+    by_hand
+        Put somewhere or turned by hand since the last leap: polish leaves its angle.
+    recent
+        Of these, since the last settle but one: polish leaves it where it is.
+    unpolished
+        Settled, yet not polished.
+    polished
+        How many times polish was called: the seed of what it tries.
+    tried
+        Turns that were tried since anything became rough.
+    """
+
+    touched: set[int] = field(default_factory=set)
+    placed_by_user: set[int] = field(default_factory=set)
+    turned: set[int] = field(default_factory=set)
+    vacated: set[int] = field(default_factory=set)
+    by_hand: set[int] = field(default_factory=set)
+    recent: set[int] = field(default_factory=set)
+    unpolished: set[int] = field(default_factory=set)
+    polished: int = 0
+    tried: int = 0
+
+    def copy(self) -> Marks:
+        """The same, to be gone back to."""
+        columns: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
+        columns |= {k: set(v) for k, v in columns.items() if isinstance(v, set)}
+        return Marks(**columns)
+
+    def settled(self) -> None:
+        """Forget what was to be settled."""
+        for kept in (self.touched, self.placed_by_user, self.turned, self.vacated):
+            kept.clear()
+
+    def leapt(self) -> None:
+        """Forget all items: the document is another one."""
+        for column in fields(self):
+            value = getattr(self, column.name)
+            if isinstance(value, set):
+                value.clear()
+
+    def keep(self, present: set[int]) -> None:
+        """Forget items that are no more."""
+        for column in fields(self):
+            value = getattr(self, column.name)
+            if isinstance(value, set):
+                value &= present
+
+
+@dataclass(frozen=True)
+class SessionState:
+    """All that a session goes on from.
+
+    Parameters
+    ----------
+    base
+        Document in which all had been settled last: what has flowed in vain goes back to it.
+    """
+
+    document: Document
+    base: Document
+    history: UndoHistory
+    marks: Marks
+
+
+MOST, MOST_PLACES = 2_000, 400_000
+"""Frames that are kept, and places of items in all; of more every other frame goes. Chosen: 16 MB.
+"""
+
+
+class Frames:
+    """Poses from time to time, of the items that there are now.
+
+    Parameters
+    ----------
+    document
+        Where the film begins. It begins anew when items come or go.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> document = Document.of(fill("circle", "star", count=3, effort="draft", levels="50"))
+    >>> frames = Frames(document)
+    >>> frames.keep(document)
+    >>> frames.track
+    <Track: 2 keyframes of 3 items>
+    """
+
+    def __init__(self, document: Document) -> None:
+        self._ids = document.ids
+        self._poses: list[Poses] = [document.poses]
+
+    def keep(self, document: Document) -> None:
+        """Keep where the items of a document are."""
+        if not np.array_equal(document.ids, self._ids):
+            self._ids, self._poses = document.ids, []
+        self._poses.append(document.poses)
+        if len(self._poses) > max(min(MOST, MOST_PLACES // max(len(self._ids), 1)), 2):
+            self._poses = self._poses[::2]
+
+    @property
+    def track(self) -> Track:
+        """Keyframes of a film."""
+        return track_of(self._poses)

@@ -8,11 +8,11 @@ import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
-from packwork.live.anew import job_again, poured_again
 from packwork.live.certificate import Certificate, promise_of
 from packwork.live.commands.command import Library, is_chart
-from packwork.live.composed import is_word
 from packwork.live.document import Document
+from packwork.live.macros import is_word
+from packwork.live.relayout import job_again, poured_again
 from packwork.metrics.pixel import shape_metrics
 from packwork.progress import Stop
 from packwork.steps.advice import LEAST_SHAPE, MOST_BARE, advice
@@ -42,7 +42,7 @@ class Refilled:
     """A cloud that was poured anew."""
 
     document: Document
-    said: str
+    message: str
 
 
 def is_other_cloud(before: Document, now: Document) -> bool:
@@ -95,8 +95,8 @@ def refilled(
         return None
     what = "words" if any(is_word(asked, k) for k in range(len(asked))) else "items"
     share = f"{100 * covered(poured):.0f} % of the container"
-    said = f"the {what} were poured anew, for they would not fill it else: {share}"
-    return Refilled(kept, said)
+    message = f"the {what} were poured anew, for they would not fill it else: {share}"
+    return Refilled(kept, message)
 
 
 def taken_back(before: Document, now: Document) -> Refilled | None:
@@ -115,8 +115,10 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
     if share[1] >= share[0] * least:
         return None
     columns = {name: getattr(before, name) for name in ("poses", "weights", "smallest", "largest")}
-    said = f"taken back, for all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
-    return Refilled(replace(now, **columns), said)
+    message = (
+        f"taken back, for all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
+    )
+    return Refilled(replace(now, **columns), message)
 
 
 def advice_of(document: Document) -> tuple[str, ...]:

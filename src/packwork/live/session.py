@@ -1,44 +1,44 @@
-"""A session: one document under the hand, and all that follows it."""
+"""A session: one document under the hand, a log of what is done to it, and all that follows it."""
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, replace
-from itertools import groupby, pairwise
+from itertools import groupby
 from numbers import Integral
+from types import TracebackType
+from typing import Any, Self
 
 from packwork.errors import RecipeError
-from packwork.live.certificate import Certificate, Settlement, promise_of
-from packwork.live.change import Change, Stale, differing
-from packwork.live.commands.command import Command, Library
+from packwork.live.certificate import Requests, Settlement, promise_of
+from packwork.live.commands.command import Command, Library, made
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Scale
-from packwork.live.document import PROPERTIES, Document
-from packwork.live.following import Following, beyond
-from packwork.live.history import UndoHistory
-from packwork.live.kept import Kept
+from packwork.live.commands.together import KINDS, Together
+from packwork.live.document import Change, Document, Invalidation
+from packwork.live.history import Marks, SessionState, UndoHistory
+from packwork.live.local_solver import LocalSolver
 from packwork.live.log import MOST_TRIALS, Entry, Log
-from packwork.live.neighbourhood.flow import Flow
-from packwork.live.neighbourhood.settle import made_smaller, polish, sizes_are_common
-from packwork.live.neighbourhood.shapes import ShapeCache
-from packwork.live.refilling import advice_of, is_other_cloud, refilled, taken_back
-from packwork.live.requests import Requests
+from packwork.live.names import Which, find_items, one_item
+from packwork.live.neighbourhood.caches import ShapeCache
+from packwork.live.refilling import advice_of
+from packwork.metrics.violations import Violation
 from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
 
-ENOUGH = 6
-"""Turns for each item that gestures have touched after which no more are tried. Chosen."""
-
 AT_ONCE = 2
 """Epochs between two looks at the clock. Chosen."""
+
+TRIALS = 4
+"""Turns tried for each item that was touched, when a block ends. Chosen."""
 
 OF_PLACES = ("metrics", "certified", "changed", "filling", "beside", "pile")
 """What a manifest says of poses that are no more."""
 
 
-class Session(Following):
+class Session:
     """A layout that is changed by commands, flows, and settles into an exact one.
 
     One thread owns a session. The same calls on the same document give the same bytes.
@@ -66,18 +66,125 @@ class Session(Following):
         *,
         record: bool = False,
     ) -> None:
-        super().__init__(document, record=record)
         self.library = library or Library()
         self.log = log or Log()
         self.history = UndoHistory()
-        self._before: Document | None = None
-        self._poured: tuple[str, ...] = ()
+        self.letters: Mapping[str, Any] = {}
+        """How words were asked to be set, last."""
+        self._solver = LocalSolver(document, record=record)
         self._requests = Requests()
+        self._before_grab: Document | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if kind is None:
+            self.finish()
+
+    @property
+    def document(self) -> Document:
+        """Document as it is now."""
+        return self._solver.document
+
+    @property
+    def marks(self) -> Marks:
+        """What has been done to which items."""
+        return self._solver.marks
+
+    @property
+    def shapes(self) -> ShapeCache:
+        """Covers of the outlines."""
+        return self._solver.shapes
 
     @property
     def is_grabbed(self) -> bool:
         """Whether something is held by the hand."""
-        return bool(self._grabbed)
+        return bool(self._solver.grabbed)
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether the flow has nothing to move."""
+        return self._solver.is_at_rest
+
+    @property
+    def violations(self) -> tuple[Violation, ...]:
+        """Conflicts as of now, items by their numbers."""
+        return self._solver.violations
+
+    @property
+    def is_certified(self) -> bool:
+        """Whether exact geometry finds no overlap, nothing outside, and gaps as promised."""
+        return self._solver.is_certified
+
+    @property
+    def in_the_way(self) -> tuple[str, ...]:
+        """Reasons that keep the layout from its certificate, a sentence each."""
+        return self._solver.in_the_way
+
+    @property
+    def unmet(self) -> tuple[str, ...]:
+        """Places and sizes that items were given and have not got, a sentence each."""
+        return self._requests.unmet(self.document)
+
+    @property
+    def advice(self) -> tuple[str, ...]:
+        """Advice on the layout as it lies: what is poor and would do; news of words poured anew."""
+        return (*self._solver.news, *advice_of(self.document))
+
+    @property
+    def canvas(self) -> str:
+        """Longer side of the canvas as options say it."""
+        container = self.document.container
+        return f"{container.side:.17g}{container.unit}"
+
+    @property
+    def layout(self) -> Layout:
+        """The layout as it is now, and whether it is certified."""
+        document = self.document
+        kept = {k: v for k, v in document.manifest.items() if k not in OF_PLACES}
+        stated = {"promised": asdict(promise_of(document)), "certified": self.is_certified}
+        # What was asked of the run is not what holds now.
+        manifest = {**kept, **stated, "edited": document.options.model_dump()}
+        return replace(document.layout, manifest=manifest, track=self._solver.track)
+
+    def find(self, which: Which) -> tuple[int, ...]:
+        """Numbers of the items that a name means, in their order; :meth:`positions` are others.
+
+        Raises
+        ------
+        RecipeError
+            If there is none.
+        """
+        return find_items(self.document, which)
+
+    def positions(self, which: Which) -> list[int]:
+        """Places of items in :attr:`layout`, for such as ``layout.poses.x[positions]``.
+
+        Numbers that :meth:`find` gives are for ever; positions are others once items are removed.
+
+        Raises
+        ------
+        RecipeError
+            If there is no such item.
+        """
+        rows = {int(number): k for k, number in enumerate(self.document.ids)}
+        return [rows[number] for number in self.find(which)]
+
+    def one(self, which: Which) -> int:
+        """Number of the one item that a name means.
+
+        Raises
+        ------
+        RecipeError
+            If there is none, or more than one.
+        """
+        return one_item(self.document, which)
 
     def apply(self, command: Command) -> Change:
         """Do what a command says.
@@ -87,32 +194,42 @@ class Session(Following):
         RecipeError
             If it has no meaning here; nothing is changed then.
         """
-        if isinstance(command, Grab) and self._grabbed:
+        if isinstance(command, Grab) and self.is_grabbed:
             raise RecipeError("grab", "something is held already; drop it first")
-        before = self._document
-        documents = [before]
+        before = self.document
+        documents: list[Document] = []
         # What follows a change takes as long for one item as for all that change alike.
         for _, steps in groupby(command.steps, type):
-            documents.append(documents[-1])
+            now = documents[-1] if documents else before
             for step in steps:
-                documents[-1] = step.applied(documents[-1], self.library)
+                now = step.applied(now, self.library)
+            documents.append(now)
         change = Change.between(before, documents[-1])
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)
         self._requests.note(command.steps, before, documents[-1])
-        self._keep_angles(step.item for step in command.steps if isinstance(step, Scale))
-        for one, other in pairwise(documents):
-            self._take(Change.between(one, other), one, other)
+        self._solver.keep_angles(step.item for step in command.steps if isinstance(step, Scale))
+        for document in documents:
+            self._solver.take(document)
         if isinstance(command, Grab):
-            self._flow = self._flow or Flow(before, self._sights)
-            self._grabbed, self._before = command.items, before
-            self._hold()
+            self._before_grab = before
+            self._solver.grab(command.items)
         elif isinstance(command, Drop):
             self._drop()
-        elif not self._grabbed and change.stale > Stale.NOTHING:
+        elif not self.is_grabbed and change.stale > Invalidation.NOTHING:
             self.history.note(before)
             self.log.flush()
         return change
+
+    def do(self, kind: str, **values: object) -> Change:
+        """Do a command of a kind, of plain values; what has no meaning is refused by its name."""
+        return self.apply(made(KINDS[kind], **values))
+
+    def do_together(self, commands: Iterable[Command]) -> None:
+        """Do commands as one gesture."""
+        listed = tuple(commands)
+        if listed:
+            self.apply(Together(commands=listed))  # type: ignore[arg-type]
 
     def flow(self, epochs: int | None = None, milliseconds: float | None = None) -> int:
         """Let items make room: so many epochs, or as many as the time allows; how many they were.
@@ -148,7 +265,8 @@ class Session(Following):
         RecipeError
             If something is grabbed.
         """
-        found = self._finish(never)
+        self._check_dropped("settle")
+        found = self._solver.finish(never)
         self._settled()
         return found
 
@@ -156,81 +274,16 @@ class Session(Following):
         """Settle, or, where ``stop`` comes true meanwhile, leave all as it was: None then.
 
         For sessions that somebody works on: what is asked for next need not wait.
-
-        Raises
-        ------
-        RecipeError
-            If something is grabbed.
         """
-        before, marks = self._document, self.marks.copy()
-        found = self._finish(stop)
+        self._check_dropped("settle")
+        before, marks = self.document, self.marks.copy()
+        found = self._solver.finish(stop)
         if not stop():
             self._settled()
             return found
-        self._document, self.marks = before, marks
+        self._solver.restart(before, marks)
         self.log.note("broken_off")
-        self._begin_anew()
         return None
-
-    def _finish(self, stop: Stop) -> Settlement:
-        """Finish what was touched, and certify the whole."""
-        if self._grabbed:
-            raise RecipeError("settle", "something is held by the hand; drop it first")
-        before = self._document
-        near = self._put_back()
-        wrong = self.violations
-        # What is in conflict is touched, whenever that came about.
-        self.marks.touched |= beyond(wrong, near)
-        if self.marks.touched and not stop():
-            flow = self._flow = self._flow or Flow(self._document, self._sights)
-            self._poured = ()
-            self._fill_again(flow, near, len(wrong), stop)
-        moved = differing(before.poses, self._document.poses)
-        self.marks.rough |= set(self._document.ids[moved].tolist())
-        return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
-
-    def _fill_again(self, flow: Flow, near: set[int], wrong: int, stop: Stop) -> None:
-        """Finish what was touched near where it is; else pour all anew, or make all smaller.
-
-        A gesture that would ruin the rest is taken back.
-        """
-        self._bring_inside()
-        asked = self._document
-        if not (is_other_cloud(self._base, asked) and self._refill(asked, stop)):
-            strict = self._make_room(flow, near)
-            is_clean = self._settle(flow, strict, stop)
-            if not self._refill(asked, stop):
-                if not is_clean and sizes_are_common(strict):
-                    smaller = made_smaller(strict, self.shapes, stop).document
-                    self._turn_to(self._document.with_poses(smaller.poses))
-                if len(self.violations) > wrong:
-                    # Nothing is better than something worse.
-                    self._turn_to(asked)
-        if (back := taken_back(self._base, self._document)) is not None:
-            self._poured = (back.said,)
-            self._turn_to(back.document)
-
-    def _refill(self, asked: Document, stop: Stop) -> bool:
-        """Pour a cloud anew that a gesture, new words or weights have left emptier; if it was."""
-        by_hand = self._rows(self.marks.given | self.marks.turned)
-        found = None if stop() else refilled(self._base, asked, self._document, by_hand, stop)
-        if found is not None:
-            self._poured = (found.said,)
-            self._turn_to(found.document)
-        return found is not None
-
-    @property
-    def advice(self) -> tuple[str, ...]:
-        """Advice on the layout as it lies: what is poor and would do; news of words poured anew."""
-        return (*self._poured, *advice_of(self._document))
-
-    def _settled(self) -> None:
-        """Note that all that was touched is finished."""
-        self._base = self._document
-        self.marks.settled()
-        self.log.note("settle")
-        self._film()
-        self.log.flush()
 
     def polish(self, trials: int, stop: Stop = never) -> int:
         """Win back coverage where gestures have cost some; the number of items that have moved.
@@ -239,152 +292,108 @@ class Session(Following):
         None while something is grabbed or not settled, or once ``stop`` is true, which leaves all
         as it was. The layout is as certified after it as before.
         """
-        if trials < 1 or self._grabbed or self.marks.touched or not self.marks.rough:
-            return 0
         trials = min(trials, MOST_TRIALS)
-        before = self._document
-        # What was put somewhere last stays there; what was before keeps its angle.
-        rows = self._rows(self.marks.rough - self.marks.lately)
-        held = before.held.copy()
-        held[self._rows(self.marks.by_hand), PROPERTIES.index("angle")] = True
-        strict = replace(before, held=held)
-        done = polish(strict, rows, trials, self.marks.polished + 1, self.shapes, stop)
-        if stop():
+        moved = self._solver.polish(trials, stop)
+        if moved is None:
             return 0
         self.log.note("polish", trials)
-        self.marks.polished += 1
-        if done.is_clean:
-            self._document = self._base = before.with_poses(done.document.poses)
-        self._turn_to(self._document)
-        self.marks.tried += trials
-        if self.marks.tried >= ENOUGH * len(rows):
-            self.marks.rough, self.marks.tried = set(), 0
-        self._film()
         self.log.flush()
-        return int(differing(before.poses, self._document.poses).sum())
+        return moved
+
+    def finish(self) -> Settlement:
+        """Settle, and win back coverage where something was touched; what it came to."""
+        found = self.settle()
+        self.polish(TRIALS * max(found.moved, 1))
+        return Settlement(self.is_certified, self.in_the_way, found.moved)
 
     def undo(self) -> bool:
-        """Go back to the document before the last gesture, exactly; the flow pauses.
-
-        Returns
-        -------
-        bool
-            Whether there was one; nothing changes where there was none.
-        """
+        """Go back to the document before the last gesture, exactly; whether there was one."""
         return self._leap("undo")
 
     def redo(self) -> bool:
         """Go forward again; whether there was anything to go forward to."""
         return self._leap("redo")
 
-    @property
-    def unmet(self) -> tuple[str, ...]:
-        """Places and sizes that items were given and have not got, a sentence each."""
-        return self._requests.unmet(self._document)
+    def begin_film(self) -> None:
+        """Keep the way of the items from now on."""
+        self._solver.begin_film()
 
-    @property
-    def layout(self) -> Layout:
-        """The layout as it is now, and whether it is certified."""
-        kept = {k: v for k, v in self._document.manifest.items() if k not in OF_PLACES}
-        said = {"promised": asdict(promise_of(self._document)), "certified": self.is_certified}
-        track = None if self._frames is None else self._frames.track
-        # What was asked of the run is not what holds now.
-        manifest = {**kept, **said, "edited": self._document.options.model_dump()}
-        return replace(self._document.layout, manifest=manifest, track=track)
+    def make_ready(self) -> None:
+        """Have what takes long the first time done before the hand comes; changes nothing."""
+        self._solver.make_ready()
 
     @classmethod
     def replay(
         cls, document: Document, entries: Iterable[Entry], library: Library | None = None
-    ) -> Session:
+    ) -> Self:
         """A session in which all entries of a log are done again."""
         session = cls(document, library)
         session.repeat(entries)
         return session
 
     def repeat(self, entries: Iterable[Entry]) -> int:
-        """Do all entries of a log again; how many gestures that were.
-
-        Raises
-        ------
-        RecipeError
-            If one has no meaning here.
-        """
+        """Do all entries of a log again; how many gestures that were."""
         gestures = 0
         for kind, value in entries:
             if kind in {"item", "container"}:
                 name, found = value
                 getattr(self.library, f"{kind}s")[name] = found
             elif kind == "do":
-                gestures += not self._grabbed
+                gestures += not self.is_grabbed
                 self.apply(value)
             elif kind == "flow":
                 self._run(value[1], value[0])
-            elif kind == "settle":
-                self.settle()
             elif kind == "polish":
                 self.polish(value)
-            elif kind == "kept":
-                self.kept()
             elif kind == "broken_off":
-                self._begin_anew()
+                self._solver.begin_anew()
             else:
-                self._leap(kind)
+                # What stands for itself: settle, kept, undo, redo.
+                getattr(self, kind)()
         return gestures
 
-    def kept(self) -> Kept:
-        """Contents of the session's file; it then goes on as one that was opened does.
-
-        Raises
-        ------
-        RecipeError
-            If something is grabbed.
-        """
-        if self._grabbed:
-            raise RecipeError("save", "something is held by the hand; drop it first")
+    def kept(self) -> SessionState:
+        """Contents of the session's file; it then goes on as one that was opened does."""
+        self._check_dropped("save")
         self.log.note("kept")
-        found = Kept(self._document, self._base, self.history, self.marks)
+        found = SessionState(self.document, self._solver.base, self.history, self.marks)
         self.go_on_from(found)
         return found
 
-    def go_on_from(self, kept: Kept) -> None:
+    def go_on_from(self, state: SessionState) -> None:
         """Take over what a file holds, nothing else: so that the same follows wherever it is."""
-        self._document, self._base = kept.document, kept.base
-        self.history, self.marks = kept.history, kept.marks
-        self.shapes, self._certificate = ShapeCache(), Certificate()
-        self._grabbed, self._before, self._flow = (), None, None
+        self.history, self._before_grab = state.history, None
         self._requests.forget()
-        if self.marks.touched:
-            self._begin_anew()
-            self._flow_again()
+        self._solver.go_on_from(state)
+
+    def _check_dropped(self, key: str) -> None:
+        if self.is_grabbed:
+            raise RecipeError(key, "something is held by the hand; drop it first")
+
+    def _settled(self) -> None:
+        self._solver.settled()
+        self.log.note("settle")
+        self.log.flush()
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
         """Run epochs, and note it."""
-        if self._flow is None:
-            return
-        resolution = resolution or self._flow.resolution
-        self._flow.run(epochs, resolution)
-        self.log.note("flow", (resolution, epochs))
-        self._follow(self._flow)
+        seen = self._solver.run(epochs, resolution)
+        if seen is not None:
+            self.log.note("flow", (seen, epochs))
 
     def _drop(self) -> None:
-        before, self._before = self._before, None
-        if before is not None and self._document is not before:
+        before, self._before_grab = self._before_grab, None
+        if before is not None and self.document is not before:
             self.history.note(before)
-        self._grabbed = ()
-        self._hold()
+        self._solver.grab(())
         self.log.flush()
 
     def _leap(self, kind: str) -> bool:
-        if self._grabbed:
-            raise RecipeError(kind, "something is held by the hand; drop it first")
+        self._check_dropped(kind)
         if not getattr(self.history, f"can_{kind}"):
             return False
-        document = getattr(self.history, kind)(self._document)
         self.log.note(kind)
-        self._base = document
-        self._turn_to(document)
-        self.marks.leapt()
         self._requests.forget()
-        self._film()
+        self._solver.leap_to(getattr(self.history, kind)(self.document))
         self.log.flush()
         return True

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator
+import time
+from collections import Counter
+from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager, suppress
 from functools import cache
 from importlib import resources
@@ -19,14 +21,12 @@ from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from packwork.errors import PackworkError
-from packwork.studio.bringing import Bringer, choices
-from packwork.studio.desk import Desk
-from packwork.studio.exporting import Exporter
+from packwork.studio.files import MOST_BYTES, Exporter, Uploads
 from packwork.studio.guard import AGAIN, PROTOCOL, Guard
+from packwork.studio.importer import Importer, choices
 from packwork.studio.proof import Secret
-from packwork.studio.seats import Seats, person_of
 from packwork.studio.tab import Tab
-from packwork.studio.uploads import MOST_BYTES, Uploads
+from packwork.studio.workspace import Workspace
 
 MOST_TABS = 8
 """Pages that look at one desk at most. Chosen."""
@@ -44,11 +44,11 @@ BODY_SECONDS = 300.0
 class Studio:
     """Application that answers requests."""
 
-    def __init__(self, desk: Desk, uploads: Uploads, secret: Secret) -> None:
-        self._desk, self._uploads, self._secret = desk, uploads, secret
-        self._bringer, self._exporter = Bringer(desk, uploads), Exporter(desk)
+    def __init__(self, workspace: Workspace, uploads: Uploads, secret: Secret) -> None:
+        self._workspace, self._uploads, self._secret = workspace, uploads, secret
+        self._importer, self._exporter = Importer(workspace, uploads), Exporter(workspace)
         self._tabs: set[Tab] = set()
-        self._seats = Seats()
+        self._presence = Presence()
 
     @property
     def routes(self) -> list[BaseRoute]:
@@ -106,10 +106,10 @@ class Studio:
             return
         await socket.accept(PROTOCOL)
         person, joins = person_of(socket.scope.get("subprotocols", ()))
-        if not self._seats.take(person, joins=joins):
+        if not self._presence.take(person, joins=joins):
             await socket.close(TAKEN, "somebody else is at this desk")
             return
-        tab = Tab(self._desk, socket, self._bringer.acts)
+        tab = Tab(self._workspace, socket, self._importer)
         self._tabs.add(tab)
         sending = asyncio.create_task(tab.send())
         try:
@@ -118,7 +118,7 @@ class Studio:
                     await _received(socket, tab)
         finally:
             self._tabs.discard(tab)
-            self._seats.leave(person)
+            self._presence.leave(person)
             sending.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
                 await sending
@@ -169,16 +169,87 @@ def refused(error: PackworkError) -> Response:
     return PlainTextResponse(f"{' '.join(str(error).split())}\n", 400)
 
 
-def guarded(desk: Desk, uploads: Uploads, secret: Secret) -> Guard:
+def guarded(workspace: Workspace, uploads: Uploads, secret: Secret) -> Guard:
     """The studio behind its guard; its desk begins when the server does."""
 
     @asynccontextmanager
     async def open_(app: Any) -> AsyncIterator[None]:
-        await desk.begin()
+        await workspace.begin()
         try:
             yield
         finally:
-            await asyncio.to_thread(desk.close)
+            await asyncio.to_thread(workspace.close)
 
-    app = Starlette(routes=Studio(desk, uploads, secret).routes, lifespan=open_)
+    app = Starlette(routes=Studio(workspace, uploads, secret).routes, lifespan=open_)
     return Guard(app, secret)
+
+
+GRACE_SECONDS = 5.0
+"""How long the desk is kept for somebody whose last page is gone. Shorter gives it away while a
+page is loaded anew, longer has the next one wait. Chosen."""
+
+LONGEST = 64
+"""Characters of what a person is known by at most. Chosen."""
+
+
+class Presence:
+    """Seats at a desk: the person there, and who works there together.
+
+    Examples
+    --------
+    >>> seats = Presence()
+    >>> seats.take("ann"), seats.take("ann"), seats.take("bob"), seats.take("bob", joins=True)
+    (True, True, False, True)
+    >>> seats.leave("ann"), seats.take("ann"), seats.take("cid")
+    (None, True, False)
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._pages: Counter[str] = Counter()
+        self._left: dict[str, float] = {}
+        self._together: set[str] = set()
+
+    def take(self, person: str, *, joins: bool = False) -> bool:
+        """Have one more page of a person at the desk; False if somebody else is there.
+
+        A page that does not say whose it is comes in, and keeps nobody out.
+        """
+        others = self._present - {person}
+        if joins:
+            self._together |= {person, *others}
+        elif person and others and person not in self._together:
+            return False
+        self._pages[person] += 1
+        return True
+
+    def leave(self, person: str) -> None:
+        """Have one page of a person less."""
+        self._pages[person] -= 1
+        if not self._pages[person]:
+            del self._pages[person]
+            self._left[person] = self._clock()
+
+    @property
+    def _present(self) -> set[str]:
+        """Whoever has a page there, or had one a moment ago."""
+        now = self._clock()
+        self._left = {k: at for k, at in self._left.items() if now - at < GRACE_SECONDS}
+        return {*self._pages, *self._left} - {""}
+
+
+def person_of(offered: Iterable[str]) -> tuple[str, bool]:
+    """Whose page a socket is of, by the subprotocols it offers; whether it joins whoever is there.
+
+    Examples
+    --------
+    >>> person_of(["packwork", "token.abc", "person.4f"])
+    ('4f', False)
+    >>> person_of(["packwork", "join.4f"]), person_of(["packwork"])
+    (('4f', True), ('', False))
+    """
+    for one in offered:
+        kind, _, person = one.partition(".")
+        if kind in {"person", "join"}:
+            return person[:LONGEST], kind == "join"
+    return "", False

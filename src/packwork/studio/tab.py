@@ -5,16 +5,16 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
-from typing import Any, Protocol
+from typing import Protocol
 
 from packwork.live.commands.command import Command
 from packwork.live.owner import Leap
 from packwork.scene.pose import Poses
-from packwork.studio import wire
-from packwork.studio.desk import NOT_YET, Desk, News
+from packwork.studio.importer import Importer
+from packwork.studio.messages import UnreadableError, read
 from packwork.studio.view import View
-from packwork.studio.wire import Line, Scene, Shapes, State
+from packwork.studio.wire import Line, Said, Scene, Shapes, State, frame_bytes
+from packwork.studio.workspace import NOT_YET, News, Workspace
 
 STATE_SECONDS = 0.1
 """Time between two states of which only the covered share differs. Chosen."""
@@ -34,18 +34,10 @@ class Wire(Protocol):
 
 
 class Tab:
-    """A page.
+    """A page."""
 
-    Parameters
-    ----------
-    bring
-        Does what needs files: by the message's type.
-    """
-
-    def __init__(
-        self, desk: Desk, carrier: Wire, bring: Mapping[str, Callable[[Any], object]]
-    ) -> None:
-        self._desk, self._carrier, self._bring = desk, carrier, bring
+    def __init__(self, workspace: Workspace, carrier: Wire, importer: Importer) -> None:
+        self.workspace, self.importer, self._carrier = workspace, importer, carrier
         self._woken = asyncio.Event()
         self._lines: deque[News] = deque(maxlen=MOST_LINES)
         self._known: set[str] = set()
@@ -65,7 +57,7 @@ class Tab:
 
     async def send(self) -> None:
         """Send what is new, for as long as the page is there."""
-        self._desk.listen(self, self.wake)
+        self.workspace.listen(self, self.wake)
         self.wake()
         try:
             while True:
@@ -73,16 +65,16 @@ class Tab:
                 self._woken.clear()
                 await self._send_news()
         finally:
-            self._desk.forget(self)
+            self.workspace.forget(self)
 
     async def _send_news(self) -> None:
         while self._lines:
             await self._say(self._lines.popleft())
-        shown = self._desk.shown
+        shown = self.workspace.shown
         if shown is None:
             return
         view, state = shown.view, shown.state
-        scene = await self._desk.scene(view)
+        scene = await self.workspace.scene(view)
         if self._scene is None or scene.version != self._scene.version:
             if self._scene is not None:
                 # What was said of the scene before does not hold of this one.
@@ -102,7 +94,7 @@ class Tab:
         self._frame += 1
         self._seen = (view.poses, done)
         known = self._done(done)
-        data = wire.frame_bytes(self._frame, version, known, moving, view.numbers)
+        data = frame_bytes(self._frame, version, known, moving, view.numbers)
         await self._carrier.send_bytes(data)
         return False
 
@@ -114,7 +106,7 @@ class Tab:
         keys = dict.fromkeys(thing.shape for thing in scene.items if thing.shape not in self._known)
         self._known.update(keys)
         if keys:
-            shapes = self._desk.shapes.shapes
+            shapes = self.workspace.shapes.shapes
             await self._say(Shapes(shapes=tuple(shapes[key] for key in keys)))
         self._scene = scene
         await self._say(scene)
@@ -129,7 +121,7 @@ class Tab:
         self._state, self._state_at = state, now
         await self._say(state)
 
-    async def _say(self, message: wire.Said) -> None:
+    async def _say(self, message: Said) -> None:
         await self._carrier.send_text(message.model_dump_json())
 
     def _done(self, done: int) -> int:
@@ -141,37 +133,19 @@ class Tab:
     def receive(self, text: str) -> None:
         """Do what the page asks for; what means nothing is answered by a line."""
         try:
-            self._act(wire.read(text))
-        except wire.UnreadableError as error:
+            read(text).act(self)
+        except UnreadableError as error:
             self.wake(Line(text=str(error)))
 
-    def _act(self, message: wire.Told) -> None:
-        desk = self._desk
-        if isinstance(message, wire.Ack):
-            if self._acked < message.frame <= self._frame:
-                self._acked = message.frame
-                self._woken.set()
-        elif isinstance(message, wire.Do):
-            self._post(message.command, message.n)
-        elif isinstance(message, wire.LeapMessage):
-            self._post(Leap(message.to), message.n)
-        elif isinstance(message, wire.Stop):
-            desk.stop()
-        elif isinstance(message, wire.Pour):
-            desk.pour(message.seed)
-        elif isinstance(message, wire.More):
-            desk.try_more(message.seed)
-        elif isinstance(message, wire.Count):
-            count = message.count
-            desk.change(lambda session: session.count(count))
-        elif isinstance(message, wire.Set):
-            options = message.options
-            desk.change(lambda session: session.set(**options))
-        else:
-            self._bring[message.type](message)
+    def ack(self, frame: int) -> None:
+        """Note that a frame has come: the next may."""
+        if self._acked < frame <= self._frame:
+            self._acked = frame
+            self._woken.set()
 
-    def _post(self, posted: Command | Leap, number: int) -> None:
-        owner = self._desk.owner
+    def post(self, posted: Command | Leap, number: int) -> None:
+        """Have a command or a leap done, of that number in the page's count."""
+        owner = self.workspace.owner
         if owner is None:
             self.wake(Line(text=NOT_YET))
         elif owner.post(posted):

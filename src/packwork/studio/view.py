@@ -10,8 +10,8 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.face.drawing import FINENESS, Drawing, drawing_of, path_of
-from packwork.live.running import Moment
+from packwork.live.face.offers import FINENESS, Drawing, drawing_of, path_of
+from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses

@@ -1,14 +1,27 @@
-"""Several commands that are one gesture."""
+"""Commands of all kinds, and several of them as one gesture."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import Field, TypeAdapter
 
 from packwork.live.commands.command import Command, Library
-from packwork.live.commands.single import SingleCommand
+from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
+from packwork.live.commands.gestures import Drop, Grab, Hold, Release
+from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
+from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
+
+SingleCommand: TypeAlias = Annotated[
+    Move | Turn | Scale | Exchange | Cover | Arrange
+    | Hold | Release
+    | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour
+    | SetContainer | Reshape | PlaceContainer | SetOption,
+    Field(discriminator="kind"),
+]  # fmt: skip
+"""Any command that is one edit by itself."""
 
 
 class Together(Command):
@@ -32,3 +45,16 @@ class Together(Command):
     def assets(self) -> tuple[str, ...]:
         """Of all of them."""
         return tuple(name for command in self.commands for name in command.assets)
+
+
+AnyCommand: TypeAlias = Annotated[
+    SingleCommand | Together | Grab | Drop, Field(discriminator="kind")
+]
+
+COMMANDS: TypeAdapter[AnyCommand] = TypeAdapter(AnyCommand)
+"""Reads a command from plain values and refuses what is none."""
+
+KINDS: Mapping[str, type[Command]] = {
+    one.model_fields["kind"].default: one for one in Command.__subclasses__()
+}
+"""Commands by what logs call them."""

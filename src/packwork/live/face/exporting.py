@@ -15,7 +15,7 @@ from packwork.live.file.disk import ENDING
 from packwork.live.file.recipe import write_recipe
 from packwork.live.file.session_file import session_bytes
 from packwork.live.file.things import Things
-from packwork.live.kept import Kept
+from packwork.live.history import SessionState
 from packwork.live.session import Session
 from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
@@ -142,7 +142,7 @@ def _drawing(options: Mapping[str, Any]) -> WriteOptions:
         raise RecipeError(key[:40], first["msg"]) from None
 
 
-def kept_bytes(kept: Kept) -> bytes:
+def kept_bytes(kept: SessionState) -> bytes:
     """A session's file, ``.packwork``, with all that undo and redo lead to."""
     return session_bytes(kept, Things())
 

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from packwork.errors import RecipeError
+from packwork.errors import PackworkError, RecipeError
 from packwork.live.document import Document
-from packwork.live.face.keeping import Keeper
-from packwork.live.file.disk import ENDING, Disk
-from packwork.live.named import NamedSession
+from packwork.live.file.disk import ENDING, Disk, lock_beside
+from packwork.live.session import Session
 from packwork.readers.layouts.read import holds_layout, read_written
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
@@ -91,7 +90,7 @@ def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:
     return {"effort": "draft", **({} if count is None else {"count": count}), **given}
 
 
-def opened(path: Path) -> tuple[NamedSession, Keeper]:
+def opened(path: Path) -> tuple[Session, Keeper]:
     """Session that a file holds, all done again that its journal adds, and what keeps it there.
 
     Raises
@@ -100,10 +99,10 @@ def opened(path: Path) -> tuple[NamedSession, Keeper]:
         If it is no session file, or a spoilt one.
     """
     disk = Disk(path, is_journaled=True)
-    return disk.opened(NamedSession), Keeper(disk)
+    return disk.opened(Session), Keeper(disk)
 
 
-def kept_in(path: Path, session: NamedSession) -> Keeper:
+def kept_in(path: Path, session: Session) -> Keeper:
     """Keeper of a new session in a file.
 
     Raises
@@ -114,3 +113,53 @@ def kept_in(path: Path, session: NamedSession) -> Keeper:
     keeper = Keeper(Disk(path, is_journaled=True))
     keeper.begin(session)
     return keeper
+
+
+LONGEST_JOURNAL = 60_000
+"""Bytes of a journal from which on the file is written anew, in a quiet moment. Larger takes longer
+to be done again after a crash: each gesture as long as it took. Chosen."""
+
+
+def lock_of(file: Path) -> Path:
+    """File whose lock says that somebody works at a session that is kept in ``file``."""
+    return lock_beside(file)
+
+
+class Keeper:
+    """Keeps a session in a file; called in the thread that owns the session."""
+
+    def __init__(self, disk: Disk) -> None:
+        self._disk = disk
+
+    def begin(self, session: Session) -> None:
+        """Write the file, and note from now on what is done.
+
+        Raises
+        ------
+        WriteError
+            If nothing can be written there.
+        """
+        self._disk.save(session)
+
+    @property
+    def is_long(self) -> bool:
+        """Whether the journal is so long that the file should be written anew."""
+        try:
+            return self._disk.journal.stat().st_size > LONGEST_JOURNAL
+        except OSError:
+            return False
+
+    def tidy(self, session: Session) -> None:
+        """Write the file anew, if nothing is held by the hand."""
+        if not session.is_grabbed:
+            self._disk.save(session)
+
+    def end(self, session: Session) -> None:
+        """Write the file a last time, and end the journal."""
+        try:
+            self.tidy(session)
+        except PackworkError:
+            # The journal has it all.
+            return
+        finally:
+            self._disk.close(session)

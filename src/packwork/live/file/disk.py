@@ -21,10 +21,9 @@ from filelock import FileLock, Timeout
 from packwork.errors import ReadError, RecipeError, WriteError
 from packwork.inputs import forget_input
 from packwork.live.document import Document
-from packwork.live.file.archive import MOST_BYTES
-from packwork.live.file.session_file import read_session, session_bytes
+from packwork.live.file.session_file import MOST_BYTES, read_session, session_bytes
 from packwork.live.file.things import Things
-from packwork.live.kept import Kept
+from packwork.live.history import SessionState
 from packwork.live.log import Entry, Log, read_entries
 from packwork.live.session import Session
 from packwork.phrasing import number_of
@@ -200,7 +199,7 @@ class Disk:
                 Path(self._lock.lock_file).unlink()
             self._lock.release()
 
-    def _read(self) -> tuple[Kept, Iterator[Entry]]:
+    def _read(self) -> tuple[SessionState, Iterator[Entry]]:
         """Contents of the file, and the entries that its journal adds."""
         data = read_bytes(self.path, MOST_BYTES)
         forget_input(self.path)

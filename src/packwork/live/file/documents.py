@@ -13,8 +13,8 @@ from packwork.arrays import FloatArray
 from packwork.live.commands.command import FARTHEST, sized
 from packwork.live.commands.items import MOST_ITEMS
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.file.art import colour_of, matrix_of, matrix_record
 from packwork.live.file.records import Text, kept_text
+from packwork.live.file.values import colour_of, matrix_of, matrix_record
 from packwork.live.notes import Attached
 from packwork.live.options import LiveOptions
 from packwork.options import Options

@@ -20,7 +20,7 @@ import numpy as np
 
 from packwork.live.document import Document
 from packwork.live.file.disk import Disk
-from packwork.live.pins import pin_of
+from packwork.live.relayout import pin_of
 from packwork.live.session import Session
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container

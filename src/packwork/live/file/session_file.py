@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import logging
-from collections.abc import Callable, Mapping
+import re
+import zipfile
+import zlib
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from packwork.errors import RecipeError
-from packwork.live.file.archive import packed, unpacked
 from packwork.live.file.documents import (
     MOST_ROWS,
     DocumentRecord,
@@ -21,9 +25,7 @@ from packwork.live.file.documents import (
 )
 from packwork.live.file.records import ContainerRecord, ItemRecord
 from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
-from packwork.live.history import MOST_ENTRIES, UndoHistory
-from packwork.live.kept import Kept
-from packwork.live.marks import Marks
+from packwork.live.history import MOST_ENTRIES, Marks, SessionState, UndoHistory
 from packwork.options import Options
 from packwork.phrasing import number_of
 from packwork.readers.json_text import is_read
@@ -35,6 +37,12 @@ _LOG = logging.getLogger("packwork")
 
 _Path = Annotated[str, Field(pattern=r"^(items|containers)/[0-9a-f]{64}\.json$")]
 _Ids = tuple[Annotated[int, Field(ge=0)], ...]
+
+
+_IN_FILE = {
+    "placed_by_user": "given", "vacated": "left", "recent": "lately", "unpolished": "rough"
+}  # fmt: skip
+"""Names of marks that files have others for."""
 
 
 class MarksRecord(Options):
@@ -71,7 +79,7 @@ class SessionRecord(Options):
     marks: MarksRecord = MarksRecord()
 
 
-def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
+def session_bytes(kept: SessionState, things: Things, follows: str = "") -> bytes:
     """File of a session.
 
     Parameters
@@ -100,7 +108,7 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
     return packed({"session.json": first, **parts})
 
 
-def _record(kept: Kept, things: Things, follows: str) -> SessionRecord:
+def _record(kept: SessionState, things: Things, follows: str) -> SessionRecord:
     past, future = kept.history.past, kept.history.future
     is_unsettled = kept.base is not kept.document
     documents = [*past, kept.document, *future, *([kept.base] if is_unsettled else [])]
@@ -131,7 +139,7 @@ class SessionFile:
         SHA-256 of the file that it has replaced; empty for none.
     """
 
-    kept: Kept
+    kept: SessionState
     follows: str
 
 
@@ -169,17 +177,19 @@ def _read(parts: Mapping[str, bytes]) -> SessionFile:
     history = UndoHistory(documents[: record.present], documents[record.present + 1 :])
     marks = _marks_of(record.marks)
     marks.keep(set(document.ids.tolist()))
-    return SessionFile(Kept(document, base or document, history, marks), record.follows)
+    return SessionFile(SessionState(document, base or document, history, marks), record.follows)
 
 
 def _marks_record(marks: Marks) -> MarksRecord:
-    told = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in asdict(marks).items()}
-    return MarksRecord.model_validate(told)
+    columns = {_IN_FILE.get(name, name): value for name, value in asdict(marks).items()}
+    plain = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in columns.items()}
+    return MarksRecord.model_validate(plain)
 
 
 def _marks_of(record: MarksRecord) -> Marks:
-    told: dict[str, Any] = {k: set(v) if isinstance(v, tuple) else v for k, v in record}
-    return Marks(**told)
+    names = {in_file: name for name, in_file in _IN_FILE.items()}
+    columns: dict[str, Any] = {k: set(v) if isinstance(v, tuple) else v for k, v in record}
+    return Marks(**{names.get(k, k): v for k, v in columns.items()})
 
 
 def _part(parts: Mapping[str, bytes], path: str) -> bytes:
@@ -203,3 +213,110 @@ class _Listed:
     def place(self, thing: object) -> int:
         """Index of a thing among them."""
         return self._places.setdefault(self._path_of(thing), len(self._places))
+
+
+MOST_BYTES = 1_000_000_000
+"""Of a session file, packed and unpacked. Chosen: two hundred photographs."""
+
+MOST_PART_BYTES = 120_000_000
+"""Of one part unpacked: the large and the small copy of a photograph, or six million numbers.
+Larger takes gigabytes once it is read. Derived."""
+
+EASILY_UNPACKED, MOST_FOLD = 100_000_000, 50
+"""Bytes that any file may unpack to, and how many times its own size a larger one may: photographs
+and coordinates are packed by less than ten. Larger lets a small file fill the memory. Chosen."""
+
+MOST_PARTS = 100_010
+"""As many items as a layout may have, and a few. Chosen."""
+
+PART = re.compile(r"session\.json|(items|containers)/[0-9a-f]{64}\.json|fonts/[0-9a-f]{64}")
+"""Names of parts; no others are read."""
+
+_STILL = (1980, 1, 1, 0, 0, 0)
+"""Time of all parts: the same session gives the same bytes."""
+
+
+def packed(parts: Mapping[str, bytes]) -> bytes:
+    """A zip of parts by their paths.
+
+    Examples
+    --------
+    >>> parts = {"session.json": b"{}"}
+    >>> unpacked(packed(parts)) == parts
+    True
+    """
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in parts.items():
+            archive.writestr(zipfile.ZipInfo(name, _STILL), data, zipfile.ZIP_DEFLATED)
+    return file.getvalue()
+
+
+def unpacked(data: bytes) -> Mapping[str, bytes]:
+    """Parts of a zip, each unpacked whenever it is asked for, so that never all are in memory.
+
+    Raises
+    ------
+    UnfitError
+        If it is none, is spoilt, or holds more or larger parts than a session has; of a part, when
+        it is asked for.
+    """
+    return _Parts(data)
+
+
+class _Parts(Mapping[str, bytes]):
+    def __init__(self, data: bytes) -> None:
+        with _refusing():
+            self._archive = zipfile.ZipFile(io.BytesIO(data))
+            self._infos = {info.filename: info for info in self._archive.infolist()}
+            _check_parts(self._archive.infolist(), len(data))
+
+    def __getitem__(self, name: str) -> bytes:
+        info = self._infos[name]
+        with _refusing():
+            return _read_part(self._archive, info)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._infos)
+
+    def __len__(self) -> int:
+        return len(self._infos)
+
+
+@contextlib.contextmanager
+def _refusing() -> Iterator[None]:
+    try:
+        yield
+    except UnfitError:
+        raise
+    except (
+        zipfile.BadZipFile, zlib.error, EOFError, ValueError, OverflowError, NotImplementedError,
+        RuntimeError, OSError, KeyError, IndexError, UnicodeDecodeError,
+    ) as error:  # fmt: skip
+        raise UnfitError(f"is no session file, or a spoilt one ({str(error)[:80]})") from None
+
+
+def _check_parts(infos: list[zipfile.ZipInfo], size: int) -> None:
+    names = [info.filename for info in infos]
+    if len(infos) > MOST_PARTS or len(set(names)) < len(names):
+        raise UnfitError(f"holds {len(infos)} parts; {MOST_PARTS} different ones go")
+    strange = next((name for name in names if not PART.fullmatch(name)), None)
+    if strange is not None:
+        raise UnfitError(f"holds {strange[:60]!r}, which is no part of a session")
+    if any(info.flag_bits & 0x1 for info in infos):
+        raise UnfitError("is locked by a password")
+    if "session.json" not in names:
+        raise UnfitError("is no session file: it has no session.json")
+    most = min(MOST_BYTES, max(EASILY_UNPACKED, MOST_FOLD * size))
+    if sum(info.file_size for info in infos) > most:
+        raise UnfitError(f"unpacks to more than {most // 1_000_000} MB, the most for its size")
+
+
+def _read_part(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:
+    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise UnfitError("is packed in a way that session files are not")
+    with archive.open(info) as part:
+        data = part.read(MOST_PART_BYTES + 1)
+    if len(data) > MOST_PART_BYTES:
+        raise UnfitError(f"holds a part of more than {MOST_PART_BYTES // 1_000_000} MB")
+    return data

@@ -10,16 +10,6 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from packwork.geometry.outline import Outline
-from packwork.live.file.arrays import outline_of, outline_record, points_of, text_of
-from packwork.live.file.art import (
-    art_of,
-    art_record,
-    colour_of,
-    matrix_of,
-    matrix_record,
-    photo_of,
-    photo_record,
-)
 from packwork.live.file.records import (
     BackdropRecord,
     ContainerRecord,
@@ -30,6 +20,19 @@ from packwork.live.file.records import (
     RunRecord,
     WordRecord,
     kept_text,
+)
+from packwork.live.file.values import (
+    art_of,
+    art_record,
+    colour_of,
+    matrix_of,
+    matrix_record,
+    outline_of,
+    outline_record,
+    photo_of,
+    photo_record,
+    points_of,
+    text_of,
 )
 from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
 from packwork.readers.fonts.face import checked_face

@@ -16,8 +16,8 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.document import Document
-from packwork.live.neighbourhood.sights import LevelCache
-from packwork.live.neighbourhood.touching import Touching
+from packwork.live.neighbourhood.caches import LevelCache
+from packwork.live.neighbourhood.contacts import ContactGraph
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -86,25 +86,55 @@ RECALL = 12.0
 
 
 class Flow:
-    """Buffers and moments of the solver between the frames of a session.
+    """The present document, with buffers and moments of the solver between the frames of a session.
 
-    Parameters
-    ----------
-    document
-        Where it begins; given to :meth:`turn_to` when something else than poses has changed.
+    Nothing that takes long is done before :meth:`begin`.
     """
 
-    def __init__(self, document: Document, sights: LevelCache | None = None) -> None:
-        self._sights = sights or LevelCache()
-        self.touching = Touching(document, self._sights)
-        self.turn_to(document)
+    def __init__(self, document: Document, levels: LevelCache | None = None) -> None:
+        self.document = document
+        """As it is now: its poses are those that the flow moves."""
+        self._levels = levels or LevelCache()
+        self._contacts: ContactGraph | None = None
+        self._region = document.container
+        self._reset(document.held)
 
-    def turn_to(self, document: Document) -> None:
-        """Go on with another document; nothing moves until something is stirred."""
-        self._document = document
-        self.poses = document.poses
-        self.touching = self.touching.turned_to(document)
-        self._left = np.zeros(len(document), dtype=np.int64)
+    @property
+    def is_begun(self) -> bool:
+        """Whether anything has been touched."""
+        return self._contacts is not None
+
+    @property
+    def contacts(self) -> ContactGraph:
+        """Contact graph of the items, as of the last :meth:`review`."""
+        if self._contacts is None:
+            raise AssertionError("a flow begins before its neighbours are asked for")
+        return self._contacts
+
+    def begin(self, held: BoolArray | None = None) -> None:
+        """Have the neighbours known, unless they are; ``held`` as for :meth:`turn_to`."""
+        if self._contacts is None:
+            self._contacts = ContactGraph(self.document, self._levels)
+            self.turn_to(self.document, self.document.held if held is None else held)
+
+    def turn_to(self, document: Document, held: BoolArray) -> None:
+        """Go on with another document; nothing moves until something is activated.
+
+        Parameters
+        ----------
+        held
+            ``(n, 3)`` what of each item no epoch changes, as :attr:`Document.held`.
+        """
+        self.document = document
+        if self._contacts is not None:
+            self._contacts = self._contacts.turned_to(document)
+            self._region = self._levels.region(document.container, document.options.padding)
+        self._reset(held)
+
+    def _reset(self, held: BoolArray) -> None:
+        count, document = len(self.document), self.document
+        self._strict = held
+        self._left = np.zeros(count, dtype=np.int64)
         self._given: IntArray = np.zeros(0, dtype=np.int64)
         self._active: IntArray = np.zeros(0, dtype=np.int64)
         self._working: tuple[Level, Motion] | None = None
@@ -112,12 +142,10 @@ class Flow:
         self._since = 0
         self._hardness = 1.0
         self._may: IntArray | None = None
-        self._ring: IntArray = np.zeros(len(document), dtype=np.int64)
-        self._region = self._sights.region(document.container, document.options.padding)
-        self._outlines = [item.outline for item in document.items]
+        self._ring: IntArray = np.zeros(count, dtype=np.int64)
         areas = document.own_areas * document.poses.scale**2
-        self._share = float(np.sqrt(np.median(areas))) if len(areas) else document.container.side
-        self.moved: BoolArray = np.zeros(len(document), dtype=bool)
+        self._share = float(np.sqrt(np.median(areas))) if count else document.container.side
+        self.moved: BoolArray = np.zeros(count, dtype=bool)
         """``(n,)`` which items were given other places, or have flowed, since the last turn."""
 
     @property
@@ -128,17 +156,18 @@ class Flow:
 
     def _rung(self, finer: float) -> int:
         """Pixels of a level so many times finer than the usual one, or about that."""
-        pixels = finer * PIXELS * self._document.container.side / self._share
+        pixels = finer * PIXELS * self.document.container.side / self._share
         # What a level sees is kept: few levels are made anew.
         rung = round(RUNGS * np.log2(max(pixels, 1.0) / COARSEST))
         return int(np.clip(round(COARSEST * 2 ** (rung / RUNGS)), COARSEST, FINEST))
 
     def make_ready(self) -> None:
         """Have levels seen before the hand comes: nothing that is asked for depends on it."""
-        everything = np.arange(len(self._outlines))
+        self.begin()
+        everything = np.arange(len(self.document))
         for finer in (1.0, FINER):
             resolution = self._rung(finer)
-            self._sights.free_space(self._region, resolution)
+            self._levels.free_space(self._region, resolution)
             self._seen_of(everything, resolution)
 
     @property
@@ -146,11 +175,11 @@ class Flow:
         """Whether nothing would move."""
         return not self._left.any()
 
-    def give(self, items: IntArray, poses: Poses) -> None:
-        """Put items ``(m,)`` where the hand has them, ``poses`` of all: others make room."""
-        self._given, self.poses = items, poses
+    def make_way(self, items: IntArray) -> None:
+        """Have items ``(m,)`` stay where the document has them by now: the others make room."""
+        self._given, poses = items, self.document.poses
         self.moved[items] = True
-        self.touching.follow(items, poses)
+        self.contacts.follow(items, poses)
         _, mine, theirs = np.intersect1d(items, self._active, return_indices=True)
         if self._working is not None and len(mine) == len(items):
             self._working[1].put(theirs, poses.subset(items[mine]))
@@ -163,33 +192,34 @@ class Flow:
         self._given = items
         self._since = REVIEW
 
-    def stir(self, items: IntArray) -> None:
+    def activate(self, items: IntArray) -> None:
         """Let items ``(m,)`` flow, and those beside them."""
         self._reach(items, 1, LINGER)
         self._since = REVIEW
 
-    def bring_in(self, items: IntArray) -> None:
+    def project_inside(self, items: IntArray) -> None:
         """Put those of items ``(m,)`` whose middles lie outside to the nearest place inside."""
         region = valid(self._region.outline.region)
-        x, y = self.poses.x.copy(), self.poses.y.copy()
+        poses = self.document.poses
+        x, y = poses.x.copy(), poses.y.copy()
         for k in items:
-            if self._document.held[k, 0] or shapely.intersects_xy(region, x[k], y[k]):
+            if self._strict[k, 0] or shapely.intersects_xy(region, x[k], y[k]):
                 continue
             way = shapely.shortest_line(region, shapely.Point(x[k], y[k]))
             x[k], y[k] = shapely.get_coordinates(way)[0]
             self.moved[k] = True
-        self.poses = replace(self.poses, x=x, y=y)
-        self.touching.follow(items, self.poses)
+        self.document = self.document.with_poses(replace(poses, x=x, y=y))
+        self.contacts.follow(items, self.document.poses)
         self._since = REVIEW
 
-    def rule(self, document: Document) -> None:
-        """Go on with other rules, names or colours; poses and outlines are the same."""
-        self._document = document
+    def set_rules(self, document: Document, held: BoolArray) -> None:
+        """Go on with other rules, names or colours, of the same outlines; ``held`` as above."""
+        self.document, self._strict = document, held
         self._since = REVIEW
 
     def review(self) -> None:
         """Bring the neighbours up to date."""
-        self.touching.follow(np.flatnonzero(self.moved), self.poses)
+        self.contacts.follow(np.flatnonzero(self.moved), self.document.poses)
 
     def run(self, epochs: int, resolution: int | None = None) -> None:
         """Run some epochs; at rest none does anything."""
@@ -203,7 +233,7 @@ class Flow:
                 working = self._rebuilt(resolution)
             self._epoch(*working)
 
-    def harden(self, epochs: int, items: IntArray) -> None:
+    def raise_overlap_weight(self, epochs: int, items: IntArray) -> None:
         """Run some epochs of items ``(m,)`` in which overlap counts ever more, as a run's last."""
         self._left[:] = 0
         self._left[items] = epochs
@@ -215,36 +245,38 @@ class Flow:
         self._hardness, self._may = 1.0, None
 
     def put_back(self, items: IntArray, poses: Poses) -> None:
-        """Have items ``(m,)`` be where they were before they flowed, ``poses`` of all."""
-        self.poses = self.poses.with_some(items, poses.subset(items))
+        """Have items ``(m,)`` be where they were before they flowed; ``poses`` of these."""
+        document = self.document
+        self.document = document.with_poses(document.poses.with_some(items, poses))
         self.moved[items] = False
         self._left[items] = 0
-        self.touching.follow(items, self.poses)
+        self.contacts.follow(items, self.document.poses)
         self._since = REVIEW
 
     def _epoch(self, level: Level, motion: Motion) -> None:
         weights = {k: w if k == "filling" else w * self._hardness for k, w in WEIGHTS.items()}
-        weights["evenness"] = self._document.options.evenness
+        weights["evenness"] = self.document.options.evenness
         gradient = level.gradient(motion.poses, weights, RECALL * self._hardness)
         motion.follow(gradient, max(int(self._left.max()) / LINGER, CALMEST))
-        self.poses = self._kept(motion.poses)
+        self.document = self.document.with_poses(self._kept(motion.poses))
         self._since += 1
         self._left = np.maximum(self._left - 1, 0)
 
     def _kept(self, moved: Poses) -> Poses:
         """All poses after those that are active have moved; what is held, bit for bit as it was."""
-        active, held, before = self._active, self._is_held, self.poses.subset(self._active)
+        active, held, poses = self._active, self._is_held, self.document.poses
+        before = poses.subset(active)
         columns = (
             (held[:, 0], "x"), (held[:, 0], "y"), (held[:, 1], "angle"), (held[:, 2], "scale")
         )  # fmt: skip
         kept = {n: np.where(m, getattr(before, n), getattr(moved, n)) for m, n in columns}
-        return self.poses.with_some(active, replace(before, **kept))
+        return poses.with_some(active, replace(before, **kept))
 
     def _reach(self, items: IntArray, most: int, left: int) -> None:
         """Have what is within some rings of items ``(m,)`` go on for so many epochs at least."""
         if len(self._active):
-            self.touching.follow(self._active, self.poses)
-        found = self.touching.rings(items, most)
+            self.contacts.follow(self._active, self.document.poses)
+        found = self.contacts.rings(items, most)
         reached = found >= 0
         self._ring = np.where(reached, found, self._ring)
         self._left[reached] = np.maximum(self._left[reached], left)
@@ -254,15 +286,15 @@ class Flow:
         self._since = 0
         if len(self._given) and self._may is None:
             self._reach(self._given, RINGS, int(self._left.max()))
-        before, was, document = self._working, self._active, self._document
+        before, was, document = self._working, self._active, self.document
         active = np.flatnonzero(self._left)
         if self._may is not None:
             active = np.intersect1d(active, self._may)
         self._active = active
-        held = document.held[active] | np.isin(active, self._given)[:, None]
+        held = self._strict[active] | np.isin(active, self._given)[:, None]
         # What may not move is a wall to a settle: turned or sized here, it could not be mended.
         self._is_held = held | held[:, :1]
-        some, side = self.poses.subset(active), document.container.side
+        some, side = document.poses.subset(active), document.container.side
         level = Level(
             document.container, self._seen_of(active, resolution), resolution,
             forces=document.forces(active), free_space=self._room(active, resolution),
@@ -278,28 +310,27 @@ class Flow:
 
     def _seen_of(self, items: IntArray, resolution: int) -> list[Outline]:
         """Outlines of some items as a level sees them."""
-        document = self._document
-        outlines = [self._outlines[k] for k in items]
+        document = self.document
+        outlines = [document.items[k].outline for k in items]
         px_per_cu, margin = resolution / document.container.side, document.options.padding / 2
-        return self._sights.outlines(outlines, self.poses.subset(items), px_per_cu, margin)
+        return self._levels.outlines(outlines, document.poses.subset(items), px_per_cu, margin)
 
     def _room(self, active: IntArray, resolution: int) -> FreeSpace:
         """Room that the items that stand still leave free."""
-        free_space = self._sights.free_space(self._region, resolution)
-        still = np.setdiff1d(np.arange(len(self._outlines)), active)
+        free_space = self._levels.free_space(self._region, resolution)
+        still = np.setdiff1d(np.arange(len(self.document)), active)
         if len(still) == 0:
             return free_space
         ensemble = Ensemble(self._seen_of(still, resolution))
         rasteriser = Rasteriser(free_space.room.shape)
-        points = ensemble.place(
-            self.poses.subset(still), resolution / self._document.container.side
-        )
+        poses = self.document.poses.subset(still)
+        points = ensemble.place(poses, resolution / self.document.container.side)
         rasteriser.sweep(points, ensemble.ring_starts)
         return free_space.less(rasteriser.density())
 
     def _limits(self, active: IntArray) -> Limits:
-        document, count, held = self._document, len(active), self._is_held
-        some = self.poses.subset(active)
+        document, count, held = self.document, len(active), self._is_held
+        some = document.poses.subset(active)
         free = Limits.free(count)
         turns = document.options.rotation.farthest
         return replace(
@@ -317,7 +348,7 @@ class Flow:
         )
 
     def _options(self) -> SolveOptions:
-        document = self._document
+        document = self.document
         options = document.options
         return SolveOptions(
             sizes="free" if options.sizes == "free" else "fixed",

@@ -26,10 +26,9 @@ from packwork.geometry.overlay import (
     union_of_layout,
     valid,
 )
-from packwork.live.change import differing
-from packwork.live.document import Document
-from packwork.live.neighbourhood.shapes import ShapeCache
-from packwork.live.neighbourhood.touching import Touching
+from packwork.live.document import Document, differing
+from packwork.live.neighbourhood.caches import ShapeCache
+from packwork.live.neighbourhood.contacts import ContactGraph
 from packwork.options import SizeMode
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
@@ -74,7 +73,7 @@ def settle(
     document: Document,
     touched: IntArray,
     given: IntArray,
-    touching: Touching,
+    contacts: ContactGraph,
     shapes: ShapeCache,
     stop: Stop = never,
 ) -> Settled:
@@ -86,7 +85,7 @@ def settle(
         ``(m,)`` indices of items that have moved, turned, grown, or are new.
     given
         ``(g,)`` those among them that lie as the hand has left them, and are to stay so.
-    touching
+    contacts
         Neighbours, at the present poses.
     """
     is_still = document.held[:, 0].copy()
@@ -101,7 +100,7 @@ def settle(
         found = _finished(document, movable, shapes, stop)
         if found.is_clean or stop():
             break
-        first = touching.beside(first)
+        first = contacts.beside(first)
     return found
 
 

@@ -1,27 +1,31 @@
-"""Changes that take several commands: another number of items, another list of words."""
+"""Macros: commands for another number of items, another list of words, the colours of a picture."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from packwork.errors import RecipeError
-from packwork.live.assets import named_item
-from packwork.live.commands.command import Command, Library, made
-from packwork.live.commands.items import Add, Remove, Replace, Weigh
+from packwork.live.commands.command import Command, made, named_item
+from packwork.live.commands.items import Add, Recolour, Remove, Replace, Weigh
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
-from packwork.live.neighbourhood.shapes import ShapeCache
-from packwork.live.neighbourhood.voids import widest_places
+from packwork.live.neighbourhood.places import widest_places
 from packwork.phrasing import enumerated
+from packwork.readers.target import read_target
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.scene.colour import hex_colour
-from packwork.scene.item import Item
+from packwork.scene.item import Item, PhotoArt
 from packwork.scene.recolour import one_colour, recoloured
+from packwork.steps.mosaic import colours_under
 from packwork.uses.words.recipe import words_recipe
+
+if TYPE_CHECKING:
+    from packwork.live.session import Session
 
 SAME = 1e-6
 """By how much, relatively, a weight may differ and be the same. Derived: rounding."""
@@ -30,28 +34,26 @@ ALIKE = 0.003
 """By how much a word's figure may differ where its letters are the same: files round. Chosen."""
 
 
-def brought(
-    document: Document, library: Library, shapes: ShapeCache, items: Iterable[Item]
-) -> Iterator[Add]:
+def brought(session: Session, items: Iterable[Item]) -> Iterator[Add]:
     """Commands that bring items to where most room is, as large as it is good for.
 
     What is there already comes with the weight that it has there, all else with its own, in the
     document's unit.
     """
+    document = session.document
     there = dict(zip(reversed(document.items), reversed(document.weights.tolist()), strict=True))
     unit = _unit_of(document)
     pairs = [(item, there.get(item, item.weight * unit)) for item in items]
-    yield from weighed(document, library, shapes, pairs)
+    yield from weighed(session, pairs)
 
 
-def weighed(
-    document: Document, library: Library, shapes: ShapeCache, pairs: Iterable[tuple[Item, float]]
-) -> Iterator[Add]:
+def weighed(session: Session, pairs: Iterable[tuple[Item, float]]) -> Iterator[Add]:
     """The same for items with weights in the document's unit."""
-    places = widest_places(document, shapes)
+    document = session.document
+    places = widest_places(document, session.shapes)
     for (item, weight), (x, y, radius) in zip(pairs, places, strict=False):
         area = first_area(document, radius, weight)
-        asset = named_item(library, item)
+        asset = named_item(session.library, item)
         yield made(Add, asset=asset, x=x, y=y, area=area, weight=weight)
 
 
@@ -82,18 +84,17 @@ def first_area(document: Document, radius: float, weight: float) -> float:
     return float(np.clip(np.pi * radius**2, least, usual))
 
 
-def counted(
-    document: Document, library: Library, shapes: ShapeCache, count: int
-) -> Iterator[Command]:
+def counted(session: Session, count: int) -> Iterator[Command]:
     """Commands after which there are so many items.
 
     What is most there goes first, the last of it, and nothing that is held; of what is least there
     copies come.
     """
+    document = session.document
     present = Counter(document.items)
     more = count - len(document)
     if more > 0:
-        yield from brought(document, library, shapes, _scarcest(present, more))
+        yield from brought(session, _scarcest(present, more))
     elif more < 0:
         yield made(Remove, items=_spared(document, present, -more))
 
@@ -121,9 +122,7 @@ def words_of(document: Document, source: object, options: Mapping[str, Any]) -> 
     return read_word_items(asked)
 
 
-def worded(
-    document: Document, library: Library, shapes: ShapeCache, read: WordsRead, *, is_lettered: bool
-) -> Iterator[Command]:
+def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[Command]:
     """Commands after which the words are those of another list, with its weights.
 
     Words that stay are the same items; new ones come in the colours of the others, in turn.
@@ -133,6 +132,7 @@ def worded(
     is_lettered
         Whether how words are set was asked for: those that stay then take on the new letters.
     """
+    document = session.document
     now = {item.name: share for item, share in zip(read.items, read.areas, strict=True)}
     words = [k for k in range(len(document)) if is_word(document, k)]
     rows: dict[str, int] = {}
@@ -151,7 +151,7 @@ def worded(
         if name in letters and _is_set_otherwise(document.items[k], letters[name]):
             item, colour = letters[name], one_colour(document.items[k].art)
             item = item if colour is None else recoloured(item, hex_colour(colour))
-            asset = named_item(library, item)
+            asset = named_item(session.library, item)
             yield made(Replace, item=int(document.ids[k]), asset=asset)
     for name, k in rows.items():
         weight = unit * now[name]
@@ -162,7 +162,7 @@ def worded(
     weights = [unit * now[item.name] for item in new]
     if colours:
         new = [recoloured(one, hex_colour(colours[k % len(colours)])) for k, one in enumerate(new)]
-    yield from weighed(document, library, shapes, zip(new, weights, strict=True))
+    yield from weighed(session, zip(new, weights, strict=True))
     if gone:
         yield made(Remove, items=tuple(int(document.ids[k]) for k in gone))
 
@@ -217,3 +217,30 @@ def _spared(document: Document, present: Counter[Item], count: int) -> tuple[int
         present[document.items[k]] -= 1
         gone.append(int(document.ids[k]))
     return tuple(gone)
+
+
+def showing(document: Document, source: str) -> Together:
+    """Commands that give each item the colour of the picture under it; photographs keep theirs.
+
+    For gaps of any colour: what ``--picture`` makes up for is that of a ground of its own.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read, is clear, or has one colour only.
+    RecipeError
+        If there is nothing whose colour could be changed.
+    """
+    target = read_target(source, document.container)
+    colours = colours_under(document.layout, target)
+    triples = zip(document.ids.tolist(), document.items, colours, strict=True)
+    commands = tuple(
+        Recolour(items=(number,), colour=colour)
+        for number, item, colour in triples
+        if not isinstance(item.art, PhotoArt)
+    )
+    if not commands:
+        raise RecipeError(
+            "picture", "needs items whose colours may change; photographs keep theirs"
+        )
+    return Together(commands=commands)

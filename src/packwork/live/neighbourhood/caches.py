@@ -1,4 +1,4 @@
-"""Rasters of outlines and containers per level, kept for a whole session.
+"""Shapes kept for a whole session: covers of outlines, and rasters of them per level.
 
 All that is kept depends on what was asked alone, on nothing that was asked before: a session that
 is done again, without what was broken off, sees the same.
@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from packwork.compaction.arrangement import FINE
 from packwork.compaction.outer_simplify import Covers
 from packwork.geometry.affine import stretched
 from packwork.geometry.outline import Outline
@@ -19,6 +20,30 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.free_space import FreeSpace
 from packwork.solve.outlines import MARGIN_RUNGS, Seen, seen_posed
+
+
+class ShapeCache:
+    """Covers of outlines, as fine as the last rounds of an exact finish have them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> tile = Outline.from_rings([np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.0001], [0, 4]])])
+    >>> shapes = ShapeCache()
+    >>> len(shapes.cover(tile).points), shapes.cover(tile) is shapes.cover(tile)
+    (4, True)
+    """
+
+    def __init__(self) -> None:
+        self._covers = Covers()
+        self._known: dict[Outline, Outline] = {}
+
+    def cover(self, outline: Outline) -> Outline:
+        """The outline with fewer vertices, holding all of it; made once."""
+        if outline not in self._known:
+            self._known[outline] = self._covers.cover(outline, FINE * outline.extent)
+        return self._known[outline]
+
 
 ROUGH = 0.03
 """Tolerance of the covers by which neighbours are found, shares of an item's extent. Larger is

@@ -21,21 +21,16 @@ import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
-from packwork.live.anew import poured_again
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
-from packwork.live.face.keeping import Keeper
-from packwork.live.face.opening import Opening, kept_in, opened
-from packwork.live.face.pouring import in_place, poured, poured_into
-from packwork.live.named import NamedSession
+from packwork.live.face.opening import Keeper, Opening, kept_in, opened
 from packwork.live.owner import Frame, Owner
-from packwork.live.running import Moment
+from packwork.live.relayout import Moment, in_place, poured, poured_again, poured_into
+from packwork.live.session import Session
 from packwork.scene.pose import Poses
 from packwork.studio.view import Scenes, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
-
-Session = NamedSession
 
 News = Line | Variant
 """What all pages are told beside what there is to be seen."""
@@ -67,7 +62,7 @@ class Shown:
     done: int
 
 
-class Desk:
+class Workspace:
     """Desk that pages look at and work on."""
 
     def __init__(self, opening: Opening) -> None:
@@ -205,7 +200,7 @@ class Desk:
         Parameters
         ----------
         asked
-            Where items are to lie, as :func:`packwork.live.anew.poured_again` has it.
+            Where items are to lie, as :func:`packwork.live.relayout.poured_again` has it.
         """
         if self.owner is None:
             raise PackworkError(NOT_YET)
@@ -256,9 +251,9 @@ class Desk:
             layout = poured(
                 opening.recipe, lambda moment: self._see(View.of_moment(moment), moment)
             )
-            session = NamedSession(Document.of(layout))
+            session = Session(Document.of(layout))
         elif opening.document is not None:
-            session = NamedSession(opening.document)
+            session = Session(opening.document)
         else:
             return
         if opening.file is None:
@@ -271,7 +266,7 @@ class Desk:
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()
         self.owner = owner
-        owner.call(NamedSession.make_ready)
+        owner.call(Session.make_ready)
 
     def _kept(self, file: Path, session: Session) -> Keeper | None:
         """Keeper of a session; None, and a line, if it cannot be kept."""

@@ -1,11 +1,8 @@
-"""Nearest places at which items lie inside, at the sizes and angles that they have.
-
-The places of an item are the container eroded by it (J. Serra, "Image Analysis and Mathematical
-Morphology", Academic Press 1982): here exact, and by its convex hull, which holds the item.
-"""
+"""Places for items: the widest voids, and the nearest places at which an item lies inside."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -16,8 +13,45 @@ from packwork.geometry.overlay import buffered, difference, union, union_of_layo
 from packwork.geometry.polygon import Region
 from packwork.geometry.simplify import hull
 from packwork.live.document import PROPERTIES, Document
+from packwork.live.neighbourhood.caches import ShapeCache
 from packwork.live.neighbourhood.settle import gap_of
-from packwork.live.neighbourhood.shapes import ShapeCache
+
+FINENESS = 0.005
+"""How far the middle of the largest disc may be off, shares of the canvas. Chosen."""
+
+
+EMPTY = 1e-6
+"""Share of the container's area that is no room any more. Chosen."""
+
+
+def widest_places(document: Document, shapes: ShapeCache) -> Iterator[tuple[float, float, float]]:
+    """Middles and radii of the largest discs that no item and no disc before lies in.
+
+    Without end: where nothing is free any more, items are taken for not there.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> layout = fill("square", "circle", count=1, epochs=20, levels="50")
+    >>> x, y, radius = next(widest_places(Document.of(layout), ShapeCache()))
+    >>> 0 < radius < 300
+    True
+    """
+    covers = [
+        shapes.cover(item.outline).mapped(document.poses.matrix(k)).region
+        for k, item in enumerate(document.items)
+    ]
+    whole = valid(document.container.outline.region)
+    left = difference(whole, union_of_layout(covers)) if covers else whole
+    while True:
+        if left.area <= EMPTY * whole.area:
+            left = whole
+        line = shapely.maximum_inscribed_circle(left, tolerance=FINENESS * document.container.side)
+        (x, y), (edge_x, edge_y) = shapely.get_coordinates(line)
+        radius = float(np.hypot(edge_x - x, edge_y - y))
+        yield float(x), float(y), radius
+        left = difference(left, buffered(shapely.Point(x, y), radius))
+
 
 HALVINGS = 7
 """Sizes that are tried where an item is too large for all places. More come nearer to the largest,

@@ -20,9 +20,9 @@ from filelock import FileLock, Timeout
 
 from packwork.errors import PackworkError
 from packwork.folders import private_folder
-from packwork.live.face.keeping import lock_of
+from packwork.live.face.opening import lock_of
 
-MOST_DESKS = 8
+MOST_WORKSPACES = 8
 """Desks that are kept; then the one that was left alone for longest is written over. Chosen."""
 
 ENDING = ".packwork"
@@ -31,7 +31,7 @@ _KEY = re.compile("[0-9a-f]{64}")
 
 
 @dataclass(frozen=True)
-class KeptDesk:
+class KeptWorkspace:
     """A desk on disk.
 
     Parameters
@@ -66,14 +66,14 @@ class KeptDesk:
                     json.dump({"port": port, "key": key}, out)
 
 
-def of_file(file: Path) -> KeptDesk:
+def of_file(file: Path) -> KeptWorkspace:
     """Desk of a session file that somebody has named."""
     folder = private_folder("studio")
     name = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:16]
-    return KeptDesk(file, None if folder is None else folder / f"{name}.json")
+    return KeptWorkspace(file, None if folder is None else folder / f"{name}.json")
 
 
-def new() -> KeptDesk | None:
+def new() -> KeptWorkspace | None:
     """A desk that nothing is on, or the one left alone for longest; None if none may be kept.
 
     None that somebody works at, however long it was left alone.
@@ -81,18 +81,18 @@ def new() -> KeptDesk | None:
     folder = private_folder("studio")
     if folder is None:
         return None
-    files = [folder / f"desk-{number}{ENDING}" for number in range(1, MOST_DESKS + 1)]
+    files = [folder / f"desk-{number}{ENDING}" for number in range(1, MOST_WORKSPACES + 1)]
     for file in sorted(files, key=_last_taken):
         with contextlib.suppress(Timeout, OSError), FileLock(lock_of(file), blocking=False):
             # From now on another that begins sees it as taken, until its session holds the lock.
             os.utime(lock_of(file))
             for one in (file, file.with_name(file.name + ".log")):
                 one.unlink(missing_ok=True)
-            return KeptDesk(file, file.with_suffix(".json"))
+            return KeptWorkspace(file, file.with_suffix(".json"))
     return None
 
 
-def last() -> KeptDesk:
+def last() -> KeptWorkspace:
     """The desk that was used last.
 
     Raises
@@ -103,7 +103,7 @@ def last() -> KeptDesk:
     found = max(_known(), key=_last_used, default=None)
     if found is None:
         raise PackworkError("there is no desk to go on with; leave --again out")
-    return KeptDesk(found, found.with_suffix(".json"))
+    return KeptWorkspace(found, found.with_suffix(".json"))
 
 
 def _known() -> Iterator[Path]:

@@ -8,7 +8,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.broad_phase import pairs_of
 from packwork.live.document import Document
-from packwork.live.neighbourhood.sights import LevelCache
+from packwork.live.neighbourhood.caches import LevelCache
 from packwork.scene.pose import Poses
 
 REACH = 0.6
@@ -17,19 +17,19 @@ one. Larger stirs more items, smaller does not see across the gap that a gesture
 Chosen."""
 
 
-class Touching:
+class ContactGraph:
     """Neighbours of items in their present places, found at a cost that follows what is asked."""
 
-    def __init__(self, document: Document, sights: LevelCache | None = None) -> None:
-        self._sights = sights = sights or LevelCache()
+    def __init__(self, document: Document, levels: LevelCache) -> None:
+        self._levels = levels
         poses = document.poses
         shapes = [item.outline for item in document.items]
-        outlines = sights.covers(shapes, poses.stretch.tolist())
+        outlines = levels.covers(shapes, poses.stretch.tolist())
         self._arrangement = Arrangement(outlines, document.container.outline, places_of(poses))
         self._document = document
         self.reach = _reach_of(document)
 
-    def turned_to(self, document: Document) -> Touching:
+    def turned_to(self, document: Document) -> ContactGraph:
         """Neighbours in another document: these, brought up to date, where no shape is another."""
         before, now = self._document, places_of(document.poses)
         if (
@@ -40,7 +40,7 @@ class Touching:
             )
             or (before.poses.stretch != document.poses.stretch).any()
         ):
-            return Touching(document, self._sights)
+            return ContactGraph(document, self._levels)
         changed = np.flatnonzero((now != self._arrangement.places).any(axis=1))
         self._arrangement.put(changed, now[changed])
         self._document = document

@@ -6,8 +6,8 @@ import numpy as np
 
 import packwork as pw
 from packwork.live.document import Document
+from packwork.live.neighbourhood.caches import LevelCache
 from packwork.live.neighbourhood.flow import Flow
-from packwork.live.neighbourhood.sights import LevelCache
 from packwork.scene.pose import Poses
 
 
@@ -20,7 +20,7 @@ def test_what_was_asked_before_changes_nothing() -> None:
     before, fresh = LevelCache(), LevelCache()
     before.outlines([outline], _poses(1.02), 2.0, 0.3)
     one, other = (
-        sights.outlines([outline], _poses(0.98), 2.0, 0.3)[0] for sights in (before, fresh)
+        levels.outlines([outline], _poses(0.98), 2.0, 0.3)[0] for levels in (before, fresh)
     )
     assert np.array_equal(one.points, other.points)
 
@@ -30,8 +30,9 @@ def test_a_flow_that_was_made_ready_flows_as_one_that_was_not(dozen: pw.Layout) 
     flows = Flow(document), Flow(document)
     flows[0].make_ready()
     for flow in flows:
-        flow.stir(np.arange(3))
+        flow.begin()
+        flow.activate(np.arange(3))
         flow.run(20)
-    one, other = (flow.poses for flow in flows)
+    one, other = (flow.document.poses for flow in flows)
     assert np.array_equal(one.x, other.x)
     assert np.array_equal(one.scale, other.scale)

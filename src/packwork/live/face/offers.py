@@ -1,0 +1,270 @@
+"""Things offered to a page: settings, items, containers, fonts and palettes; and their drawings."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, get_args
+
+from packwork.errors import ReadError
+from packwork.fonts import installed_families
+from packwork.geometry.outline import Outline
+from packwork.live.options import LiveOptions
+from packwork.options import SizeMode, offered
+from packwork.readers.builtin import (
+    NAMES,
+    builtin_container,
+    builtin_item,
+    container_names,
+    icon_names,
+)
+from packwork.readers.container import read_container
+from packwork.readers.items import ItemsRead, read_items
+from packwork.recipe import Recipe
+from packwork.scene.colour import css_colour
+from packwork.scene.container import Container
+from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.notation import decimals, matrix_text, path_data
+from packwork.scene.palette import PALETTES
+
+RANGES: Mapping[str, tuple[float, float, float]] = {
+    "size_ratio": (1.0, 6.0, 0.1), "evenness": (0.0, 20.0, 0.5), "padding": (0.0, 20.0, 0.5)
+}  # fmt: skip
+"""Least, most and step of sliders. The field itself takes more. Chosen."""
+
+CHOICES: Mapping[str, tuple[str, ...]] = {
+    "sizes": get_args(SizeMode), "rotate": ("free", "none", "15", "30", "90")
+}  # fmt: skip
+"""What is offered to be chosen from."""
+
+
+@dataclass(frozen=True)
+class FormField:
+    """One number or choice.
+
+    Parameters
+    ----------
+    choices
+        What it may be; empty for a number.
+    range
+        Least, most and step of a number; empty for a choice.
+    """
+
+    name: str
+    help: str
+    choices: tuple[str, ...] = ()
+    range: tuple[float, ...] = ()
+    default: Any = field(default=None)
+
+
+def form_fields() -> tuple[FormField, ...]:
+    """Settings that hold for all items, in the order of the fields.
+
+    Examples
+    --------
+    >>> [one.name for one in form_fields()]
+    ['padding', 'sizes', 'size_ratio', 'rotate', 'evenness']
+    """
+    known = {option.name: option.help for option in offered(Recipe)}
+    return tuple(
+        FormField(
+            name,
+            known.get(name) or one.description or "",
+            CHOICES.get(name, ()),
+            RANGES.get(name, ()),
+            one.default,
+        )
+        for name, one in LiveOptions.model_fields.items()
+        if name in CHOICES or name in RANGES
+    )
+
+
+@dataclass(frozen=True)
+class BuiltIn:
+    """Something bundled, as it is offered.
+
+    Parameters
+    ----------
+    outline
+        Of a container on a square of 100; None of items.
+    """
+
+    name: str
+    item: Item | None = None
+    outline: Outline | None = None
+
+
+def offered_containers() -> tuple[BuiltIn, ...]:
+    """Bundled containers, drawings first.
+
+    Examples
+    --------
+    >>> "heart" in {one.name for one in offered_containers()}
+    True
+    """
+    names = sorted(_plain(container_names()), key=lambda name: (name in NAMES, name))
+    return tuple(BuiltIn(name, outline=builtin_container(name, 100.0).outline) for name in names)
+
+
+def offered_items() -> tuple[BuiltIn, ...]:
+    """Bundled icons, then plain shapes.
+
+    Examples
+    --------
+    >>> offered_items()[0].name
+    'anchor'
+    """
+    names = [*icon_names(), *(name for name in _plain(NAMES) if name not in icon_names())]
+    return tuple(BuiltIn(name, item=builtin_item(name)) for name in names)
+
+
+def _plain(names: Sequence[str]) -> list[str]:
+    """Names without those that are one of many sizes."""
+    return [name for name in names if ":" not in name]
+
+
+def items_of(sources: Sequence[str]) -> ItemsRead:
+    """Items of bundled names and of folders of files that were given.
+
+    Raises
+    ------
+    ReadError
+        If nothing of them is an item.
+    """
+    return read_items(sources)
+
+
+def offered_fonts() -> tuple[str, ...]:
+    """Families that words can be set in, as the machine has them.
+
+    Examples
+    --------
+    >>> "inter display" in offered_fonts()
+    True
+    """
+    return tuple(sorted(installed_families()))
+
+
+def offered_palettes() -> dict[str, tuple[str, ...]]:
+    """Colours that words can have, by the names of the palettes."""
+    return dict(PALETTES)
+
+
+def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
+    """Container of a bundled name, ``text:WORD`` or a file that was given.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be used.
+    """
+    return read_container(source, canvas, font=font)
+
+
+def only_file(folder: Path) -> Path:
+    """The one file of a folder.
+
+    Raises
+    ------
+    ReadError
+        If there are several.
+    """
+    files = sorted(folder.iterdir())
+    if len(files) != 1:
+        raise ReadError("container", f"is one file, not {len(files)}; drop one")
+    return files[0]
+
+
+FINENESS = 1e-3
+"""By how much a silhouette may be off on the page, as a share of its extent: it is clicked on and
+marked by, not measured. Larger shows corners, smaller is longer on its way. Chosen."""
+
+INK_FINENESS = 2e-4
+"""The same where the path is the drawing. Chosen."""
+
+MARGIN = 0.01
+"""Free edge of a drawing, as a share of its extent: soft edges reach beyond the ink. Chosen."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing:
+    """Drawing of one item, in its own units.
+
+    Parameters
+    ----------
+    key
+        The same for all that look so.
+    outline
+        Its silhouette, as path data.
+    box
+        Left, top, right and bottom of the drawing.
+    fill
+        Colour of ``ink``; empty where ``svg`` tells.
+    ink
+        What is drawn, as path data; empty where ``svg`` tells.
+    svg
+        A whole document, cleaned, of the size of ``box``; empty where the ink in one colour is all.
+    """
+
+    key: str
+    outline: str
+    box: tuple[float, float, float, float]
+    fill: str
+    ink: str
+    svg: str
+
+
+def drawing_of(item: Item) -> Drawing:
+    """Drawing of an item.
+
+    Examples
+    --------
+    >>> from packwork.readers.builtin import builtin_item
+    >>> star = drawing_of(builtin_item("star"))
+    >>> star.fill, star.svg, len(star.box)
+    ('#1f6f78ff', '', 4)
+    """
+    outline = path_of(item.outline, FINENESS)
+    left, top, right, bottom = item.ink.bounds
+    edge = MARGIN * max(right - left, bottom - top)
+    box = (left - edge, top - edge, right + edge, bottom + edge)
+    art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
+    fill = ink = svg = ""
+    if isinstance(art, FlatArt):
+        fill, ink = _seen(art.fill), path_of(item.ink, INK_FINENESS)
+    else:
+        svg = _document(f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g>', box)
+    said = "\0".join((outline, fill, ink, svg)).encode()
+    key = hashlib.sha256(said).hexdigest()[:24]
+    return Drawing(key=key, outline=outline, box=box, fill=fill, ink=ink, svg=svg)
+
+
+def path_of(outline: Outline, fineness: float) -> str:
+    """Path data of an outline that is off by no more than a share of its extent.
+
+    Examples
+    --------
+    >>> path_of(Outline.box(0.0, 0.0, 9.0, 4.0), 0.01).count(" ")
+    7
+    """
+    step = fineness * outline.extent
+    region = outline.region.simplify(step)
+    plain = Outline.from_region(region) if not region.is_empty and region.area > 0 else outline
+    return path_data(plain, decimals(step / 4))
+
+
+def _seen(colour: str) -> str:
+    """A colour as hex digits, opacity with it."""
+    return "#" + "".join(f"{channel:02x}" for channel in css_colour(colour))
+
+
+def _document(inside: str, box: tuple[float, float, float, float]) -> str:
+    left, top, right, bottom = box
+    width, height = right - left, bottom - top
+    return (
+        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+        f' width="{width:.6g}" height="{height:.6g}"'
+        f' viewBox="{left:.6g} {top:.6g} {width:.6g} {height:.6g}">{inside}</svg>'
+    )

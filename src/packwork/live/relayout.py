@@ -1,0 +1,317 @@
+"""Runs of a session: the same items put anew, in an order, by likeness or chance; or others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from packwork import threads, uses
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.live.commands.command import Command, Library, made, named_container, named_item
+from packwork.live.commands.container import SetContainer, SetOption
+from packwork.live.commands.items import Add, Remove
+from packwork.live.commands.placing import Arrange
+from packwork.live.document import Document
+from packwork.live.options import LiveOptions
+from packwork.pipeline import run
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.copies import ItemRules, RuleSource
+from packwork.pipeline.plan.vectors import ItemVectors
+from packwork.precompile import warm_up_once
+from packwork.progress import Step, Stop, never
+from packwork.recipe import Recipe, make_recipe
+from packwork.recipe.order import FROM_TEXT
+from packwork.recipe.rules import Pin, Rule
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+
+BY_TEXT = FROM_TEXT
+"""Stands for vectors that are made from the text of the words."""
+
+HOLD = RuleSource("hold")
+"""What asks for pins, where a message says it."""
+
+
+def poured_again(
+    document: Document,
+    seed: int,
+    shown: Shown = lambda _: None,
+    stop: Stop = never,
+    **asked: str | Sequence[str],
+) -> Arrange:
+    """The same items in the same container, from other first places: a command that puts them so.
+
+    What is held stays where it is, and the others lie about it; where it has no room there, it
+    is in nobody's way until they settle.
+
+    Parameters
+    ----------
+    asked
+        Where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
+        ``anchors``.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If that has no meaning for these items.
+    """
+    is_by_text = asked.get("embeddings") == BY_TEXT
+    job = job_again(document, seed, {} if is_by_text else asked)
+    if is_by_text:
+        job = replace(job, vectors=_vectors_by_text(document, asked))
+    try:
+        layout, kept = run_shown(replace(job, asked=_asked(document)), shown, stop)
+    except RecipeError as error:
+        if error.key != HOLD.key:
+            raise
+        layout, kept = run_shown(job, shown, stop)
+    return arranged(document.ids[kept].tolist(), layout.poses)
+
+
+def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
+    """A run of the items of a document in its container."""
+    recipe = _recipe(document, seed, asked)
+    return uses.read(recipe, _weighed(document), document.container)
+
+
+def _asked(document: Document) -> tuple[ItemRules, ...]:
+    """Rules that holds make for each item, as pins do."""
+    rules = [pin_of(document, k) for k in range(len(document))]
+    return tuple(
+        ItemRules().merged(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)
+        if pin
+        else ItemRules()
+        for item, pin in zip(document.items, rules, strict=True)
+    )
+
+
+def _vectors_by_text(document: Document, asked: Mapping[str, Any]) -> ItemVectors:
+    """Vectors of words, by the text that the run had which made the layout."""
+    recipe = document.manifest.get("recipe")
+    known = recipe.get("words") if isinstance(recipe, Mapping) else None
+    if not isinstance(known, Mapping) or not known.get("source"):
+        raise RecipeError(
+            "embeddings", f"{BY_TEXT} is for words of a text; give a file of vectors here"
+        )
+    given = {key: value for key, value in known.items() if value is not None and key != "source"}
+    words = uses.words_recipe("page", known.get("source"), **given, **asked)
+    found = uses.read(words, None, document.container)
+    by_word = {item.name: row for item, row in zip(found.items, _rows(found), strict=True)}
+    items = document.items
+    nothing = np.zeros_like(next(iter(by_word.values())))
+    rows = np.array([by_word.get(item.name, nothing) for item in items])
+    is_known = np.array([item.name in by_word for item in items])
+    anchors = found.vectors.anchors if found.vectors is not None else ()
+    return ItemVectors.of_rows(items, rows, is_known, anchors=anchors)
+
+
+def _rows(job: Job) -> FloatArray:
+    if job.vectors is None:
+        raise AssertionError("a run by embeddings has vectors")
+    return job.vectors.of(job.items)
+
+
+def canvas_of(document: Document) -> str:
+    """Canvas of a document, as options say it."""
+    container = document.container
+    return f"{container.width:.17g}x{container.height:.17g}{container.unit}"
+
+
+def arranged(numbers: Sequence[int], poses: Poses) -> Arrange:
+    """Command that puts items to poses, by their numbers."""
+    columns = (poses.x, poses.y, np.degrees(poses.angle), poses.scale)
+    asked = np.column_stack(columns).tolist()
+    return made(Arrange, items=tuple(numbers), poses=[tuple(pose) for pose in asked])
+
+
+def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
+    """A draft with the numbers of a document."""
+    options = document.options
+    return make_recipe(
+        container="page",
+        items=["circle"],
+        count=len(document),
+        effort="draft",
+        seed=seed,
+        canvas=canvas_of(document),
+        padding=f"{options.padding:.17g}{document.container.unit}",
+        sizes=options.sizes,
+        size_ratio=options.size_ratio,
+        rotate=options.rotate,
+        force=options.force,
+        **asked,
+    )
+
+
+def _weighed(document: Document) -> list[Item]:
+    """Items of a document, each with the weight that it has there."""
+    pairs = zip(document.items, _positive(document.weights), strict=True)
+    return [replace(item, weight=weight) for item, weight in pairs]
+
+
+def _positive(weights: FloatArray) -> list[float]:
+    """Weights, those of fillers, which ask for nothing, as small as the smallest other."""
+    least = float(weights[weights > 0].min(initial=math.inf))
+    positive = np.where(weights > 0, weights, least if math.isfinite(least) else 1.0)
+    return [float(weight) for weight in positive]
+
+
+EPOCHS_BETWEEN = 3
+"""Epochs between two moments that are shown. Fewer take time from the run, more jump. Chosen."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Moment:
+    """View of a run on its way.
+
+    Parameters
+    ----------
+    poses
+        As many as items; None before they have a place.
+    progress
+        From 0 to 1.
+    stage
+        Which part of the run this is, as steps name it.
+    """
+
+    container: Container
+    items: tuple[Item, ...]
+    poses: Poses | None
+    progress: float
+    stage: str
+
+
+Shown = Callable[[Moment], object]
+
+
+def run_shown(job: Job, shown: Shown, stop: Stop = never) -> tuple[Layout, IntArray]:
+    """Layout of a run, every moment of it shown, and which of its items are in it."""
+    shown(_moment(job, None, 0.0, "read"))
+    with threads.using(job.recipe.threads):
+        warm_up_once()
+        done = run(job, _Watcher(job, shown), stop)
+    return done.layout, np.arange(len(job.items)) if done.kept is None else np.asarray(done.kept)
+
+
+class _Watcher:
+    """Shows moments of a run."""
+
+    every = EPOCHS_BETWEEN
+
+    def __init__(self, job: Job, shown: Shown) -> None:
+        self._job, self._shown = job, shown
+
+    def on_step(self, step: Step) -> None:
+        """Show it, unless other items are there by now than were read."""
+        count = len(self._job.items)
+        poses = step.poses if step.ids is None and len(step.poses) == count else None
+        if poses is not None:
+            self._shown(_moment(self._job, poses, step.progress, step.stage))
+
+
+def _moment(job: Job, poses: Poses | None, progress: float, stage: str) -> Moment:
+    return Moment(
+        container=job.container, items=job.items, poses=poses, progress=progress, stage=stage
+    )
+
+
+def pin_of(document: Document, k: int) -> dict[str, str | float]:
+    """Held parts of the pose of row ``k``, as ``pin`` of a rule has it; empty if there are none."""
+    poses, (place, angle, size) = document.poses, document.held[k]
+    unit = document.container.unit
+    pin: dict[str, str | float] = {}
+    if place:
+        pin |= {"x": f"{poses.x[k]:.17g}{unit}", "y": f"{poses.y[k]:.17g}{unit}"}
+    if angle:
+        pin["angle"] = math.degrees(poses.angle[k])
+    if size:
+        pin["size"] = f"{document.items[k].outline.extent * poses.scale[k]:.17g}{unit}"
+    return pin
+
+
+def poured(recipe: Recipe, shown: Shown, stop: Stop = never) -> Layout:
+    """Layout of a recipe, every moment of its run shown.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning for these files.
+    """
+    job = uses.read(recipe)
+    return run_shown(job, shown, stop)[0]
+
+
+def poured_into(
+    document: Document,
+    use: str,
+    source: str,
+    options: Mapping[str, Any],
+    shown: Shown,
+    stop: Stop = never,
+) -> Layout:
+    """Other items in the container of a document: a run of their own.
+
+    Parameters
+    ----------
+    use
+        ``items``, ``words`` or ``photos``.
+    source
+        Of them: a folder or a bundled name, or the file of a text or a table.
+    options
+        ``count``, items in all, and of words ``font`` and ``palette``; what is None the use
+        decides by itself.
+
+    Raises
+    ------
+    ReadError
+        If nothing of them can be used.
+    """
+    given: dict[str, Any] = {"effort": "draft", "canvas": canvas_of(document)}
+    given |= {name: value for name, value in options.items() if value is not None}
+    if use == "words":
+        recipe = uses.words_recipe("page", source, **given)
+    elif use == "photos":
+        recipe = uses.photos_recipe("page", [source], **given)
+    else:
+        recipe = make_recipe(container="page", items=[source], **given)
+    return run_shown(uses.read(recipe, None, document.container), shown, stop)[0]
+
+
+def in_place(document: Document, library: Library, layout: Layout) -> list[Command]:
+    """Commands after which the items of a layout are there, and none of those before."""
+    options = LiveOptions.of(layout.manifest)
+    poses, container = layout.poses, layout.container
+    kept = ("padding", "sizes", "size_ratio", "rotate")
+    asked = [
+        made(SetOption, name=name, value=getattr(options, name))
+        for name in kept
+        if getattr(options, name) != getattr(document.options, name)
+    ]
+    brought = [
+        made(
+            Add,
+            asset=named_item(library, replace(item, weight=float(weight))),
+            x=float(poses.x[k]),
+            y=float(poses.y[k]),
+            area=item.outline.area * float(poses.scale[k]) ** 2,
+            angle=math.degrees(poses.angle[k]),
+        )
+        for k, (item, weight) in enumerate(zip(layout.items, layout.weights, strict=True))
+    ]
+    other = (
+        []
+        if container is document.container
+        else [made(SetContainer, asset=named_container(library, container))]
+    )
+    return [*other, *brought, made(Remove, items=tuple(document.ids.tolist())), *asked]

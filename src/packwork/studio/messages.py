@@ -1,0 +1,364 @@
+"""Messages of a page: of each its fields, and what it has done.
+
+``schema()`` is what both ends are checked against: the page's own list of messages, ``wire.js``, is
+written from it.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+
+from pydantic import Field, TypeAdapter, ValidationError
+
+from packwork.errors import PackworkError
+from packwork.live import edits
+from packwork.live.commands.command import Command, ItemIds, made, named_container, named_item
+from packwork.live.commands.container import SetContainer
+from packwork.live.commands.items import Replace
+from packwork.live.commands.together import AnyCommand
+from packwork.live.face.offers import container_of, items_of
+from packwork.live.macros import brought
+from packwork.live.owner import Leap
+from packwork.live.relayout import BY_TEXT
+from packwork.live.session import Session
+from packwork.scene.container import Container, on_canvas
+from packwork.studio.importer import FILES
+from packwork.studio.wire import SAID, Message
+from packwork.units import canvas_size
+
+if TYPE_CHECKING:
+    from packwork.studio.tab import Tab
+
+MOST_TEXT = 1_000_000
+"""Characters of a message at most: a container's outline of 20,000 points. Chosen."""
+
+MOST_AT_ONCE = 24
+"""Items that are put into the largest voids one by one; of more, all are poured anew. Chosen."""
+
+SAME = "same"
+"""What the container of now is called."""
+
+Count32: TypeAlias = Annotated[int, Field(ge=0, lt=2**32)]
+Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
+Place: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
+Weight: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Font: TypeAlias = Annotated[str, Field(max_length=200)]
+
+
+class PageRequest(Message):
+    """A message of a page."""
+
+    type: str
+
+    @abstractmethod
+    def act(self, tab: Tab) -> None:
+        """Do what the page asks for."""
+
+
+class Do(PageRequest):
+    """Do a command."""
+
+    type: Literal["do"] = "do"
+    n: Count32
+    """Number of the command, counted by the page."""
+    command: AnyCommand
+
+    def act(self, tab: Tab) -> None:
+        """Post it."""
+        tab.post(self.command, self.n)
+
+
+class LeapMessage(PageRequest):
+    """Go through the history."""
+
+    type: Literal["leap"] = "leap"
+    n: Count32
+    """Its number, in one count with the page's commands."""
+    to: Literal["undo", "redo"]
+
+    def act(self, tab: Tab) -> None:
+        """Post it."""
+        tab.post(Leap(self.to), self.n)
+
+
+class Ack(PageRequest):
+    """A frame has come: the next may."""
+
+    type: Literal["ack"] = "ack"
+    frame: Count32
+
+    def act(self, tab: Tab) -> None:
+        """Let the next frame go."""
+        tab.ack(self.frame)
+
+
+class Pour(PageRequest):
+    """Fill the container anew with the same items, from other first places."""
+
+    type: Literal["pour"] = "pour"
+    seed: Annotated[int, Field(ge=0, lt=2**31)]
+
+    def act(self, tab: Tab) -> None:
+        """Have a run."""
+        tab.workspace.pour(self.seed)
+
+
+class Stop(PageRequest):
+    """End what takes long, with what there is."""
+
+    type: Literal["stop"] = "stop"
+
+    def act(self, tab: Tab) -> None:
+        """End it."""
+        tab.workspace.stop()
+
+
+class Count(PageRequest):
+    """Have so many items."""
+
+    type: Literal["count"] = "count"
+    count: Annotated[int, Field(ge=1, le=10_000)]
+
+    def act(self, tab: Tab) -> None:
+        """Have copies come, or items go."""
+        tab.workspace.change(lambda session: edits.count(session, self.count))
+
+
+class Bring(PageRequest):
+    """Bring items: bundled ones by name, or files that were sent before."""
+
+    type: Literal["bring"] = "bring"
+    sources: Annotated[tuple[Annotated[str, Field(max_length=200)], ...], Field(min_length=1)]
+    x: Place | None = None
+    y: Place | None = None
+
+    def act(self, tab: Tab) -> None:
+        """Read them, and put them where most room is, or there."""
+        tab.importer.read(partial(self._bring, tab))
+
+    def _bring(self, tab: Tab) -> None:
+        workspace, importer = tab.workspace, tab.importer
+        found = items_of([importer.source(one) for one in self.sources])
+        for left_out in found.skipped:
+            workspace.say(f"left out: {importer.without_folder(str(left_out))}", is_error=False)
+        items, at = found.items, (self.x, self.y)
+        if len(items) == 1 and None not in at:
+            workspace.change(lambda session: edits.add(session, items, *at))
+        elif len(items) <= MOST_AT_ONCE:
+            workspace.change(lambda session: edits.add(session, items))
+        else:
+            workspace.pour(0, lambda session: list(brought(session, items)))
+
+
+class Swap(PageRequest):
+    """Put another item in the place of some."""
+
+    type: Literal["swap"] = "swap"
+    items: ItemIds
+    source: Annotated[str, Field(max_length=200)]
+
+    def act(self, tab: Tab) -> None:
+        """Read it, and put it there."""
+        tab.importer.read(partial(self._swap, tab))
+
+    def _swap(self, tab: Tab) -> None:
+        (item, *_) = items_of([tab.importer.source(self.source)]).items
+
+        def put(session: Session) -> None:
+            asset = named_item(session.library, item)
+            session.do_together(made(Replace, item=k, asset=asset) for k in self.items)
+
+        tab.workspace.change(put)
+
+
+class Room(PageRequest):
+    """Fill another container.
+
+    It is a bundled one, ``text:WORD``, a file that was sent before, or ``same``: that of now on
+    another canvas.
+    """
+
+    type: Literal["room"] = "room"
+    source: Name
+    font: Font | None = None
+    """Of a word: an installed family, or a file that was sent before."""
+    canvas: Annotated[str, Field(max_length=40)] | None = None
+    """Its size, as on the command line; that of now if None."""
+
+    def act(self, tab: Tab) -> None:
+        """Read it, and have a run."""
+        tab.importer.read(partial(self._pour, tab))
+
+    def _pour(self, tab: Tab) -> None:
+        container = self._container(tab)
+
+        def make(session: Session) -> list[Command]:
+            return [made(SetContainer, asset=named_container(session.library, container))]
+
+        tab.workspace.pour(0, make)
+
+    def _container(self, tab: Tab) -> Container:
+        shown = tab.workspace.shown
+        if self.source == SAME and self.canvas is not None and shown is not None:
+            return on_canvas(shown.view.container, canvas_size(self.canvas))
+        canvas = self.canvas or tab.workspace.canvas
+        importer = tab.importer
+        return container_of(importer.container(self.source), canvas, importer.font(self.font))
+
+
+class Fill(PageRequest):
+    """Fill the container with other items, all of those there taken away."""
+
+    type: Literal["fill"] = "fill"
+    use: Literal["items", "words", "photos"]
+    source: Name
+    count: Annotated[int, Field(ge=1, le=2_000)] | None = None
+    font: Font | None = None
+    """Of words, as of a container."""
+    palette: Annotated[str, Field(max_length=200)] | None = None
+    """Of words."""
+
+    def act(self, tab: Tab) -> None:
+        """Have a run of what is read."""
+        tab.importer.read(partial(self._fill, tab), "Pouring")
+
+    def _fill(self, tab: Tab) -> None:
+        importer, options = tab.importer, dict[str, Any](count=self.count)
+        source = importer.source(self.source)
+        if self.use == "words":
+            source = importer.file(self.source) if self.source.startswith(FILES) else source
+            options |= {"font": importer.font(self.font), "palette": self.palette}
+        tab.workspace.fill(self.use, source, options)
+
+
+class Picture(PageRequest):
+    """Have the items show a picture by their colours."""
+
+    type: Literal["picture"] = "picture"
+    source: Name
+
+    def act(self, tab: Tab) -> None:
+        """Read it, and colour the items."""
+
+        def read() -> None:
+            file = tab.importer.file(self.source)
+            tab.workspace.change(lambda session: edits.picture(session, file))
+
+        tab.importer.read(read)
+
+
+class Order(PageRequest):
+    """Put all anew in an order along a way; no measure of a file, which a page cannot name."""
+
+    type: Literal["order"] = "order"
+    way: Literal["right", "left", "down", "up", "outwards", "inwards", "around", "along"]
+    by: Literal["weight", "hue", "lightness", "name"]
+
+    def act(self, tab: Tab) -> None:
+        """Have a run."""
+        asked = {"arrange": f"{self.way} by={self.by}"}
+        tab.importer.read(lambda: tab.workspace.pour_now(asked), "Pouring")
+
+
+class Alike(PageRequest):
+    """Put all anew, like items side by side, by vectors in a file that was sent before."""
+
+    type: Literal["alike"] = "alike"
+    source: Name
+    """The file, or ``auto``: of words, by their text."""
+
+    def act(self, tab: Tab) -> None:
+        """Have a run."""
+
+        def read() -> None:
+            source = self.source if self.source == BY_TEXT else tab.importer.file(self.source)
+            tab.workspace.pour_now({"embeddings": source})
+
+        tab.importer.read(read, "Pouring")
+
+
+class Words(PageRequest):
+    """Have these words with these weights; those that stay keep their places."""
+
+    type: Literal["words"] = "words"
+    words: Annotated[tuple[tuple[Name, Weight], ...], Field(min_length=1, max_length=2_000)]
+    font: Font | None = None
+
+    def act(self, tab: Tab) -> None:
+        """Set them, and change those that are others."""
+
+        def read() -> None:
+            font = tab.importer.font(self.font)
+            options = {} if font is None else {"fonts": [font]}
+            words = dict(self.words)
+            tab.workspace.change(lambda session: edits.words(session, words, **options))
+
+        tab.importer.read(read)
+
+
+class More(PageRequest):
+    """Try the same items from other first places, beside what there is."""
+
+    type: Literal["more"] = "more"
+    seed: Annotated[int, Field(ge=0, lt=2**30)]
+
+    def act(self, tab: Tab) -> None:
+        """Have a run of each."""
+        tab.workspace.try_more(self.seed)
+
+
+class Set(PageRequest):
+    """Set numbers for all items, as people write them."""
+
+    type: Literal["set"] = "set"
+    options: dict[Annotated[str, Field(max_length=40)], str | float | tuple[str, ...]]
+
+    def act(self, tab: Tab) -> None:
+        """Set them."""
+        tab.workspace.change(lambda session: edits.set(session, **self.options))
+
+
+Told: TypeAlias = Annotated[
+    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Order
+    | Alike | Words | More | Set,
+    Field(discriminator="type"),
+]  # fmt: skip
+"""What a page says."""
+
+TOLD: TypeAdapter[Told] = TypeAdapter(Told)
+
+
+class UnreadableError(PackworkError):
+    """A message that means nothing; its text is a line for people."""
+
+
+def read(text: str) -> Told:
+    """Message that a page has sent.
+
+    Raises
+    ------
+    UnreadableError
+        If it is none.
+
+    Examples
+    --------
+    >>> read('{"type": "ack", "frame": 4}')
+    Ack(type='ack', frame=4)
+    """
+    if len(text) > MOST_TEXT:
+        raise UnreadableError(f"a message of {len(text)} characters is too long")
+    try:
+        return TOLD.validate_json(text)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        where = ".".join(str(part)[:40] for part in first["loc"][:6])
+        raise UnreadableError(f"message: {where or 'it'}: {first['msg'][:120]}") from None
+    except (ValueError, RecursionError):
+        raise UnreadableError("message: cannot be read") from None
+
+
+def schema() -> dict[str, Any]:
+    """JSON schema of all messages, both ways."""
+    return {"told": TOLD.json_schema(), "said": SAID.json_schema()}
