@@ -11,9 +11,12 @@ from __future__ import annotations
 import importlib
 import sys
 
+from packwork.readers import layouts as _layouts
+
 # Not from ``typing``: its import takes ten milliseconds in which Ctrl-C would be a traceback.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from pathlib import Path
     from typing import Any
 
     from packwork.api.albums import photos
@@ -35,6 +38,7 @@ if TYPE_CHECKING:
     from packwork.raster.colour import render_colour, render_colour_pullback
     from packwork.raster.coverage import coverage as render
     from packwork.raster.coverage import coverage_pullback as render_pullback
+    from packwork.scene import layout as scene
     from packwork.scene.container import Container
     from packwork.scene.item import FlatArt, Item
     from packwork.scene.pose import Poses
@@ -142,6 +146,16 @@ if not TYPE_CHECKING:
             raise AttributeError(f"module 'packwork' has no attribute {name!r}")
         module, attribute = _HOMES[name].split(":")
         return getattr(importlib.import_module(module), attribute)
+
+
+def _layout_of_session(path: str | Path) -> scene.Layout:
+    """Layout in a session's file: readers lie below sessions, so theirs is handed to them."""
+    from packwork.live.file.disk import layout_in
+
+    return layout_in(path)
+
+
+_layouts.HANDED_IN[".packwork"] = _layout_of_session
 
 
 def __dir__() -> list[str]:

@@ -1,1 +1,14 @@
-"""Layouts read back from SVG, DXF and GeoJSON files that Packwork wrote."""
+"""Layouts read back from SVG, DXF and GeoJSON files that Packwork wrote, and from sessions."""
+
+from __future__ import annotations
+
+# Not from ``typing``, which takes long to load: the package itself loads this.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from packwork.scene.layout import Layout
+
+HANDED_IN: dict[str, Callable[[str | Path], Layout]] = {}
+"""Readers of files that only packages above this one know, by their endings."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from importlib import import_module
 from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES, parse_xml
+from packwork.readers.layouts import HANDED_IN
 from packwork.readers.layouts.dxf import layout_of_dxf
 from packwork.readers.layouts.foreign_svg import group_named
 from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
@@ -22,10 +22,7 @@ which paths."""
 
 
 SESSION = ".packwork"
-"""Ending of session files: layouts with all that undo leads to."""
-
-READER_OF_SESSIONS = "packwork.live.file.disk"
-"""Module with ``layout_in``, which reads these: it stands above this one, and is loaded late."""
+"""Ending of session files: layouts with all that undo leads to. Their reader is handed in."""
 
 
 def is_drawn(path: str | Path) -> bool:
@@ -85,8 +82,7 @@ def read_written(path: str | Path) -> Layout:
     if not isinstance(path, str | os.PathLike):
         raise RecipeError("layout", f"is {type(path).__name__}; give a layout or its file")
     if is_session(path):
-        layout: Layout = import_module(READER_OF_SESSIONS).layout_in(path)
-        return layout
+        return HANDED_IN[SESSION](path)
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
         raise ReadError(
