@@ -143,7 +143,7 @@ def test_a_save_while_items_flow_does_not_forget_where_they_lay(tmp_path: Path) 
         session.apply(Drop())
         if is_saved:
             session.save(tmp_path / "a.packwork")
-        ways.append((session.settle().moved, session.marks.rough))
+        ways.append((session.settle().moved, session.marks.unpolished))
     assert ways[1] == ways[0]
 
 

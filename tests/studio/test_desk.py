@@ -13,6 +13,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import PackworkError
+from packwork.live import edits
 from packwork.live.face.opening import Opening, opening_of
 from packwork.studio import wire
 from packwork.studio.files import Exporter
@@ -318,7 +319,7 @@ def test_pages_are_told_what_is_poor_though_it_is_certified(play) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
-        desk.change(lambda session: session.cover("8%"))
+        desk.change(lambda session: edits.cover(session, "8%"))
         await page.until(lambda: page.is_certified and page.last("state")["advice"])
         assert "would show it" in page.last("state")["advice"][0]
 
