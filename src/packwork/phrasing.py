@@ -36,3 +36,15 @@ def enumerated(names: Sequence[str], most: int = MOST_NAMED) -> str:
     """
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + more
+
+
+def one_of(*choices: str) -> str:
+    """Choices with commas between them, and ``or`` before the last.
+
+    Examples
+    --------
+    >>> one_of("a"), one_of("a", "b", "c")
+    ('a', 'a, b or c')
+    """
+    *others, last = choices
+    return f"{', '.join(others)} or {last}" if others else last

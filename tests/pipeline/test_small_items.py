@@ -13,8 +13,8 @@ from packwork.pipeline.run import RunContext
 from packwork.pipeline.state import RunState
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
-from packwork.steps.finish import DWARF, TellOfSmall, dwarfs_told_apart
-from packwork.steps.shortfalls import SPECK, shortfalls
+from packwork.steps.finish import DWARF, dwarfs_told_apart
+from packwork.steps.shortfalls import SPECK, TellShortfalls
 from packwork.uses import fill, read
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
@@ -45,7 +45,7 @@ def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
     assert found.undersized == ()
     # Of several attempts that of the one that is kept is told alone.
     assert not caplog.records
-    TellOfSmall().run(found, RunContext())
+    TellShortfalls().run(found, RunContext())
     assert [record.getMessage() for record in caplog.records] == [
         "2 items are smaller than --size-ratio 2 allows, star by 50 %"
     ]
@@ -53,9 +53,10 @@ def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
 
 def test_all_that_are_far_too_small_are_one_sentence() -> None:
     job = job_of(5)
-    assert shortfalls(sized(job, [0.1, 0.2, 0.1, 0.2, 0.05])) == (
+    (found,) = TellShortfalls().run(sized(job, [0.1, 0.2, 0.1, 0.2, 0.05]), RunContext()).findings
+    assert str(found) == (
         "5 items (star) came out up to 20 times smaller than the typical item, "
-        "--size-ratio 2 allows less; use fewer items",
+        "--size-ratio 2 allows less; use fewer items"
     )
 
 

@@ -17,8 +17,7 @@ from packwork.recipe import make_recipe
 from packwork.steps.control import BestOf, Replan, Retry, UnlessTight
 
 PLAIN = [
-    "Place", "StartRecording", "UnlessTight", "Finish", "TellOfSmall", "TellShortfalls",
-    "Measure", "Advise", "KeepTrack",
+    "Place", "Levels", "Finish", "TellShortfalls", "Measure", "Advise",
 ]  # fmt: skip
 
 
@@ -31,7 +30,7 @@ def names(**options: Any) -> list[str]:
     return [type(step).__name__ for step in one.use.steps(one)]
 
 
-def test_a_plain_run_is_nine_steps() -> None:
+def test_a_plain_run_is_six_steps() -> None:
     assert names() == PLAIN
 
 
@@ -45,6 +44,7 @@ def test_a_plain_run_is_nine_steps() -> None:
         ({"target_coverage": 0.8}, {"FillVoids"}),
         ({"stroke_width": "even"}, {"FinishThinner", "EvenLines"}),
         ({"count": "auto"}, {"RemarkCount"}),
+        ({"least_dpi": 90}, {"TellCoarse"}),
     ],
 )
 def test_each_wish_is_a_step_of_its_own(options: dict[str, Any], more: set[str]) -> None:
@@ -56,6 +56,12 @@ def test_each_wish_is_a_step_of_its_own(options: dict[str, Any], more: set[str])
     assert set(extra) == more
 
 
+def test_a_film_is_recorded_by_steps_of_its_own() -> None:
+    one = replace(job(), is_recorded=True)
+    found = [type(step).__name__ for step in one.use.steps(one)]
+    assert [name for name in found if name not in PLAIN] == ["StartRecording", "KeepTrack"]
+
+
 def test_a_picture_is_shown_by_steps_of_its_own(tmp_path: Any) -> None:
     Image.linear_gradient("L").save(tmp_path / "grey.png")
     extra = set(names(picture=str(tmp_path / "grey.png"))) - set(PLAIN)
@@ -64,7 +70,7 @@ def test_a_picture_is_shown_by_steps_of_its_own(tmp_path: Any) -> None:
 
 def test_without_an_exact_finish_nothing_of_it_is_listed() -> None:
     assert names(finish="none") == [
-        name for name in PLAIN if name not in {"Finish", "TellOfSmall", "TellShortfalls"}
+        name for name in PLAIN if name not in {"Finish", "TellShortfalls"}
     ]
 
 
@@ -76,9 +82,9 @@ class Grow(RunStep):
     def __init__(self, factor: float) -> None:
         self._factor = factor
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         poses = replace(state.poses, scale=state.poses.scale * self._factor)
-        watch.observer.on_step(
+        context.observer.on_step(
             Step(0, 1, 1, 1, 1.0, poses, lambda: (0.0, 0.0, 0.0), stage="levels")
         )
         return replace(state, poses=poses)
@@ -100,8 +106,8 @@ def state() -> RunState:
     return replace(found, poses=replace(found.poses, scale=np.ones(3)))
 
 
-def largest(tried: Any, watch: RunContext) -> RunState:
-    del watch
+def largest(tried: Any, context: RunContext) -> RunState:
+    del context
     return max(tried, key=lambda one: one.poses.scale[0])
 
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+import re
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -20,7 +23,8 @@ from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.steps.advice import Advise, advice
+from packwork.steps.measure import RemarkCount
+from packwork.steps.shortfalls import Advise
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.icons import KnownContainer
 from packwork.uses.piles.recipe import pile_recipe
@@ -50,7 +54,9 @@ def advised(recipe: Recipe, container: Container, seen: ShapeMetrics = TAILLESS)
     job = uses.read(recipe, container=container)
     one = np.ones(len(job.items))
     layout = Layout(container, job.items, Poses(one, one, one * 0, one), one)
-    return " ".join(advice(job, len(layout.items), seen))
+    metrics = cast(Any, SimpleNamespace(seen=seen))
+    state = replace(RunState.of(job), layout=layout, metrics=metrics)
+    return " ".join(map(str, Advise().run(state, RunContext()).findings))
 
 
 def test_thin_parts_take_more_items() -> None:
@@ -107,7 +113,8 @@ def test_auto_runs_and_says_what_it_chose() -> None:
         for _ in range(2)
     ]
     assert [len(run.layout.items) for run in runs] == [LEAST, LEAST]
-    assert runs[0].remarks[0].startswith(f"auto chose {LEAST} items, to reach into parts ")
+    # What is the least that there are reaches into parts of no width.
+    assert runs[0].remarks == (f"auto chose {LEAST} items",)
     assert runs[0].report()["remarks"] == list(runs[0].remarks)
     assert runs[0].layout.manifest["recipe"]["count"] == "auto"
 
@@ -116,7 +123,19 @@ def test_auto_words_are_those_that_there_are() -> None:
     asked = words_recipe("heart", {"ox": 2, "bee": 1}, count="auto")
     job = uses.read(asked)
     assert [item.name for item in job.items] == ["ox", "bee"]
-    assert RemarkWords().run(RunState.of(job), RunContext()).remarks == ("auto chose 2 words",)
+    (found,) = RemarkWords().run(RunState.of(job), RunContext()).findings
+    assert str(found) == "auto chose 2 words"
+
+
+def test_the_width_is_told_that_gave_the_number() -> None:
+    def told(container: Container, **options: Any) -> str:
+        job = uses.read(recipe(count="auto", **options), container=container)
+        return str(RemarkCount().run(RunState.of(job), RunContext()).findings[0])
+
+    told_tail = told(with_tail(6))
+    assert re.fullmatch(r"auto chose \d+ items, to reach into parts \d.* px wide", told_tail)
+    # As many as there are.
+    assert told(round_container(), items=["icons"]).endswith(" items")
 
 
 def test_a_good_result_gets_no_advice() -> None:
@@ -155,8 +174,12 @@ def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     weights = {f"word{k}": float(90 - k) for k in range(70)}
     few = words_recipe("tail", weights, count=9)
     assert "; -n 70 would show more of it; --sizes graded, " in advised(few, with_tail(4))
-    every = words_recipe("tail", weights)
+    every = words_recipe("tail", weights, sizes="shared")
     assert "; --sizes graded, " in advised(every, with_tail(4))
+    # Automatic sizes have tried that.
+    assert "; --target-coverage 0.6," in advised(words_recipe("tail", weights), with_tail(4))
+    most = words_recipe("tail", weights, count=65)
+    assert "-n 70" not in advised(most, with_tail(4))
     six = words_recipe("tail", dict(list(weights.items())[:6]))
     assert "--sizes graded" not in advised(six, with_tail(4))
     assert "; --target-coverage 0.6," in advised(six, with_tail(4))

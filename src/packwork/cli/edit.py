@@ -185,7 +185,7 @@ def _written(
     console = Paper(quiet)
     with printing():
         console.print(metrics_table(metrics, made.container.unit))
-        console.print(certificate_line(True, certified), soft_wrap=True)
+        console.print(certificate_line(True, certified, broken=faults), soft_wrap=True)
         names = ", ".join(printable(str(path)) for path, _ in files)
         console.print(f"wrote {names}", soft_wrap=True)
     on_trust = on_trust_in(files, made) if certified else []

@@ -231,24 +231,8 @@ def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
         say(f"not placed: {line}")
     if len(lines) < len(run.unplaced) or len(lines) > MOST_NAMED:
         say(f"not placed: {len(run.unplaced)} items in all; --report names them")
-    share = float(run.layout.areas.sum()) / run.layout.container.outline.area
-    if run.unplaced and share > 1:
-        say(
-            f"the items' area is {share:.1f} times the container's; "
-            "use fewer, a larger --canvas or --sizes free"
-        )
-    for fault in run.broken:
-        say(f"{fault}")
-    if run.is_rough:
-        exact = run.metrics.exact
-        option = "--effort" if run.layout.manifest["recipe"]["time"] is None else "--time"
-        remedy = f"try more {option}, fewer items or --sizes free"
-        if was_cut_short:
-            remedy = "let it run to its end"
-        say(
-            f"still rough: {100 * exact.overlap:.1f} % of the container is covered "
-            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; {remedy}"
-        )
+    for sentence in run.complaints(was_cut_short):
+        say(sentence)
 
 
 def run_chosen(

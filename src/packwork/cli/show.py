@@ -72,7 +72,8 @@ def show_results(
         console.print(filling_line(results["filling"]), style="dim")
     if results["pile"] is not None:
         console.print(pile_line(results["pile"]), style="dim")
-    console.print(certificate_line(results["promised"], results["certified"]))
+    promised, certified = results["promised"], results["certified"]
+    console.print(certificate_line(promised, certified, broken=results["broken"]))
     for sentence in results["advice"]:
         console.print(f"but {sentence}", soft_wrap=True)
     console.print(f"wrote {', '.join(written)}", soft_wrap=True)
@@ -105,18 +106,28 @@ def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
     return table
 
 
-def certificate_line(was_promised: bool, certified: bool, *, changed: bool = False) -> str:
+def certificate_line(
+    was_promised: bool, certified: bool, *, changed: bool = False, broken: Sequence[str] = ()
+) -> str:
     """Certificate of a layout on one line; of a file that was changed, that it was.
 
     Examples
     --------
     >>> certificate_line(True, True)
     'certified: nothing overlaps, nothing sticks out'
+    >>> certificate_line(True, False, broken=["a.svg: what is written cannot be read back: ..."])
+    'not certified: what is written cannot be read back'
     """
     if not was_promised:
         return "not certified: there was no exact finish"
     if changed:
         return "not certified: the file was changed since it was written"
+    if broken:
+        # Loaded by then; the help can do without.
+        from packwork.verify import UNREADABLE
+
+        if all(UNREADABLE in fault for fault in broken):
+            return f"not certified: {UNREADABLE}"
     if not certified:
         return "not certified: items overlap, stick out or lie nearer than asked"
     return "certified: nothing overlaps, nothing sticks out"

@@ -15,7 +15,7 @@ from packwork.live.macros import is_word
 from packwork.live.relayout import job_again, poured_again
 from packwork.metrics.pixel import shape_metrics
 from packwork.progress import Stop
-from packwork.steps.advice import LEAST_SHAPE, MOST_BARE, advice
+from packwork.steps.shortfalls import LEAST_SHAPE, MOST_BARE, advice
 
 MOST_LOST = 0.02
 """Share of the container by which less may be covered after a change than before it, and by which
@@ -131,7 +131,7 @@ def advice_of(document: Document) -> tuple[str, ...]:
         # No job is read for nothing.
         return ()
     try:
-        return advice(job_again(document, 0, {}), len(layout.items), seen)
+        return (str(advice(job_again(document, 0, {}), len(layout.items), seen)),)
     except PackworkError:
         return ()
 

@@ -158,8 +158,8 @@ class Job:
         The picture that the layout shows from afar, if any.
     numbers
         What items are put in order by, by their names, where a file says so.
-    is_counted
-        Whether the number of items was found by the run.
+    is_counted, is_recorded
+        Whether the number of items was found by the run, and whether their way is kept.
     """
 
     recipe: Recipe
@@ -176,6 +176,7 @@ class Job:
     vectors: ItemVectors | None = None
     numbers: Mapping[str, float] | None = None
     is_counted: bool = False
+    is_recorded: bool = False
     skipped: tuple[PackworkError, ...] = ()
     clock: Clock = field(default_factory=Clock)
 

@@ -49,16 +49,6 @@ class Recorder:
         self._told, self._stride = 0, 1
         self._has_levels_behind = False
 
-    @classmethod
-    def off(cls) -> Recorder:
-        """Recorder that keeps nothing."""
-        return cls(most=0)
-
-    @property
-    def is_on(self) -> bool:
-        """Whether anything is kept."""
-        return self._most > 0
-
     def on_step(self, step: Step) -> None:
         """Keep where the items are, if it is the turn of this step."""
         if step.is_finish and not self._has_levels_behind:
@@ -68,7 +58,7 @@ class Recorder:
 
     def keep(self, poses: Poses, ids: IntArray | None = None) -> None:
         """Keep poses, if it is their turn; ``ids`` as in :class:`packwork.progress.Step`."""
-        if self.is_on and self._told % self._stride == 0:
+        if self._told % self._stride == 0:
             if len(self._frames) == self._most:
                 del self._frames[1::2]
                 self._stride *= 2

@@ -13,7 +13,8 @@ from packwork.errors import PackworkError, RowsLostError
 from packwork.installed import installed_version
 from packwork.losses.registry import by_name
 from packwork.metrics.measure import LayoutMetrics
-from packwork.pipeline.findings import Filling, Unplaced, WordsFound, plain
+from packwork.phrasing import one_of
+from packwork.pipeline.findings import Filling, Sentence, Told, Unplaced, WordsFound, plain, told_as
 from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.pipeline.state import RunState
 from packwork.scene.layout import Layout
@@ -93,13 +94,13 @@ class Run:
             skipped=job.skipped,
             beside=state.beside,
             certified=state.certified,
-            broken=state.faults,
+            broken=told_as(Told.FAULT, state.findings),
             filling=state.filling,
             words=state.words,
             left_out=state.left_out,
             pile=state.pile,
-            remarks=state.remarks,
-            advice=state.advice,
+            remarks=told_as(Told.REMARK, state.findings),
+            advice=told_as(Told.ADVICE, state.findings),
         )
 
     @property
@@ -115,6 +116,29 @@ class Run:
         """Whether far more is overlapped or outside than a run that went well leaves."""
         exact = self.metrics.exact
         return exact.overlap + exact.exceeding > ROUGH_SHARE
+
+    def complaints(self, was_cut_short: bool) -> list[str]:
+        """Sentences about what was asked and does not hold, but for single items."""
+        recipe, exact = self.layout.manifest["recipe"], self.metrics.exact
+        is_free = recipe["pile"] or recipe["chart"] or recipe["sizes"] == "free"
+        others = [] if is_free else ["--sizes free"]
+        found = list(self.broken)
+        times = float(self.layout.areas.sum()) / self.layout.container.outline.area
+        if self.unplaced and times > 1:
+            smaller = ["a smaller --size"] if recipe["pile"] else others
+            remedy = one_of("fewer", "a larger --canvas", *smaller)
+            found.insert(0, Sentence.CROWDED.of(times=times, remedy=remedy))
+        if self.is_rough:
+            longer = "more --effort" if recipe["time"] is None else "more --time"
+            remedy = f"try {one_of(longer, 'fewer items', *others)}"
+            found.append(
+                Sentence.ROUGH.of(
+                    double=100 * exact.overlap,
+                    outside=100 * exact.exceeding,
+                    remedy="let it run to its end" if was_cut_short else remedy,
+                )
+            )
+        return found
 
     @property
     def asked_for(self) -> int:
@@ -161,7 +185,7 @@ def find_unplaced(layout: Layout, limits: Limits = NO_LIMITS) -> tuple[Unplaced,
         Unplaced(
             layout.items[k].name,
             int(k),
-            f"{100 * shares[k]:.0f} % of it is overlapped or outside the container",
+            Sentence.MOSTLY_OUTSIDE.of(percent=100 * shares[k]),
         )
         for k in np.flatnonzero(shares > UNPLACED_SHARE)
     )

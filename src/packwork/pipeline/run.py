@@ -28,7 +28,7 @@ class RunStep(ABC):
     """Part of the progress that it takes, beside those of the other steps of its list."""
 
     @abstractmethod
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """Next state; items, recipe and plan of the one before stay as they are."""
 
 
@@ -37,11 +37,11 @@ def share_of(steps: Sequence[RunStep]) -> float:
     return sum(step.share for step in steps)
 
 
-def run_steps(steps: Sequence[RunStep], state: RunState, watch: RunContext) -> RunState:
+def run_steps(steps: Sequence[RunStep], state: RunState, context: RunContext) -> RunState:
     """State after all steps, one after another; each tells of its part of the progress."""
     whole, done = share_of(steps) or 1.0, 0.0
     for step in steps:
-        part = watch.part(done / whole, (done + step.share) / whole) if step.share else watch
+        part = context.part(done / whole, (done + step.share) / whole) if step.share else context
         state = step.run(state, part)
         done += step.share
     return state
@@ -68,11 +68,12 @@ class RunContext:
 
     observer: Observer = NOBODY
     stop: Stop = never
-    records: bool = False
 
     def part(self, begin: float, end: float, stage: Stage | None = None) -> RunContext:
         """Watch of one stage of several, which goes from ``begin`` to ``end``."""
-        return replace(self, observer=_Subrange(self.observer, begin, end, stage))
+        return replace(
+            self, observer=_Subrange(self.observer, begin, end, stage, self.observer.every)
+        )
 
     def turns(self, tried: Sequence[Tried]) -> Iterator[tuple[RunContext, Tried]]:
         """A part for each of several that are tried in turn; the first alone after a stop."""
@@ -82,13 +83,9 @@ class RunContext:
                 return
             yield self.part(number / count, (number + 1) / count), one
 
-    def recorder(self) -> Recorder:
-        """Recorder of the way that begins now; one that keeps nothing unless that is asked."""
-        return Recorder() if self.records else Recorder.off()
-
-    def heard_by(self, recorder: Recorder) -> RunContext:
-        """The same, told to a recorder, too."""
-        if not recorder.is_on:
+    def heard_by(self, recorder: Recorder | None) -> RunContext:
+        """The same, told to a recorder, too, if there is one."""
+        if recorder is None:
             return self
         return replace(self, observer=together(self.observer, recorder))
 
@@ -118,18 +115,21 @@ class MonotonicProgress:
         )  # fmt: skip
 
 
+@dataclass(eq=False)
 class _Subrange:
     """Passes steps of a stage on, whose progress is a part of that of another."""
 
-    def __init__(self, observer: Observer, begin: float, end: float, stage: Stage | None) -> None:
-        self.every = observer.every
-        self._observer, self._begin, self._end, self._stage = observer, begin, end, stage
+    observer: Observer
+    begin: float
+    end: float
+    stage: Stage | None
+    every: int
 
     def on_step(self, step: Step) -> None:
         """Tell of a step."""
-        progress = self._begin + (self._end - self._begin) * min(step.progress, 1.0)
-        stage = self._stage or step.stage
-        self._observer.on_step(replace(step, progress=progress, stage=stage))
+        progress = self.begin + (self.end - self.begin) * min(step.progress, 1.0)
+        stage = self.stage or step.stage
+        self.observer.on_step(replace(step, progress=progress, stage=stage))
 
 
 def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool = False) -> Run:
@@ -142,14 +142,12 @@ def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool 
     RecipeError
         If an option has no meaning for these files.
     """
-    onward = MonotonicProgress(observer)
+    onward, job = MonotonicProgress(observer), replace(job, is_recorded=record)
     # Runs without levels took no time for them.
     job.clock.seconds.setdefault("levels", 0.0)
     try:
         with threads.using(job.recipe.threads):
-            state = run_steps(
-                job.use.steps(job), RunState.of(job), RunContext(onward, stop, record)
-            )
+            state = run_steps(job.use.steps(job), RunState.of(job), RunContext(onward, stop))
     except (UnresolvedError, GEOSException) as error:
         why = error if isinstance(error, UnresolvedError) else f"cannot be resolved: {error}"
         raise ReadError(job.container.source, str(why)) from error

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from packwork.compaction.arrangement import Conflict
 from packwork.forces.forces import Forces
 from packwork.metrics.certificate import Promise
 from packwork.metrics.measure import LayoutMetrics
-from packwork.pipeline.findings import Filling, Unplaced, WordsFound
+from packwork.pipeline.findings import Filling, Finding, Sentence, Unplaced, WordsFound
 from packwork.pipeline.job import Job
 from packwork.pipeline.recorder import Recorder
 from packwork.scene.layout import Layout
@@ -48,13 +48,14 @@ class RunState:
     conflicts, undersized
         What the exact finish could not resolve, and items below the least size they may have.
     small
-        Sentence about items a little smaller than free sizes go; empty if none is.
+        Items a little smaller than free sizes go, if any are.
     has_thinner_lines
         Whether lines of drawings were made thinner, so areas are in shares no more.
     unplaced, left_out
         Items without a place, and how many of them are no longer among the job's.
-    faults
-        What was asked and does not hold, a sentence each.
+    findings
+        What is told: of what was asked and does not hold, of what is poor and what would do, of
+        what the run chose by itself.
     placed, kept
         Number of items that were placed, and ``(n,)`` which of them are in the layout.
     layout, metrics, promise
@@ -63,8 +64,8 @@ class RunState:
         Pairs of one kind that lie side by side; None if they may.
     words
         How many words the source holds; None for no words.
-    advice, remarks
-        What is poor and what would do; what the run chose by itself; a sentence each.
+    recorder
+        Keeps the way of the items; None where it is not recorded.
     """
 
     job: Job
@@ -82,12 +83,12 @@ class RunState:
     levels: tuple[LevelReport, ...] = ()
     conflicts: tuple[Conflict, ...] = ()
     undersized: tuple[int, ...] = ()
-    small: str = ""
+    small: Finding | None = None
     has_thinner_lines: bool = False
     filling: Filling | None = None
     unplaced: tuple[Unplaced, ...] = ()
     left_out: int = 0
-    faults: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
     pile: Mapping[str, Any] = field(default_factory=dict)
     placed: int = 0
     kept: IntArray = field(default_factory=lambda: np.arange(0))
@@ -97,9 +98,7 @@ class RunState:
     certified: bool = False
     beside: int | None = None
     words: WordsFound | None = None
-    advice: tuple[str, ...] = ()
-    remarks: tuple[str, ...] = ()
-    recorder: Recorder = field(default_factory=Recorder.off)
+    recorder: Recorder | None = None
 
     @classmethod
     def of(cls, job: Job) -> RunState:
@@ -115,6 +114,10 @@ class RunState:
             forces=job.forces.buoyant(job.weights),
             numbers=np.arange(count),
         )
+
+    def with_finding(self, sentence: Sentence, **values: object) -> RunState:
+        """The same with one more finding."""
+        return replace(self, findings=(*self.findings, Finding(sentence, values)))
 
     @property
     def is_clean(self) -> bool:

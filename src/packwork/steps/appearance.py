@@ -263,7 +263,7 @@ def _told_apart(item: Item, under: tuple[float, float], least: float, halo: str)
 class Dress(RunStep):
     """Colours, names and links as rules, palette and data ask."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose layout is dressed."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
@@ -274,7 +274,7 @@ class Dress(RunStep):
 class StandOut(RunStep):
     """Colours and halos by which items stand out from a picture behind them."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose layout can be told from what is behind it."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
@@ -285,7 +285,7 @@ class StandOut(RunStep):
 class CountBeside(RunStep):
     """Number of pairs of one kind that lie side by side, where they were not to."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with that number."""
         layout, _ = state.measured
         if not state.limits.binds:

@@ -59,7 +59,7 @@ class AssignByColour(RunStep):
     def __init__(self, target: TargetPicture) -> None:
         self._target = target
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with places given out anew."""
         job, poses = state.job, state.poses
         movable = job.seated

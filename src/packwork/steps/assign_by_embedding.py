@@ -157,7 +157,7 @@ def _anchored(
 class AssignByEmbedding(RunStep):
     """Items change places so that what is alike lies together."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with places given out anew."""
         job = state.job
         with job.clock.time("start"):

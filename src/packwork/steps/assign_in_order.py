@@ -273,7 +273,7 @@ def _of_file(job: Job, file: str) -> dict[str, float]:
 class AssignInOrder(RunStep):
     """Items change places so that they lie in the order asked for."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with places given out anew."""
         with state.job.clock.time("start"):
             return replace(state, poses=assign_in_order(state.job, state.poses, state.nominal))

@@ -20,7 +20,7 @@ class Replan(RunStep):
     def __init__(self, **fields: Any) -> None:
         self._fields = fields
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """The same state under the new plan."""
         job = state.job.replanned(**self._fields)
         return replace(state, job=job, asked_for=job)
@@ -37,10 +37,10 @@ class BestOf(RunStep):
         self._lists, self._choice = lists, choice
         self.share = share_of(lists[0])
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """Run the lists; the best result."""
-        tried = [run_steps(steps, state, part) for part, steps in watch.turns(self._lists)]
-        return self._choice(tried, watch)
+        tried = [run_steps(steps, state, part) for part, steps in context.turns(self._lists)]
+        return self._choice(tried, context)
 
 
 @final
@@ -58,12 +58,12 @@ class Retry(RunStep):
         self._will_do, self._choice = will_do, choice
         self.share = share_of(first)
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """Run the first list, and the other if need be; the better result."""
-        found = run_steps(self._first, state, watch)
-        if watch.stop() or self._will_do(found):
+        found = run_steps(self._first, state, context)
+        if context.stop() or self._will_do(found):
             return found
-        return self._choice([found, run_steps(self._again, state, watch)], watch)
+        return self._choice([found, run_steps(self._again, state, context)], context)
 
 
 @final
@@ -74,6 +74,6 @@ class UnlessTight(RunStep):
         self._steps = steps
         self.share = share_of(steps)
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State after the steps; as it is where nothing overlaps."""
-        return state if state.is_tight else run_steps(self._steps, state, watch)
+        return state if state.is_tight else run_steps(self._steps, state, context)

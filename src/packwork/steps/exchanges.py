@@ -61,7 +61,7 @@ large or too small there the levels still mend. Larger leaves them more to mend.
 class ExchangeByForces(RunStep):
     """Items change places to where forces would have them."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with places given out anew."""
         outlines, poses = state.job.solid_outlines, state.poses
         with state.job.clock.time("start"):
@@ -76,7 +76,7 @@ class ExchangeByForces(RunStep):
 class KindsApart(RunStep):
     """Items of about one size change places, away from their kind."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with places given out anew."""
         poses, limits = state.poses, state.limits
         if not limits.keeps_kinds_apart:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import final
@@ -20,7 +19,7 @@ from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
 from packwork.phrasing import number_of
-from packwork.pipeline.findings import Unplaced
+from packwork.pipeline.findings import Finding, Sentence, Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_found, job_leanings
 from packwork.pipeline.run import LEVELS, RunContext, RunStep
@@ -31,8 +30,6 @@ from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds
 from packwork.steps.measure import reason
 from packwork.steps.warm_start import needs_no_levels
-
-_LOG = logging.getLogger(__name__)
 
 TRIALS = {"draft": 0, "normal": 3, "best": 40}
 """Turns and exchanges tried for each item, by effort: 2 ms each. More fill better, ever less
@@ -96,7 +93,7 @@ class Finish(RunStep):
     def __init__(self, *, may_fail: bool = False) -> None:
         self._may_fail = may_fail
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with exact poses near those of the levels.
 
         Raises
@@ -106,24 +103,13 @@ class Finish(RunStep):
         """
         job = state.job
         with job.clock.time("finish"):
-            found = finished(state, watch)
-            if not (self._may_fail or job.plan.stays or watch.stop()):
+            found = finished(state, context)
+            if not (self._may_fail or job.plan.stays or context.stop()):
                 check_found(job.container, job.plan.gap, found.conflicts, len(found.poses))
             return found
 
 
-@final
-class TellOfSmall(RunStep):
-    """A notice of items a little smaller than free sizes go."""
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """The same state."""
-        if state.small:
-            _LOG.warning("%s", state.small)
-        return state
-
-
-def finished(state: RunState, watch: RunContext, *, grows: bool = False) -> RunState:
+def finished(state: RunState, context: RunContext, *, grows: bool = False) -> RunState:
     """State with exact poses near those it has, of the true outlines.
 
     Items pinned in place stay as they are and count as wall. Those that a zone holds come
@@ -135,12 +121,12 @@ def finished(state: RunState, watch: RunContext, *, grows: bool = False) -> RunS
     grows
         Whether the poses are clean, and are to be larger: none gets much smaller then.
     """
-    job, poses, watch = state.job, state.poses, watch.heard_by(state.recorder)
+    job, poses, context = state.job, state.poses, context.heard_by(state.recorder)
     outlines, limits, whole = job.solid_outlines, state.limits, job.container.outline
     # What is to stay where it was is not pushed on.
     forces = NO_FORCES if job.plan.stays else state.forces
-    until = until_over(watch.stop, job.seconds_left(1.0))
-    is_enough = until_over(watch.stop, job.seconds_left(TRIALS_SHARE))
+    until = until_over(context.stop, job.seconds_left(1.0))
+    is_enough = until_over(context.stop, job.seconds_left(TRIALS_SHARE))
     allowed, largest = scale_ranges(state)
     smallest = np.maximum(allowed, LEAST_KEPT * poses.scale) if grows else allowed
     results: list[tuple[IntArray, Finished]] = []
@@ -161,7 +147,7 @@ def finished(state: RunState, watch: RunContext, *, grows: bool = False) -> RunS
             [outlines[k] for k in items],
             poses.subset(items),
             _options(state, items, smallest[items], largest[items]),
-            Closing(watch.observer, poses, items),
+            Closing(context.observer, poses, items),
             until,
             is_enough,
             forces.subset(items) if forces.acts else NO_FORCES,
@@ -179,8 +165,8 @@ def finished(state: RunState, watch: RunContext, *, grows: bool = False) -> RunS
 
 def dwarfs_told_apart(
     job: Job, smallest: FloatArray, poses: Poses, undersized: Sequence[int]
-) -> tuple[tuple[int, ...], str]:
-    """Items that are really too small, and a sentence about those a little smaller than usual.
+) -> tuple[tuple[int, ...], Finding | None]:
+    """Items that are really too small, and those a little smaller than usual.
 
     The range of free sizes is a default, not an option that was given, unless a rule sizes an item.
     """
@@ -193,14 +179,15 @@ def dwarfs_told_apart(
             (real if is_asked or short[k] > DWARF else small).append(k)
     small = [k for k in small if short[k] > NOTED]
     if not small:
-        return tuple(real), ""
+        return tuple(real), None
     worst = max(small, key=lambda k: short[k])
-    many = number_of(len(small), "item is", "items are")
-    said = (
-        f"{many} smaller than --size-ratio {job.plan.size_ratio:g} allows, "
-        f"{job.items[worst].name} by {100 * (1 - 1 / short[worst]):.0f} %"
-    )
-    return tuple(real), said
+    values = {
+        "many": number_of(len(small), "item is", "items are"),
+        "ratio": job.plan.size_ratio,
+        "worst": job.items[worst].name,
+        "percent": 100 * (1 - 1 / short[worst]),
+    }
+    return tuple(real), Finding(Sentence.SMALL, values)
 
 
 def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
@@ -304,7 +291,7 @@ def unfinished(state: RunState) -> tuple[Unplaced, ...]:
     for conflict in state.conflicts:
         found.setdefault(conflict.item, reason(conflict, job.items, job.container.unit))
     for k in state.undersized:
-        found.setdefault(k, "is smaller than it may be: there was no room at its smallest size")
+        found.setdefault(k, Sentence.TOO_SMALL.of())
     return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
 
 

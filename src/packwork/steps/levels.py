@@ -25,23 +25,28 @@ and writing need the rest. Chosen."""
 
 @final
 class Levels(RunStep):
-    """Levels of the solver, coarse to fine."""
+    """Levels of the solver, coarse to fine; none where items already lie beside each other."""
 
     share = LEVELS
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the poses that the levels found."""
         job, forces = state.job, state.forces
+        if state.is_tight:
+            return state
         with job.clock.time("levels"):
             options = _solve_options(job)
-            if sees_colours(job.plan.losses):
+            if job.plan.losses and sees_colours(job.plan.losses):
                 options = _with_colours(options, state)
             if state.is_warm_start:
                 options = calmed(options)
-            forces = with_homes(state) if job.plan.stays else with_similarity_bond(job, forces)
+            if job.plan.stays:
+                forces = with_homes(state)
+            elif job.vectors is not None:
+                forces = with_similarity_bond(job, forces)
             outcome = solve(
                 padded(job.container, job.plan.gap), job.solid_outlines, state.poses,
-                state.nominal, options, watch.heard_by(state.recorder).observer, watch.stop,
+                state.nominal, options, context.heard_by(state.recorder).observer, context.stop,
                 state.limits, forces,
             )  # fmt: skip
             return replace(

@@ -84,7 +84,7 @@ def _tell_of_traced(items: Sequence[Item]) -> None:
 class EvenLines(RunStep):
     """Line drawings of all sizes with lines of one width, and notices of those that keep theirs."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose drawings are thinner."""
         with state.job.clock.time("finish"):
             job = evened(state.job, state.poses)
@@ -95,12 +95,12 @@ class EvenLines(RunStep):
 class FinishThinner(RunStep):
     """Line drawings with lines of one width, which leave room for all to grow into."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose drawings are thinner, grown; as it is where no line gets thinner."""
         job = state.job
         with job.clock.time("finish"):
-            thinner = job if watch.stop() else evened(job, state.poses, tells=False)
+            thinner = job if context.stop() else evened(job, state.poses, tells=False)
             if thinner is job:
                 return state
             state = replace(state, job=thinner, asked_for=thinner)
-            return finished(state, watch, grows=True)
+            return finished(state, context, grows=True)

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
-from packwork.arrays import IntArray
 from packwork.compaction.arrangement import Conflict
 from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import measure
 from packwork.metrics.violations import Violation, violations
-from packwork.pipeline.findings import Unplaced
-from packwork.pipeline.plan.resolution import resolution_faults
+from packwork.phrasing import number_of
+from packwork.pipeline.findings import Finding, Sentence, Unplaced
+from packwork.pipeline.plan.counts import LEAST, items_needed
+from packwork.pipeline.plan.resolution import coarser, photo_pixels
 from packwork.pipeline.result import find_unplaced
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -50,13 +51,6 @@ def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]
     return reasons
 
 
-def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[Unplaced, ...]:
-    """The items that were left out, ``numbers`` ``(n,)`` being those that they were asked under."""
-    return tuple(
-        Unplaced(layout.items[k].name, int(numbers[k]), reasons[k]) for k in sorted(reasons)
-    )
-
-
 def reason(
     one: Conflict | Violation, items: Sequence[Item], unit: str, item: int | None = None
 ) -> str:
@@ -68,21 +62,19 @@ def reason(
         Of which of the two it is said; None for the first.
     """
     other = one.other if item in {None, one.item} else one.item
+    area, name = one.overlap_cu2, "the container's edge" if other is None else items[other].name
+    if area <= 0:
+        return Sentence.TOO_NEAR.of(gap=one.gap_cu, unit=unit, other=name)
     if other is None:
-        neighbour, how = "the container's edge", "sticks out of the container"
-    else:
-        neighbour = items[other].name
-        how = f"overlaps {neighbour}"
-    if one.overlap_cu2 > 0:
-        return f"{how} by {one.overlap_cu2:.3g} {unit}²"
-    return f"is {one.gap_cu:.3g} {unit} from {neighbour}, nearer than asked"
+        return Sentence.STICKS_OUT.of(area=area, unit=unit)
+    return Sentence.OVERLAPS.of(other=name, area=area, unit=unit)
 
 
 @final
 class Measure(RunStep):
     """Measures of the layout; without what cannot be certified."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with a layout, its metrics and certificate."""
         job, plan = state.job, state.job.plan
         # Areas of drawings whose lines are thinner are in shares no more.
@@ -92,31 +84,32 @@ class Measure(RunStep):
             seen = _measured(
                 replace(state, promise=promise, kept=np.arange(len(job.items)), unplaced=())
             )
-            if plan.is_exact and seen.faults:
+            if plan.is_exact and seen.findings:
                 seen = _measured(_without_faulty(seen))
             layout, metrics = seen.measured
             unplaced = state.unplaced + seen.unplaced
             if not plan.is_exact:
                 unplaced = find_unplaced(layout, state.limits)
-            said = (*state.faults, *resolution_faults(seen.job, layout), *specks(layout))
+            found = (*seen.findings, *state.findings, *specks(layout))
         is_clean = not unclean(promise, layout, metrics.exact)
         certified = plan.is_exact and is_clean and len(layout.items) > 0
         return replace(
             seen,
             placed=len(job.items),
             unplaced=unplaced,
-            faults=(*seen.faults, *said),
+            findings=found,
             certified=certified,
         )
 
 
 def _measured(state: RunState) -> RunState:
-    """State with the layout of its items, and faults of geometry alone."""
+    """State with the layout of its items, and findings of geometry alone."""
     job = state.job
     layout = Layout(job.container, job.items, state.poses, job.weights)
     metrics = measure(layout)
     faults = broken(state.promise, layout, metrics.exact) if job.plan.is_exact else ()
-    return replace(state, layout=layout, metrics=metrics, faults=tuple(faults))
+    found = tuple(Finding(Sentence.BROKEN, {"fault": one}) for one in faults)
+    return replace(state, layout=layout, metrics=metrics, findings=found)
 
 
 def _without_faulty(state: RunState) -> RunState:
@@ -131,6 +124,53 @@ def _without_faulty(state: RunState) -> RunState:
         poses=state.poses.subset(kept),
         numbers=state.numbers[kept],
         kept=kept,
-        unplaced=named(gone, layout, state.numbers),
+        unplaced=tuple(
+            Unplaced(layout.items[k].name, int(state.numbers[k]), gone[k]) for k in sorted(gone)
+        ),
         left_out=state.left_out + len(gone),
     )
+
+
+@final
+class TellCoarse(RunStep):
+    """A finding of photographs that are coarser than ``least_dpi`` asks all the same."""
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the finding, if there are any."""
+        (layout, _), least = state.measured, state.job.plan.least_dpi
+        short = [] if least is None else coarser(photo_pixels(layout), least)
+        if not short:
+            return state
+        return state.with_finding(
+            Sentence.COARSE,
+            many=number_of(len(short), "picture has", "pictures have"),
+            least=least,
+            photo=short[0].photo,
+            ppi=short[0].ppi,
+        )
+
+
+@final
+@dataclass(frozen=True)
+class RemarkCount(RunStep):
+    """A finding of the number of items that the run chose.
+
+    Parameters
+    ----------
+    by_width
+        Whether it is told for what: how wide the parts are that such items reach into. It is not
+        where other bounds gave the number.
+    """
+
+    by_width: bool = True
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the remark."""
+        job, many = state.job, number_of(len(state.job.items), "item")
+        needed = items_needed(job.container, job.plan.sizes, job.plan.size_ratio)
+        if self.by_width and LEAST < needed.count == len(job.items):
+            unit = job.container.unit
+            return state.with_finding(
+                Sentence.COUNT_BY_WIDTH, many=many, width=needed.width_cu, unit=unit
+            )
+        return state.with_finding(Sentence.COUNT, many=many)

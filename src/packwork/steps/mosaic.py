@@ -9,6 +9,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
+from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -231,19 +232,18 @@ HALF = "50%"
 """Tint that shows a picture by photographs of any colours. By eye."""
 
 
-def unrecognised(job: Job, target: TargetPicture, layout: Layout) -> tuple[str, ...]:
-    """Remedy for a picture that does not show, in a sentence; nothing where it shows or is none."""
-    if not layout.items:
-        return ()
-    found = correlation_with(layout, target)
+def unrecognised(job: Job, target: TargetPicture, layout: Layout) -> Finding | None:
+    """Finding of a picture that does not show, and what would do; None where it shows."""
+    found = correlation_with(layout, target) if layout.items else LEAST
     if found >= LEAST:
-        return ()
+        return None
     needed = len(layout.items) * ((1 - found) / (1 - LEAST)) ** 2
     more = [f"-n {count:,}".replace(",", "") for count in COUNTS if count >= needed][:1]
     if job.tints.mean() < 0.5:
         more.append(f"--tint {HALF}")
     remedy = " or ".join(more) or "a plainer picture"
-    return (f"the picture shows to {max(100 * found, 0):.0f} % only; {remedy} would show it",)
+    percent = max(100 * found, 0)
+    return Finding(Sentence.PICTURE_HIDDEN, {"percent": percent, "remedy": remedy})
 
 
 def correlation_with(layout: Layout, target: TargetPicture) -> float:
@@ -295,10 +295,11 @@ class ShowPicture(RunStep):
     def __init__(self, target: TargetPicture) -> None:
         self._target = target
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose layout is recoloured."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
             layout = in_picture(state.job, self._target, layout)
-        said = unrecognised(state.job, self._target, layout)
-        return replace(state, layout=layout, advice=(*state.advice, *said))
+        hidden = unrecognised(state.job, self._target, layout)
+        found = state.findings if hidden is None else (*state.findings, hidden)
+        return replace(state, layout=layout, findings=found)

@@ -135,7 +135,7 @@ class Place(RunStep):
     def __init__(self, starts: Sequence[Start]) -> None:
         self._starts = starts
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with first poses of the outlines that the solver will see.
 
         Raises
@@ -146,7 +146,7 @@ class Place(RunStep):
         job = state.job
         with job.clock.time("start"):
             check_padding(job.container, job.plan.gap, len(job.items))
-            setting = Setting(state, watch.stop)
+            setting = Setting(state, context.stop)
             found = next(one for start in self._starts if (one := start.find(setting)))
             check_poses(job, setting.region, found.poses, found.limits)
             return found

@@ -9,9 +9,8 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.counts import items_needed
+from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.registration import match_items, new_items
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -58,12 +57,31 @@ def _drawn(gone: Item, drawings: Mapping[str, Item]) -> Item:
 
 
 @final
+class StartRecording(RunStep):
+    """A recorder of the way of the items, which keeps the first poses.
+
+    Of what was put one by one it keeps the largest first.
+    """
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with a recorder."""
+        recorder, poses = Recorder(), state.poses
+        if state.method == "first-fit":
+            areas = np.array([outline.area for outline in state.job.solid_outlines])
+            order = np.argsort(-areas * poses.scale**2)
+            for put in range(len(order)):
+                recorder.keep(poses.subset(order[:put]), order[:put])
+        recorder.keep(as_it_was(state.job, poses))
+        return replace(state, recorder=recorder)
+
+
+@final
 class KeepTrack(RunStep):
     """The way of the items, as a recorder kept it."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose layout has a track; as it is where nothing was recorded."""
-        if not state.recorder.is_on:
+        if state.recorder is None:
             return state
         (layout, _), asked = state.measured, state.asked_for
         track = state.recorder.track(layout.poses, state.numbers, layout.items)
@@ -73,37 +91,3 @@ class KeepTrack(RunStep):
         return replace(
             state, layout=replace(layout, track=track, leaving=left_behind(asked, placed))
         )
-
-
-@final
-class RemarkCount(RunStep):
-    """A sentence about the number of items that the run chose."""
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State with the remark."""
-        job = state.job
-        width = items_needed(job.container, job.plan.sizes, job.plan.size_ratio).width_cu
-        chosen = f"auto chose {number_of(len(job.items), 'item')}"
-        said = f"{chosen}, to reach into parts {width:.3g} {job.container.unit} wide"
-        return replace(state, remarks=(*state.remarks, said))
-
-
-@final
-class StartRecording(RunStep):
-    """A recorder of the way of the items, which keeps the first poses.
-
-    Of what was put one by one it keeps the largest first.
-    """
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State with a recorder, if the run is recorded."""
-        recorder, poses = watch.recorder(), state.poses
-        if not recorder.is_on:
-            return state
-        if state.method == "first-fit":
-            areas = np.array([outline.area for outline in state.job.solid_outlines])
-            order = np.argsort(-areas * poses.scale**2)
-            for put in range(len(order)):
-                recorder.keep(poses.subset(order[:put]), order[:put])
-        recorder.keep(as_it_was(state.job, poses))
-        return replace(state, recorder=recorder)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from enum import Enum
 from typing import TypeAlias, final
 
 import numpy as np
@@ -15,7 +14,7 @@ from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.finish.shrink import admitted
 from packwork.geometry.outline import Outline
-from packwork.pipeline.findings import Filling
+from packwork.pipeline.findings import Filling, Sentence
 from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -56,17 +55,6 @@ STYLE = frozenset({"color", "link", "title"})
 """What of the rules about an item holds for the smaller copies of it too."""
 
 
-class GapEnding(Enum):
-    """Why no more was put into voids."""
-
-    NOT_CLEAN = "the layout was not clean"
-    COVERED = "{target:g} % are covered"
-    MOST = "{count} items are the most that were asked for"
-    STOPPED = "the run was stopped"
-    TOO_LONG = "more than {count} of such items take too long; {remedy} would do"
-    NO_VOID = "no void holds an item of {smallest:.3g} {unit}"
-
-
 FillerScales: TypeAlias = Callable[
     [RunState, FloatArray, FloatArray], tuple[FloatArray, FloatArray]
 ]
@@ -96,13 +84,13 @@ class FillVoids(RunStep):
     def __init__(self, scales: FillerScales = as_planned) -> None:
         self._scales = scales
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with fillers among its items; what was placed stays."""
-        job, watch = state.job, watch.part(0.0, 1.0, "gaps").heard_by(state.recorder)
+        job, context = state.job, context.part(0.0, 1.0, "gaps").heard_by(state.recorder)
         with job.clock.time("gaps"):
-            stop = until_over(watch.stop, job.seconds_left(1.0))
-            filling = _Filling(state, self._scales, watch.observer, stop)
-            ending = filling.filled() if state.is_clean else GapEnding.NOT_CLEAN
+            stop = until_over(context.stop, job.seconds_left(1.0))
+            filling = _Filling(state, self._scales, context.observer, stop)
+            ending = filling.filled() if state.is_clean else Sentence.NOT_CLEAN
             return filling.result(ending)
 
 
@@ -132,47 +120,44 @@ class _Filling:
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
         self._work = 0.0
 
-    def filled(self) -> GapEnding:
+    def filled(self) -> Sentence:
         """Fill voids round by round; why the last round was the last."""
         voids, effort = self._voids, self._job.plan.effort
         while (before := self.coverage()) < voids.enough:
             room = (voids.most or MOST_ITEMS) - len(self.poses)
             if room <= 0:
-                return GapEnding.MOST
+                return Sentence.MOST_ITEMS
             if self._stop():
-                return GapEnding.STOPPED
+                return Sentence.FILLING_STOPPED
             if self._work > MOST_WORK[effort]:
-                return GapEnding.TOO_LONG
+                return Sentence.FILLING_TOO_LONG
             self._work += IMAGE_WORK
             count = min(max(AT_LEAST, round(MORE * len(self.poses))), room)
             if self._let_in(count) == 0 or self._grow() - before < WORTHWHILE:
-                return GapEnding.NO_VOID
-        return GapEnding.COVERED
+                return Sentence.NO_VOID
+        return Sentence.COVERED
 
     def coverage(self) -> float:
         """Share of the container that the items cover; none overlap."""
         own = np.array([outline.area for outline in self._all_outlines()])
         return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
 
-    def result(self, ending: GapEnding) -> RunState:
+    def result(self, ending: Sentence) -> RunState:
         """Layout that was placed, with all that was put into voids."""
         job = self._job
         own = dict(zip(job.items, job.asked, strict=True))
         by_name = dict(zip((item.name for item in job.items), job.asked, strict=True))
         new = [self._sorts[k] for k in self.added]
         asked = [_styled(own.get(i) or by_name.get(i.name, ItemRules())) for i in new]
-        filling = Filling(len(new), self._said(ending), self.coverage(), self._voids.target)
-        return joined_by(self._state, new, asked, self.poses, self._ids, filling)
-
-    def _said(self, ending: GapEnding) -> str:
-        """The sentence of an ending, with the numbers of this run."""
-        return ending.value.format(
+        said = ending.of(
             target=100 * (self._voids.target or 0.0),
             count=len(self.poses),
-            remedy="fewer corners" if self._job.plan.effort == "best" else "a higher --effort",
+            remedy="fewer corners" if job.plan.effort == "best" else "a higher --effort",
             smallest=self._voids.smallest,
-            unit=self._job.container.unit,
+            unit=job.container.unit,
         )
+        filling = Filling(len(new), said, self.coverage(), self._voids.target)
+        return joined_by(self._state, new, asked, self.poses, self._ids, filling)
 
     def _let_in(self, count: int) -> int:
         """Put copies into voids; how many found a place."""
@@ -239,8 +224,8 @@ class _Filling:
     def _closing(self, movers: IntArray) -> Closing:
         # The number of rounds is not known beforehand: each takes half of the bar that is left.
         begun, self._rounds = 1.0 - 0.5**self._rounds, self._rounds + 1
-        watch = RunContext(self._observer).part(begun, 1.0 - 0.5**self._rounds)
-        return Closing(watch.observer, self.poses, movers, self._ids)
+        context = RunContext(self._observer).part(begun, 1.0 - 0.5**self._rounds)
+        return Closing(context.observer, self.poses, movers, self._ids)
 
     def _all_outlines(self) -> list[Outline]:
         return [*self._originals, *(self._shapes[k] for k in self.added)]

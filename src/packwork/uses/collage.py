@@ -12,26 +12,24 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.recipe.rules import Rotation
-from packwork.steps.advice import Advise
 from packwork.steps.appearance import CountBeside, Dress, StandOut
 from packwork.steps.assign_by_colour import AssignByColour
 from packwork.steps.assign_by_embedding import AssignByEmbedding
 from packwork.steps.assign_in_order import AssignInOrder
 from packwork.steps.control import BestOf, Replan, UnlessTight
 from packwork.steps.exchanges import ExchangeByForces, KindsApart
-from packwork.steps.finish import Finish, TellOfSmall, finished
+from packwork.steps.finish import Finish, finished
 from packwork.steps.levels import Levels
 from packwork.steps.line_weights import EvenLines, FinishThinner
-from packwork.steps.measure import Measure
+from packwork.steps.measure import Measure, RemarkCount, TellCoarse
 from packwork.steps.mosaic import ShowPicture
 from packwork.steps.place import Place
-from packwork.steps.shortfalls import TellShortfalls
+from packwork.steps.shortfalls import Advise, TellShortfalls
 from packwork.steps.starts import new_starts
-from packwork.steps.track import KeepTrack, RemarkCount, StartRecording
+from packwork.steps.track import KeepTrack, StartRecording
 from packwork.steps.voids import FillerScales, FillVoids, as_planned
 from packwork.steps.warm_start import FromLayout, needs_no_levels
 
@@ -70,9 +68,10 @@ def solving(job: Job, *, suits_first_fit: bool, place: RunStep | None = None) ->
         steps.append(UnlessTight(*exchanges))
     if job.plan.keeps_apart:
         steps.append(KindsApart())
-    steps.append(StartRecording())
-    if not needs_no_levels(job):
-        steps.append(UnlessTight(Levels()))
+    if job.is_recorded:
+        steps.append(StartRecording())
+    if not (job.plan.stays and needs_no_levels(job)):
+        steps.append(Levels())
     return steps
 
 
@@ -122,11 +121,10 @@ def placing(
 
 
 def filling(job: Job, scales: FillerScales = as_planned) -> list[RunStep]:
-    """Steps after an exact finish: smaller copies in voids, notices of what came out small."""
+    """Steps after an exact finish: smaller copies in voids, findings of what came out small."""
     if not job.plan.is_exact:
         return []
-    voids = [FillVoids(scales)] if job.plan.voids.fills else []
-    return [TellOfSmall(), *voids, TellShortfalls()]
+    return [FillVoids(scales), TellShortfalls()] if job.plan.voids.fills else [TellShortfalls()]
 
 
 def reporting(
@@ -136,6 +134,8 @@ def reporting(
     steps: list[RunStep] = [Measure(), *found]
     if job.plan.has_even_lines:
         steps.insert(0, EvenLines())
+    if job.plan.least_dpi is not None:
+        steps.append(TellCoarse())
     if job.plan.keeps_apart:
         steps.append(CountBeside())
     if shows_shape:
@@ -148,7 +148,9 @@ def reporting(
         steps.append(StandOut())
     if job.is_counted:
         steps.append(RemarkCount())
-    return [*steps, KeepTrack()]
+    if job.is_recorded:
+        steps.append(KeepTrack())
+    return steps
 
 
 def may_stand_upright(job: Job) -> bool:
@@ -166,7 +168,7 @@ def may_stand_upright(job: Job) -> bool:
     return plan.is_exact and not plan.voids.fills
 
 
-def as_good_upright(tried: Sequence[RunState], watch: RunContext) -> RunState:
+def as_good_upright(tried: Sequence[RunState], context: RunContext) -> RunState:
     """Upright layout if it is clean and about as large as the turned one; else that."""
     turned = tried[0]
     for upright in tried[1:]:
@@ -178,16 +180,16 @@ def as_good_upright(tried: Sequence[RunState], watch: RunContext) -> RunState:
     return turned
 
 
-def most_promising(tried: Sequence[RunState], watch: RunContext) -> RunState:
+def most_promising(tried: Sequence[RunState], context: RunContext) -> RunState:
     """Of what levels made of several starts, that from which most comes to be covered."""
-    if len(tried) == 1 or watch.stop():
+    if len(tried) == 1 or context.stop():
         return tried[0]
 
     def worth(state: RunState) -> tuple[bool, float]:
         """Rank of a result: a clean finish without trials, then the area that is covered."""
         job = state.job.replanned(effort="draft")
-        quick = replace(state, job=job, recorder=Recorder.off())
-        exact = finished(quick, RunContext(stop=watch.stop))
+        quick = replace(state, job=job, recorder=None)
+        exact = finished(quick, RunContext(stop=context.stop))
         own = np.array([item.outline.area for item in state.job.items])
         return not exact.conflicts, float(own @ exact.poses.scale**2)
 

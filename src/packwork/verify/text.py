@@ -27,6 +27,8 @@ AGREEMENT = HAIR / 2
 """How far paths of a PDF may lie from those of the SVG that it was made of, as a share of the
 canvas. Derived: half of the least gap that is certified, so that two items cannot meet."""
 
+UNREADABLE = "what is written cannot be read back"
+
 _BEYOND_PATHS = ("filter", "marker", "mask", "pattern")
 """Elements that in a PDF become what is not held against them: pictures, paths, soft masks."""
 
@@ -69,7 +71,7 @@ def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]
     try:
         found = read_content(data, path, outlines_only=True)
     except PackworkError as error:
-        return (f"what is written cannot be read back: {error}",)
+        return (f"{UNREADABLE}: {error}",)
     if len(found.items) != len(layout.items):
         return (f"{len(found.items)} of {len(layout.items)} items are written",)
     # In the file's own units.
@@ -87,7 +89,7 @@ def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str])
         page, drawn = shapes_of_svg(drawing)
         printed = printed_page(data)
     except UnfitError as error:
-        return (f"what is written cannot be read back: it {error}",)
+        return (f"{UNREADABLE}: it {error}",)
     tolerance = AGREEMENT * max(page.width, page.height)
     if max(abs(page.width - printed.width), abs(page.height - printed.height)) > tolerance:
         return (

@@ -176,16 +176,3 @@ def largest_scales(job: Job) -> FloatArray:
             for side, one in zip(sides, job.asked, strict=True)
         ]
     )
-
-
-def resolution_faults(job: Job, layout: Layout) -> tuple[str, ...]:
-    """Photos that are coarser than ``least_dpi`` asks all the same, in a sentence; or nothing."""
-    least = job.plan.least_dpi
-    short = [] if least is None else coarser(photo_pixels(layout), least)
-    if not short:
-        return ()
-    many = number_of(len(short), "picture has", "pictures have")
-    return (
-        f"{many} fewer than the {least:g} pixels to the inch asked for, "
-        f"{short[0].photo} the fewest: {short[0].ppi:.0f}",
-    )

@@ -60,18 +60,18 @@ it looks on a grid of 16 to their diameter. Derived, and tried."""
 DOWN = np.pi / 2
 
 
-def fill_bars(job: Job, chart: Chart, watch: RunContext) -> Grouped:
+def fill_bars(job: Job, chart: Chart, context: RunContext) -> Grouped:
     """Heaps side by side, at the largest scale at which the highest has room.
 
     Marks of one colour lie together, the most frequent one at the bottom; colours that are
     numbers ascend.
     """
-    heaps = _Heaps(job, chart, watch.stop)
+    heaps = _Heaps(job, chart, context.stop)
     scale = heaps.scale_of_the_largest()
     for _ in range(TRIALS):
-        poses, kept = heaps.all_at(scale, watch.observer)
+        poses, kept = heaps.all_at(scale, context.observer)
         over = heaps.highest(poses, kept)
-        if over <= 1 or watch.stop():
+        if over <= 1 or context.stop():
             break
         scale *= BACK / np.sqrt(over)
     heaped = [own[np.isin(own, kept)] for own in heaps.members]

@@ -45,7 +45,7 @@ class _Filled:
     scale: float
 
 
-def fill_copies(job: Job, chart: Chart, pattern: Container, watch: RunContext) -> Grouped:
+def fill_copies(job: Job, chart: Chart, pattern: Container, context: RunContext) -> Grouped:
     """Marks of each group in its copy, at the largest scale at which all groups fit.
 
     Each group is packed as tightly as it goes; the tightest gives the scale, and marks of all
@@ -64,11 +64,11 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: RunContext) -
     # The fullest first: its scale tells when others need no more effort.
     fullest = int(np.argmax([job.weights[own].sum() for _, own in pairs]))
     for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
-        steps = GroupSteps(watch.observer, poses, before, own, offset)
+        steps = GroupSteps(context.observer, poses, before, own, offset)
         part = _part(job, single, own, len(job.items) - len(before))
         found_before = known.get(_alike(part))
         if found_before is None:
-            group = _filled(part, own, offset, groups, RunContext(steps, watch.stop))
+            group = _filled(part, own, offset, groups, RunContext(steps, context.stop))
         else:
             group = _as_before(part, own, offset, found_before, steps)
         groups.append(group)
@@ -78,7 +78,7 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: RunContext) -
     common = min(group.scale for group in groups)
     unplaced: list[Unplaced] = []
     for group in groups:
-        at_scale, faults = _at_scale(group, common, watch.stop)
+        at_scale, faults = _at_scale(group, common, context.stop)
         poses = poses.with_some(group.own, moved(at_scale, group.offset))
         unplaced += faults
     method = groups[0].placed.method
@@ -92,7 +92,7 @@ def _filled(
     own: IntArray,
     offset: FloatArray,
     before: Sequence[_Filled],
-    watch: RunContext,
+    context: RunContext,
 ) -> _Filled:
     """One group, filled as hard as it takes to be no tighter than those before."""
     efforts: list[Effort] = [part.plan.effort]
@@ -101,12 +101,12 @@ def _filled(
     for effort in efforts:
         tried = part.replanned(effort=effort)
         placed = run_steps(
-            placing(tried, suits_first_fit=fits_first(tried)), RunState.of(tried), watch
+            placing(tried, suits_first_fit=fits_first(tried)), RunState.of(tried), context
         )
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
         is_clean = placed.is_clean or not part.plan.is_exact
         least = ALMOST * min((one.scale for one in before), default=np.inf)
-        if watch.stop() or (is_clean and scale >= least):
+        if context.stop() or (is_clean and scale >= least):
             break
     return _Filled(own, offset, placed, scale)
 
@@ -151,7 +151,7 @@ def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int)
     if plan.seconds is not None:
         used = sum(job.clock.seconds.values())
         plan = replace(plan, seconds=used + max(plan.seconds - used, 0.0) * len(own) / left)
-    return replace(job.subset(own), plan=plan, container=single)
+    return replace(job.subset(own), plan=plan, container=single, is_recorded=False)
 
 
 def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Unplaced]]:

@@ -8,10 +8,12 @@ from typing import final
 
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.read import Material
+from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.readers.charts import ChartOptions
@@ -78,7 +80,7 @@ class ChartUse(Use):
 class Annotate(RunStep):
     """Labels on marks, title, names of groups and legend."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose layout has these notes."""
         use, (layout, _) = state.job.use.inner, state.measured
         assert isinstance(use, ChartUse)  # noqa: S101 - it is on lists of charts alone
@@ -96,33 +98,31 @@ class FillGroups(RunStep):
     def __init__(self, chart: Chart) -> None:
         self._chart = chart
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State of the marks that have a place."""
         job, chart = state.job, self._chart
-        recorder = watch.recorder()
-        watch = watch.heard_by(recorder)
+        recorder = Recorder() if state.job.is_recorded else None
+        context = context.heard_by(recorder)
         if chart.single is None:
             with job.clock.time("finish"):
-                done = fill_bars(job, chart, watch)
+                done = fill_bars(job, chart, context)
         else:
-            done = fill_copies(job, chart, chart.single, watch)
+            done = fill_copies(job, chart, chart.single, context)
         kept, total = done.kept, len(job.items)
-        faults: tuple[str, ...] = ()
         if len(kept) < total:
-            faults = (f"{len(kept)} of {total} marks have a place",)
+            state = state.with_finding(Sentence.MARKS_LEFT, placed=len(kept), count=total)
         return replace(
             state,
             job=replace(job.subset(kept), container=done.container),
             poses=done.poses.subset(kept),
             method=done.method,
-            ending=Ending.STOPPED if watch.stop() else Ending.DONE,
+            ending=Ending.STOPPED if context.stop() else Ending.DONE,
             levels=tuple(done.levels),
             numbers=kept,
             recorder=recorder,
             limits=Limits.free(len(kept)),
             unplaced=done.unplaced,
             left_out=total - len(kept),
-            faults=faults,
         )
 
 

@@ -221,13 +221,13 @@ class CropAtEdge(RunStep):
         self._listed = listed
         self.share = share_of(listed(job))
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State of those items of which enough is seen."""
         job, tries = state.job, []
         for number, share in enumerate(DEPTHS):
             room, depth = with_room(job, share)
             # The number of tries is not known beforehand.
-            turn = watch.part(1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
+            turn = context.part(1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
             turn = replace(turn, observer=Back(turn.observer, depth))
             solved = run_steps(self._listed(room), RunState.of(room), turn)
             # Photos were placed at more even sizes than they may have: the rest is for the edge.
@@ -236,11 +236,11 @@ class CropAtEdge(RunStep):
             found = cropped(job, solved.job, solved.poses, solved.largest * spare, depth)
             gone = lost(found, solved)
             tries.append((gone, solved, found, depth))
-            if not gone or watch.stop() or job.plan.seconds is not None:
+            if not gone or context.stop() or job.plan.seconds is not None:
                 break
         gone, solved, found, depth = min(tries, key=lambda one: len(one[0]))
-        recorder: Recorder = solved.recorder
-        if recorder.is_on:
+        recorder: Recorder | None = solved.recorder
+        if recorder is not None:
             recorder = CutRecorder(recorder, found, solved.numbers, depth)
         return replace(
             solved,

@@ -15,11 +15,12 @@ from packwork.errors import RecipeError
 from packwork.geometry.simplify import hull_areas
 from packwork.metrics.exact import compactness
 from packwork.phrasing import number_of
-from packwork.pipeline.findings import Unplaced
+from packwork.pipeline.findings import Sentence, Unplaced
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.counts import widest_cu
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.limits import given_scales
+from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.registration import matched
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -31,11 +32,11 @@ from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.settle.pile import Arrival, Piled, SettleOptions, pile
 from packwork.start.angles_and_sizes import nearest_allowed
-from packwork.steps.advice import Advise
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.line_weights import evened
+from packwork.steps.measure import RemarkCount
 from packwork.steps.place import first_angles
-from packwork.steps.track import RemarkCount
+from packwork.steps.shortfalls import Advise
 from packwork.uses.icons import NO_CONTAINER
 from packwork.uses.piles.opening import opened, source_of
 
@@ -123,7 +124,7 @@ class HeapUp(RunStep):
     def __init__(self, heap: Heap) -> None:
         self._heap = heap
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State of those items that found room."""
         if len(state.job.items) > MANY:
             _LOG.warning(
@@ -131,26 +132,26 @@ class HeapUp(RunStep):
                 "fewer, or stop it with Ctrl-C, which writes it as it lies by then",
                 number_of(len(state.job.items), "item"),
             )
-        recorder = watch.recorder()
-        job, piled = _heaped_to_fit(state.job, self._heap, watch.heard_by(recorder))
+        recorder = Recorder() if state.job.is_recorded else None
+        job, piled = _heaped_to_fit(state.job, self._heap, context.heard_by(recorder))
         found = replace(state, job=job, recorder=recorder)
-        return _without_those_left(self._heap.options, found, piled, watch.stop())
+        return _without_those_left(self._heap.options, found, piled, context.stop())
 
 
-def _heaped_to_fit(job: Job, heap: Heap, watch: RunContext) -> tuple[Job, Piled]:
+def _heaped_to_fit(job: Job, heap: Heap, context: RunContext) -> tuple[Job, Piled]:
     """The heap, of sizes at which all find room unless sizes were given."""
     if not is_size_open(job, heap.options):
-        return _heaped(job, heap, 1.0, watch)
+        return _heaped(job, heap, 1.0, context)
     factor = fitting_factor(job)
     for _ in range(TRIES):
-        done, piled = _heaped(job, heap, factor, watch)
-        if len(piled.placed) == len(job.items) or watch.stop():
+        done, piled = _heaped(job, heap, factor, context)
+        if len(piled.placed) == len(job.items) or context.stop():
             break
         factor *= SMALLER
     return done, piled
 
 
-def _heaped(job: Job, heap: Heap, factor: float, watch: RunContext) -> tuple[Job, Piled]:
+def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[Job, Piled]:
     """The heap of items whose sizes are multiplied by a factor, and the job in its container."""
     clock, asked = job.clock, heap.options
     with clock.time("start"):
@@ -176,7 +177,7 @@ def _heaped(job: Job, heap: Heap, factor: float, watch: RunContext) -> tuple[Job
         )
         piled = pile(
             room.container, outlines, poses, forces, options, room.basin,
-            arrival, watch.observer, watch.stop,
+            arrival, context.observer, context.stop,
         )  # fmt: skip
     return job, piled
 
@@ -239,12 +240,10 @@ def _without_those_left(
     if len(kept) == 0:
         none = "the item does not fit" if total == 1 else f"none of the {total} items fits"
         raise RecipeError("size", f"{none} into the container; use smaller ones")
-    no_room = "there was no room left at its size"
-    why = "the run was stopped before it found a place" if was_stopped else no_room
+    why = (Sentence.STOPPED if was_stopped else Sentence.NO_ROOM).of()
     unplaced = tuple(Unplaced(job.items[k].name, int(k), why) for k in left)
-    faults: tuple[str, ...] = ()
     if len(left):
-        faults = (f"{len(kept)} of {total} items fit into the container at their sizes",)
+        state = state.with_finding(Sentence.PILE_FULL, placed=len(kept), count=total)
     smaller = job.subset(kept)
     poses = heap.poses.subset(kept)
     layout = Layout(smaller.container, smaller.items, poses, smaller.weights)
@@ -264,7 +263,6 @@ def _without_those_left(
         unplaced=unplaced,
         left_out=len(left),
         pile=lies,
-        faults=faults,
     )
 
 
@@ -300,7 +298,7 @@ class PileUse(Use):
     def report(self, job: Job) -> Sequence[RunStep]:
         """As of the content, but for the shape, which a heap does not show."""
         own = [step for step in self.content.report(job) if not isinstance(step, NOT_OF_PILES)]
-        return [*own, RemarkPile()] if job.is_counted and not self.words else own
+        return [*own, RemarkCount(by_width=False)] if job.is_counted and not self.words else own
 
     @property
     def inner(self) -> Use:
@@ -333,16 +331,6 @@ class PileUse(Use):
     def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
         """As the content draws them."""
         return self.content.redrawn(job, gone)
-
-
-@final
-class RemarkPile(RunStep):
-    """A sentence about the number of items that the run chose."""
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State with the remark."""
-        said = f"auto chose {number_of(len(state.job.items), 'item')}"
-        return replace(state, remarks=(*state.remarks, said))
 
 
 NOT_OF_PILES = (Advise, RemarkCount)

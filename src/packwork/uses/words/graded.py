@@ -19,6 +19,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import lines_width
 from packwork.pipeline.plan.limits import check_padding
@@ -288,15 +289,14 @@ class GradedPlaces(RunStep):
     def __init__(self, letters: Letters) -> None:
         self._letters = letters
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State of the words that find a place; the others count as not drawn."""
         job, words = state.job, words_of(state.job)
         with job.clock.time("start"):
-            places = graded_places(job, self._letters, watch.stop)
+            places = graded_places(job, self._letters, context.stop)
         gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
         kept = places.placed[places.placed < len(words.read.items)]
-        reason = "finds no place at a size that could be read; use fewer words or a larger canvas"
-        undrawn = {job.items[k].name: reason for k in gone}
+        undrawn = {job.items[k].name: Sentence.UNREADABLE_WORD.of() for k in gone}
         read = replace(
             words.read,
             items=tuple(words.read.items[k] for k in kept),

@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 
 from packwork.compaction.options import HAIR
-from packwork.pipeline.findings import Filling
+from packwork.pipeline.findings import Filling, Sentence
 from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -38,9 +38,6 @@ them, smaller competes with the words themselves. By eye."""
 LIGHT = "#ffffff"
 """Ink on dark paper."""
 
-ENDING = "no gap holds another one of {least:.3g} {unit}"
-ENOUGH = "{most} are as many as there may be"
-
 
 @final
 class RepeatWords(RunStep):
@@ -49,13 +46,13 @@ class RepeatWords(RunStep):
     def __init__(self, letters: Letters, paper: str) -> None:
         self._letters, self._paper = letters, paper
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the copies last among its items; as it is where that is not clean."""
         if not state.is_clean:
             return state
         job, count = state.job, len(state.job.use.words)
         with job.clock.time("gaps"):
-            stop = until_over(watch.stop, job.seconds_left(1.0))
+            stop = until_over(context.stop, job.seconds_left(1.0))
             return with_repeats(state, count, self._letters, self._paper, stop)
 
 
@@ -93,8 +90,8 @@ def with_repeats(state: RunState, words: int, letters: Letters, paper: str, stop
     poses = state.poses.followed_by(found.poses)
     areas = np.array([i.outline.area for i in (*job.items, *new)]) * poses.scale**2
     covered = float(areas.sum()) / job.container.outline.area
-    said = ENOUGH if len(new) == most else ENDING
-    ending = said.format(least=least, unit=job.container.unit, most=most)
+    said = Sentence.MOST_REPEATS if len(new) == most else Sentence.NO_GAP
+    ending = said.of(least=least, unit=job.container.unit, most=most)
     return joined_by(
         state,
         new,

@@ -12,6 +12,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.phrasing import enumerated
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import RuleSource, shared_out
 from packwork.pipeline.read import read_regions
@@ -127,15 +128,15 @@ class LettersAtMost(RunStep):
     def __init__(self, largest: float) -> None:
         self._largest = largest
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with exact poses of such sizes."""
         most = float(letters_of(state.poses, len(state.job.use.words)).max())
         if most <= self._largest:
             return state
-        return at_sizes(state, state.poses.scale * (self._largest / most), watch)
+        return at_sizes(state, state.poses.scale * (self._largest / most), context)
 
 
-def at_sizes(state: RunState, scale: FloatArray, watch: RunContext) -> RunState:
+def at_sizes(state: RunState, scale: FloatArray, context: RunContext) -> RunState:
     """State with exact poses at smaller scales ``(n,)``.
 
     A smaller copy may meet others, where letters stand in each other's bays.
@@ -144,7 +145,7 @@ def at_sizes(state: RunState, scale: FloatArray, watch: RunContext) -> RunState:
     fixed = job.replanned(sizes="fixed")
     with job.clock.time("finish"):
         poses = replace(state.poses, scale=scale)
-        found = finished(replace(state, job=fixed, poses=poses), watch)
+        found = finished(replace(state, job=fixed, poses=poses), context)
     return replace(found, job=job)
 
 
@@ -177,8 +178,7 @@ def heaviest(
             "use a smaller length, a larger canvas or another container",
         )
     reasons = {
-        word.text: f"its letters would be {size:.3g} {unit} high, less than the "
-        f"{smallest:.3g} {unit} of --smallest"
+        word.text: Sentence.LETTERS.of(size=size, unit=unit, least=smallest)
         for word, size in zip(words.words[count:], sizes[count:].tolist(), strict=True)
     }
     return _first(words, count, reasons)
@@ -218,15 +218,15 @@ class LedByHero(RunStep):
         self._listed = listed
         self.share = share_of(listed(False))
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State of the cloud, measured."""
-        job, found = state.job, run_steps(self._listed(False), state, watch)
+        job, found = state.job, run_steps(self._listed(False), state, context)
         hero = hero_of(job)
         if hero is None:
             return found
         first, sizes, has_led = job.items[hero].name, _sizes(job, found), False
         for number in range(MOST_RUNS + 1):
-            if not (sizes > sizes[hero]).any() or watch.stop():
+            if not (sizes > sizes[hero]).any() or context.stop():
                 break
             extents = _extents(job)
             scales = sizes / extents
@@ -234,22 +234,22 @@ class LedByHero(RunStep):
             share = np.minimum(most / np.maximum(scales, most), 1.0) ** 2
             share[hero] = 1.0
             job = replace(job, weights=job.weights * share)
-            found = run_steps(self._listed(number == MOST_RUNS), RunState.of(job), watch)
+            found = run_steps(self._listed(number == MOST_RUNS), RunState.of(job), context)
             sizes, has_led = _sizes(job, found), True
         pairs = zip(job.items, sizes, strict=True)
         larger = [item.name for item, size in pairs if size > sizes[hero]]
         if larger:
-            why = f"{enumerated(larger)}: larger than {first}, the hero; give it a larger size"
-            return replace(found, faults=(*found.faults, why))
-        said = f"other words are smaller than their weights ask, so that {first}, the hero, leads"
-        return replace(found, remarks=(*found.remarks, said)) if has_led else found
+            return found.with_finding(
+                Sentence.LARGER_THAN_HERO, names=enumerated(larger), hero=first
+            )
+        return found.with_finding(Sentence.HERO_LEADS, hero=first) if has_led else found
 
 
 @final
 class BelowHero(RunStep):
     """All words, in proportion, smaller than the hero."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with exact poses of such sizes."""
         hero, poses = hero_of(state.job), state.poses
         sizes = _extents(state.job) * poses.scale
@@ -257,7 +257,7 @@ class BelowHero(RunStep):
             return state
         scale = poses.scale * (BELOW * sizes[hero] / sizes.max())
         scale[hero] = poses.scale[hero]
-        return at_sizes(state, scale, watch)
+        return at_sizes(state, scale, context)
 
 
 def hero_of(job: Job) -> int | None:
@@ -296,7 +296,7 @@ class FewerWords(RunStep):
         self._listed, self._smallest = listed, smallest
         self.share = share_of(listed(job))
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State of the words whose letters are large enough; others count as not drawn."""
         use = words_of(state.job)
         # Some could not even be large enough in the fullest cloud.
@@ -304,11 +304,11 @@ class FewerWords(RunStep):
         hopeful = int(np.count_nonzero(sizes >= self._smallest))
         job = heaviest_of(state.job, hopeful, sizes, self._smallest)
         for attempt in count(1):
-            found = run_steps(self._listed(job), RunState.of(job), watch)
+            found = run_steps(self._listed(job), RunState.of(job), context)
             read = words_of(found.job).read
             sizes = letters_of(found.poses, len(read.items))
             enough = readable_count(read, self._smallest, sizes, attempt)
-            if watch.stop() or enough == len(read.items):
+            if context.stop() or enough == len(read.items):
                 break
             job = heaviest_of(job, enough, sizes, self._smallest)
         return found

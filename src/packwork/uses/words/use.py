@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.offers import Verbs
 from packwork.phrasing import enumerated, number_of
-from packwork.pipeline.findings import Unplaced, WordsFound
+from packwork.pipeline.findings import Sentence, Unplaced, WordsFound
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.plan.vectors import ItemVectors
@@ -28,8 +28,8 @@ from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
 from packwork.recipe.verbs import VERBS
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.steps.advice import MOST_BARE, smaller_copies
 from packwork.steps.control import Replan, Retry
+from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, smaller_copies
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer
 from packwork.uses.photos.crop import crops
@@ -80,6 +80,8 @@ class WordsUse(Use):
 
     Parameters
     ----------
+    count
+        Words that were read, some of which may have been left out since.
     gives_way
         Whether each is as large as it found a place in its turn.
     """
@@ -87,6 +89,7 @@ class WordsUse(Use):
     read: WordsRead
     options: WordOptions
     letters: Letters
+    count: int
     gives_way: bool = False
 
     # A palette of words is theirs: emoji and icons among them keep their colours.
@@ -114,12 +117,18 @@ class WordsUse(Use):
             return [*first, LedByHero(lambda is_bounded: self._placed(job, is_bounded))]
         shared = self._placed(job)
         if is_shared and job.recipe.sizes == AUTO and can_give_way(job):
-            return [*first, Retry(shared, graded, fills_container, fuller)]
+            return [*first, Retry(shared, graded, self._will_do, fuller)]
         return [*first, *shared]
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks, words that could not be drawn, what was left out."""
         return [*reporting(job, is_dressed=True, found=[ReportWords()]), RemarkWords()]
+
+    def _will_do(self, state: RunState) -> bool:
+        """Whether words in proportion make a full cloud, or are too few to."""
+        seen = state.measured[1].seen
+        is_full = seen.bare <= MOST_BARE and seen.shape >= LEAST_SHOWN
+        return is_full or self.count < MANY
 
     def _placed(self, job: Job, is_below_hero: bool = False) -> list[RunStep]:
         """Words whose sizes are not graded, measured."""
@@ -205,15 +214,14 @@ class WordsUse(Use):
 
     def remedy(self, job: Job) -> str:
         """More words, if there are more; and sizes that give way, or else smaller copies."""
-        count = len(self.read.items)
-        said = []
-        if self.read.found > count:
-            needed = max(words_needed(job.container), 2 * count)
-            said = [f"-n {min(needed, self.read.found)} would show more of it"]
-        # Fewer leave it bare with whatever sizes.
-        is_cloud = self.read.found >= MANY
-        if job.plan.sizes == "shared" and is_cloud and can_give_way(job):
-            said.append("--sizes graded, whose proportions give way, would fill it")
+        placed, found, said = len(self.read.items), self.read.found, list[str]()
+        count = min(max(words_needed(job.container), 2 * placed), found)
+        if count > CLEARLY_MORE * placed:
+            said.append(Sentence.MORE_WORDS.of(count=count))
+        # Fewer leave it bare with whatever sizes; of automatic ones graded ones have been tried.
+        was_tried = job.recipe.sizes == AUTO and self.count >= MANY
+        if job.plan.sizes == "shared" and found >= MANY and can_give_way(job) and not was_tried:
+            said.append(Sentence.GRADED.of())
         else:
             said.append(smaller_copies(job.plan.voids, WORDS_REACH))
         return "; ".join(said)
@@ -246,14 +254,7 @@ def close_gap(job: Job) -> float:
     return min(job.plan.gap, most)
 
 
-def fills_container(state: RunState) -> bool:
-    """Whether words in proportion make a full cloud, or are too few to."""
-    _, metrics = state.measured
-    is_full = metrics.seen.bare <= MOST_BARE and metrics.seen.shape >= LEAST_SHOWN
-    return is_full or len(words_of(state.job).read.items) < MANY
-
-
-def fuller(tried: Sequence[RunState], watch: RunContext) -> RunState:
+def fuller(tried: Sequence[RunState], context: RunContext) -> RunState:
     """Of a cloud in proportion and one whose sizes give way, the second if it is plainly better."""
     found, graded = tried
     seen, more = found.measured[1].seen, graded.measured[1].seen
@@ -285,7 +286,7 @@ def read_cloud(
     chosen = cast_words(recipe, words, named.items)
     container = room.of(chosen)
     return Material(
-        use=WordsUse(words, asked, Letters.of(asked, container, recipe.sizes)),
+        use=WordsUse(words, asked, Letters.of(asked, container, recipe.sizes), len(words.items)),
         container=container,
         cast=chosen,
         fillers=words.items,
@@ -298,7 +299,7 @@ def read_cloud(
 class ReportWords(RunStep):
     """Words that the source holds, and those that could not be drawn."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with these among what is unplaced, numbered after the items."""
         use, (layout, _) = words_of(state.job), state.measured
         undrawn = tuple(
@@ -314,28 +315,31 @@ class ReportWords(RunStep):
 class RemarkWords(RunStep):
     """Sentences about words that were left out since they say little, and sizes that give way."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the remarks."""
-        job, use, said = state.job, words_of(state.job), list[str]()
+        job, use = state.job, words_of(state.job)
         if use.options.count == AUTO:
-            said.append(f"auto chose {number_of(len(job.items), 'word')}")
+            state = state.with_finding(Sentence.COUNT, many=number_of(len(job.items), "word"))
         if words := use.read.stopped:
             many = number_of(len(words), "function word is", "function words are")
-            said.append(f"{many} left out ({enumerated(words)}); --language none keeps them")
+            state = state.with_finding(Sentence.STOPWORDS, many=many, names=enumerated(words))
         if use.gives_way and job.recipe.sizes == AUTO:
             is_thin = found_sizes(job.recipe, job.container) == "graded"
-            why = "the container is thin" if is_thin else "in proportion they would leave it bare"
-            said.append(f"{why}, so sizes of words give way; --sizes shared keeps proportions")
-        return replace(state, remarks=(*state.remarks, *said))
+            why = Sentence.THIN if is_thin else Sentence.LEFT_BARE
+            state = state.with_finding(Sentence.GIVES_WAY, why=why.of())
+        return state
 
 
 @final
 class RemarkGap(RunStep):
     """A sentence about a gap that is narrower than usual, for there are so many words."""
 
-    def run(self, state: RunState, watch: RunContext) -> RunState:
+    def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the remark."""
-        job, unit = state.job, state.job.container.unit
-        usual = job.recipe.padding_cu(job.container)
-        said = f"so many words stand {job.plan.gap:.2g} {unit} apart, not {usual:g} {unit}"
-        return replace(state, remarks=(*state.remarks, f"{said}; another --padding is kept"))
+        container = state.job.container
+        return state.with_finding(
+            Sentence.CLOSER,
+            gap=state.job.plan.gap,
+            usual=state.job.recipe.padding_cu(container),
+            unit=container.unit,
+        )
