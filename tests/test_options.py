@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from packwork.options import Options
 from packwork.recipe import Recipe
-from packwork.recipe.piles import Moving
+from packwork.recipe.piles import MotionOptions
 
 
 class Kept(Options):
@@ -41,7 +41,7 @@ def test_docstrings_are_descriptions() -> None:
 def test_a_subclass_keeps_or_replaces_them() -> None:
     said = {name: field.description for name, field in Wider.model_fields.items()}
     assert said == {"size": "Another side.", "bare": None, "depth": "How deep."}
-    force = Moving.model_fields["force"].description
+    force = MotionOptions.model_fields["force"].description
     assert force
     assert Recipe.model_fields["force"].description == force
 

@@ -20,6 +20,8 @@ Command = Callable[..., Result]
         ("fill heart --preset papper", "'papper' is not one of 'default', 'paper'"),
         ("fill heart --cuont 3", "no such option: --cuont"),
         ("fill heart -n", "requires an argument"),
+        ("fill heart --hero owl --hero bear=20%", "--hero: is given twice; there is one hero"),
+        ("fill heart --palette red --palette blue", "--palette: is given twice; write all"),
         ("fill heart --pixels many", "invalid value for '--pixels'"),
         ("fil heart", "no such command 'fil'; did you mean fill?"),
         ("fill heart --outline hull", '--outline is no flag; write outline = "hull" into a recipe'),

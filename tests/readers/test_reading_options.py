@@ -17,7 +17,7 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.slits import closed_slits
 from packwork.readers.svg.curve import walled_container
 from packwork.recipe import make_recipe
-from packwork.recipe.reading import Interpreted
+from packwork.recipe.reading import ReadingOptions
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.writers.svg import svg_text
@@ -205,7 +205,7 @@ def test_seams_of_a_mask_are_closed(painted):
 @pytest.mark.parametrize("text", ["wide", "-1", ""])
 def test_widths_that_are_none(text):
     with pytest.raises(RecipeError, match=r"close_gaps"):
-        validated(Interpreted, {"close_gaps": text})
+        validated(ReadingOptions, {"close_gaps": text})
 
 
 # Pages behind items

@@ -48,6 +48,12 @@ MARKUP: Final = "rich"
 ALL = "all"
 """Topic of every option."""
 
+ONCE: Mapping[str, str] = {
+    "hero": "there is one hero; others are larger by rules of a recipe, or by weights",
+    "palette": "write all its colours in one list, as red,#457b9d",
+}
+"""Options of which a second one would replace the first, though it looks like one more."""
+
 _NO_MARKUP = re.compile(r"\[(?!/?(?:bold)?\])")
 
 
@@ -97,6 +103,11 @@ class HelpfulCommand(TyperCommand):
         self.topic = next(iter(before[places[0] + 1 :]), None) if places else None
         if self.topic is not None:
             args = ["--help"]
+        _, _, given = self.make_parser(ctx).parse_args(args=list(args))
+        for param in dict.fromkeys(given):
+            if param.name in ONCE and given.count(param) > 1:
+                line = f"is given twice; {ONCE[param.name]}"
+                raise typer.BadParameter(line, ctx=ctx, param_hint=param.opts[-1])
         rest: list[str] = super().parse_args(ctx, args)
         return rest
 

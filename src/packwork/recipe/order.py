@@ -119,7 +119,7 @@ def known_arrangement(text: str | None) -> str | None:
     return text
 
 
-class Ordered(Options):
+class OrderOptions(Options):
     """In which order items lie."""
 
     offers = Offer(group=Group.ORDER, verbs=Verbs.COLLAGES)

@@ -137,7 +137,7 @@ _ADDED = Offer(
 )  # fmt: skip
 
 
-class Pictured(Options):
+class PictureOptions(Options):
     """Photographs that are placed, the picture round which items are, and what a palette does."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)

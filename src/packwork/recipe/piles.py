@@ -118,7 +118,7 @@ class PileOptions(Options):
         return self
 
 
-class Moving(Options):
+class MotionOptions(Options):
     """The part of a recipe that says how items move."""
 
     offers = Offer(group=Group.PLACED)

@@ -13,7 +13,7 @@ from packwork.readers.options import GAPS_AUTO, GAPS_NONE, HALF, ReadOptions
 from packwork.recipe.refusals import length_asked
 
 
-class Interpreted(Options):
+class ReadingOptions(Options):
     """Meaning of files where they do not say it themselves."""
 
     offers = Offer(group=Group.READ, verbs=Verbs.EVERY)

@@ -21,11 +21,11 @@ from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
-from packwork.recipe.order import EmbeddingOptions, Ordered
-from packwork.recipe.pictures import MosaicOptions, Pictured, check_no_names, known_palette
-from packwork.recipe.piles import Moving
+from packwork.recipe.order import EmbeddingOptions, OrderOptions
+from packwork.recipe.pictures import MosaicOptions, PictureOptions, check_no_names, known_palette
+from packwork.recipe.piles import MotionOptions
 from packwork.recipe.presets import checked_levels
-from packwork.recipe.reading import Interpreted
+from packwork.recipe.reading import ReadingOptions
 from packwork.recipe.refusals import length_asked, length_of, validated
 from packwork.recipe.rules import (
     MAX_COUNT,
@@ -62,11 +62,8 @@ EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
 APART = 0.5
 """Weight of the loss that keeps kinds apart. Larger parts more and fills less. Tried."""
 
-MAX_THREADS = 1_024
-"""Threads of one run at most. Chosen."""
-
-MAX_SECONDS = 86_400.0
-"""Longest time for one run. Chosen."""
+MAX_THREADS, MAX_SECONDS = 1_024, 86_400.0
+"""Threads of one run, and seconds for it, at most."""
 
 Seconds: TypeAlias = Annotated[float, Field(gt=0, le=MAX_SECONDS, allow_inf_nan=False)]
 
@@ -89,7 +86,15 @@ _ADDED = Offer(
 )  # fmt: skip
 
 
-class Recipe(Ordered, EmbeddingOptions, MosaicOptions, Pictured, Moving, TableFormat, Interpreted):
+class Recipe(
+    OrderOptions,
+    EmbeddingOptions,
+    MosaicOptions,
+    PictureOptions,
+    MotionOptions,
+    TableFormat,
+    ReadingOptions,
+):
     """Request of one ``fill``. Lengths in canvas units, angles in degrees."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)
