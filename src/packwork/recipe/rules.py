@@ -17,7 +17,6 @@ from pydantic import (
 from packwork.errors import RecipeError
 from packwork.offers import Offer
 from packwork.options import Options, number_or_auto
-from packwork.scene.item import Label
 from packwork.units import parse_length
 
 MAX_COUNT = 100_000
@@ -320,6 +319,9 @@ class Rule(Options):
     @classmethod
     def _labels_are_sound(cls, text: str | None, info: Any) -> str | None:
         if text is not None:
+            # Loads NumPy and Shapely, which the command line's help can do without.
+            from packwork.scene.item import Label
+
             try:
                 Label(**{info.field_name: text})
             except RecipeError as error:
