@@ -61,13 +61,7 @@ def _help_of(name: str) -> str:
 
 
 def planned(session: Session, asked: Mapping[str, Any]) -> list[Callable[[], object]]:
-    """Edits that flags ask for, of items that are there now, in the order in which they are done.
-
-    Raises
-    ------
-    RecipeError
-        Naming the flag whose text has no meaning.
-    """
+    """Edits that flags ask for, of items that are there now, in the order of :data:`EDITS`."""
     if asked["arrange"] is not None and asked["embeddings"] is not None:
         raise RecipeError("embeddings", "and --arrange both say where items lie; leave one out")
     if asked["anchors"] and asked["embeddings"] is None:

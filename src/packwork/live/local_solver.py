@@ -224,12 +224,12 @@ class LocalSolver:
         held = before.held.copy()
         held[self._rows(marks.by_hand), PROPERTIES.index("angle")] = True
         strict = replace(before, held=held)
-        done = polish(strict, rows, trials, marks.polished + 1, self.shapes, stop)
+        poses, is_clean = polish(strict, rows, trials, marks.polished + 1, self.shapes, stop)
         if stop():
             return None
         marks.polished += 1
-        now = before.with_poses(done.document.poses) if done.is_clean else before
-        self.base = now if done.is_clean else self.base
+        now = before.with_poses(poses) if is_clean else before
+        self.base = now if is_clean else self.base
         self._turn_to(now)
         marks.tried += trials
         if marks.tried >= ENOUGH * len(rows):
@@ -271,8 +271,8 @@ class LocalSolver:
             is_clean = self._settle(strict, stop)
             if not self._refill(asked, stop):
                 if not is_clean and sizes_are_common(strict):
-                    smaller = made_smaller(strict, self.shapes, stop).document
-                    self._turn_to(self.document.with_poses(smaller.poses))
+                    smaller, _ = made_smaller(strict, self.shapes, stop)
+                    self._turn_to(self.document.with_poses(smaller))
                 if len(self.violations) > wrong:
                     # Nothing is better than something worse.
                     self._turn_to(asked)
@@ -311,9 +311,11 @@ class LocalSolver:
         touched = np.union1d(self._rows(self.marks.touched), np.flatnonzero(flow.moved))
         flow.review()
         kept = self._rows(self.marks.placed_by_user)
-        done = settle(strict, touched.astype(np.int64), kept, flow.contacts, self.shapes, stop)
-        self._turn_to(self.document.with_poses(done.document.poses))
-        return done.is_clean
+        poses, is_clean = settle(
+            strict, touched.astype(np.int64), kept, flow.contacts, self.shapes, stop
+        )
+        self._turn_to(self.document.with_poses(poses))
+        return is_clean
 
     def _refill(self, asked: Document, stop: Stop) -> bool:
         """Pour a cloud anew that a gesture, new words or weights have left emptier; if it was."""

@@ -113,11 +113,6 @@ def line_of(entry: Entry) -> str:
 def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
     """Entries of a log's lines; a last line that was cut off is left out.
 
-    Raises
-    ------
-    ReadError
-        If a line is none of a log's.
-
     Examples
     --------
     >>> list(read_entries(iter(['{"flow": [200, 12]}', '{"do": {"kind": "dr']), "a log"))
@@ -197,13 +192,7 @@ class Brought(Options):
 
 
 def brought_record(name: str, thing: Item | Container) -> Brought:
-    """An item or a container as plain values.
-
-    Raises
-    ------
-    ReadError
-        If the file of a photograph is no longer there.
-    """
+    """An item or a container as plain values."""
     if isinstance(thing, Container):
         return Brought(name=name, container=container_record(thing))
     things = Things()
@@ -216,13 +205,7 @@ def brought_record(name: str, thing: Item | Container) -> Brought:
 
 
 def brought_of(value: Any, kind: str) -> tuple[str, Item | Container]:
-    """The item or container of a line's value, and its name.
-
-    Raises
-    ------
-    UnfitError
-        If it is none.
-    """
+    """The item or container of a line's value, and its name."""
     try:
         found = Brought.model_validate(value, strict=False)
     except ValidationError as error:

@@ -100,15 +100,7 @@ def counted(session: Session, count: int) -> Iterator[Command]:
 
 
 def words_of(document: Document, source: object, options: Mapping[str, Any]) -> WordsRead:
-    """Words of a text or a table, set as the run did that made the layout.
-
-    Raises
-    ------
-    ReadError
-        If they cannot be read.
-    RecipeError
-        If an option has no meaning.
-    """
+    """Words of a text or a table, set as the run did that made the layout."""
     recipe = document.manifest.get("recipe")
     before = recipe.get("words") if isinstance(recipe, Mapping) else None
     known = before if isinstance(before, Mapping) else {}
@@ -223,13 +215,6 @@ def showing(document: Document, source: str) -> Together:
     """Commands that give each item the colour of the picture under it; photographs keep theirs.
 
     For gaps of any colour: what ``--picture`` makes up for is that of a ground of its own.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, is clear, or has one colour only.
-    RecipeError
-        If there is nothing whose colour could be changed.
     """
     target = read_target(source, document.container)
     colours = colours_under(document.layout, target)

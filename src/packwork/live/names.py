@@ -24,13 +24,7 @@ _COPY = re.compile(r"(?P<name>.+)#(?P<copy>[1-9][0-9]{0,5})")
 
 
 def find_items(document: Document, which: Which) -> tuple[int, ...]:
-    """Numbers of the items that a name means, in their order.
-
-    Raises
-    ------
-    RecipeError
-        If there is none.
-    """
+    """Numbers of the items that a name means, in their order."""
     if isinstance(which, list | tuple | set | frozenset):
         return tuple(dict.fromkeys(k for one in which for k in find_items(document, one)))
     if isinstance(which, Integral) and not isinstance(which, bool):
@@ -70,13 +64,7 @@ def called(document: Document, k: int) -> str:
 
 
 def length_of(document: Document, key: str, value: Coordinate) -> float:
-    """Canvas units of a coordinate, ``x`` or ``y``.
-
-    Raises
-    ------
-    RecipeError
-        If it is none.
-    """
+    """Canvas units of a coordinate, ``x`` or ``y``."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
     with contextlib.suppress(ValueError):

@@ -56,13 +56,6 @@ def poured_again(
     asked
         Where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
         ``anchors``.
-
-    Raises
-    ------
-    ReadError
-        If a file cannot be used.
-    RecipeError
-        If that has no meaning for these items.
     """
     is_by_text = asked.get("embeddings") == BY_TEXT
     job = job_again(document, seed, {} if is_by_text else asked)
@@ -239,15 +232,7 @@ def pin_of(document: Document, k: int) -> dict[str, str | float]:
 
 
 def poured(recipe: Recipe, shown: Shown, stop: Stop = never) -> Layout:
-    """Layout of a recipe, every moment of its run shown.
-
-    Raises
-    ------
-    ReadError
-        If a file cannot be used.
-    RecipeError
-        If an option has no meaning for these files.
-    """
+    """Layout of a recipe, every moment of its run shown."""
     job = uses.read(recipe)
     return run_shown(job, shown, stop)[0]
 
@@ -271,11 +256,6 @@ def poured_into(
     options
         ``count``, items in all, and of words ``font`` and ``palette``; what is None the use
         decides by itself.
-
-    Raises
-    ------
-    ReadError
-        If nothing of them can be used.
     """
     given: dict[str, Any] = {"effort": "draft", "canvas": canvas_of(document)}
     given |= {name: value for name, value in options.items() if value is not None}

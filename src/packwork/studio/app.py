@@ -21,9 +21,10 @@ from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from packwork.errors import PackworkError
+from packwork.live.face.offers import offers
 from packwork.studio.files import MOST_BYTES, Exporter, Uploads
 from packwork.studio.guard import AGAIN, PROTOCOL, Guard
-from packwork.studio.importer import Importer, choices
+from packwork.studio.importer import Importer
 from packwork.studio.proof import Secret
 from packwork.studio.tab import Tab
 from packwork.studio.workspace import Workspace
@@ -76,7 +77,7 @@ class Studio:
         return JSONResponse({"secret": self._secret.text})
 
     async def _choices(self, request: Request) -> Response:
-        return JSONResponse(await asyncio.to_thread(choices))
+        return JSONResponse(await asyncio.to_thread(offers))
 
     async def _batch(self, request: Request) -> Response:
         return JSONResponse({"batch": self._uploads.new_batch()})
@@ -144,13 +145,7 @@ async def _received(socket: WebSocket, tab: Tab) -> None:
 
 
 async def _body(request: Request, most: int) -> bytes:
-    """Body of a request.
-
-    Raises
-    ------
-    PackworkError
-        If it is longer than that, or takes too long.
-    """
+    """Body of a request."""
     parts, length = [], 0
     try:
         async with asyncio.timeout(BODY_SECONDS):

@@ -61,25 +61,13 @@ class Uploads:
         return self._folder.path
 
     def folder(self, batch: str) -> Path:
-        """Folder of a batch.
-
-        Raises
-        ------
-        ReadError
-            If there is none of that name.
-        """
+        """Folder of a batch."""
         if not _BATCH.fullmatch(batch) or not (self.root / batch).is_dir():
             raise ReadError("files", "there are no such files; drop them again")
         return self.root / batch
 
     def add(self, batch: str, name: str, data: bytes) -> None:
-        """Keep a file under its own name, or one like it.
-
-        Raises
-        ------
-        ReadError
-            If it is too large, or there are too many.
-        """
+        """Keep a file under its own name, or one like it."""
         shown = name[:60]
         if len(data) > MOST_BYTES:
             raise ReadError(shown, f"is larger than {MOST_BYTES / 1e6:g} MB")
@@ -139,11 +127,6 @@ class Exporter:
         ----------
         asked
             ``format``, and ``options`` of drawings by name.
-
-        Raises
-        ------
-        PackworkError
-            If it cannot be written so.
         """
         if not isinstance(asked, dict) or set(asked) - {"format", "options"}:
             raise RecipeError("export", "takes a format and options")

@@ -1,26 +1,12 @@
-"""Sources that pages name, as readers name them; what is read of them, and what is offered."""
+"""Sources that pages name, as readers name them."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import asdict
-from functools import cache
-from typing import Any
 
 from packwork.errors import PackworkError, ReadError
-from packwork.live.face.offers import (
-    FINENESS,
-    drawing_of,
-    form_fields,
-    offered_containers,
-    offered_fonts,
-    offered_items,
-    offered_palettes,
-    only_file,
-    path_of,
-)
-from packwork.scene.item import Item
+from packwork.live.face.offers import offered_fonts, only_file
 from packwork.studio.files import Uploads
 from packwork.studio.workspace import Workspace
 
@@ -82,24 +68,3 @@ class Importer:
     def without_folder(self, text: str) -> str:
         """A line without the folder that nobody knows."""
         return _FOLDER.sub("", text.replace(str(self._uploads.root), ""))
-
-
-@cache
-def choices() -> dict[str, Any]:
-    """Bundled containers and items, with pictures, fonts and palettes; made once."""
-    containers = [
-        {"name": one.name, "path": path_of(one.outline, FINENESS), "box": one.outline.bounds}
-        for one in offered_containers()
-        if one.outline is not None
-    ]
-    return {
-        "options": [asdict(one) for one in form_fields()],
-        "containers": containers,
-        "fonts": offered_fonts(),
-        "palettes": offered_palettes(),
-        "items": [_choice(one.item) for one in offered_items() if one.item is not None],
-    }
-
-
-def _choice(item: Item) -> dict[str, Any]:
-    return {"name": item.name, **asdict(drawing_of(item))}

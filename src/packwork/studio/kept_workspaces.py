@@ -93,13 +93,7 @@ def new() -> KeptWorkspace | None:
 
 
 def last() -> KeptWorkspace:
-    """The desk that was used last.
-
-    Raises
-    ------
-    PackworkError
-        If there is none.
-    """
+    """The desk that was used last."""
     found = max(_known(), key=_last_used, default=None)
     if found is None:
         raise PackworkError("there is no desk to go on with; leave --again out")

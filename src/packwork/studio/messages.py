@@ -337,11 +337,6 @@ class UnreadableError(PackworkError):
 def read(text: str) -> Told:
     """Message that a page has sent.
 
-    Raises
-    ------
-    UnreadableError
-        If it is none.
-
     Examples
     --------
     >>> read('{"type": "ack", "frame": 4}')

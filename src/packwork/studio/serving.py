@@ -68,11 +68,6 @@ def serve(
         Where it is kept, and was served before; None for nowhere.
     tell
         Told the address, a line.
-
-    Raises
-    ------
-    PackworkError
-        If the port is taken.
     """
     port, key_before = (place.port, "") if kept is None or place.port else kept.address
     try:

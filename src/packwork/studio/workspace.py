@@ -28,7 +28,6 @@ from packwork.live.face.opening import Keeper, Opening, kept_in, opened
 from packwork.live.owner import Frame, Owner
 from packwork.live.relayout import Moment, in_place, poured, poured_again, poured_into
 from packwork.live.session import Session
-from packwork.scene.pose import Poses
 from packwork.studio.view import Scenes, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
 
@@ -299,7 +298,7 @@ class Workspace:
         commands, document = owner.call(lambda session: _prepared(session, make)).result()
 
         def show(moment: Moment) -> None:
-            poses = _stretched(moment.poses, document)
+            poses = moment.poses and replace(moment.poses, stretch=document.poses.stretch)
             self._see(View.of_document(document, poses), moment)
 
         arranged = poured_again(document, seed, show, self._stop.is_set, **asked)
@@ -362,7 +361,3 @@ def _prepared(
     for command in commands:
         document = command.applied(document, session.library)
     return commands, document
-
-
-def _stretched(poses: Poses | None, document: Document) -> Poses | None:
-    return None if poses is None else replace(poses, stretch=document.poses.stretch)

@@ -58,13 +58,7 @@ class Command(Options):
 
     @abstractmethod
     def applied(self, document: Document, library: Library) -> Document:
-        """The document after it.
-
-        Raises
-        ------
-        RecipeError
-            If it has no meaning there.
-        """
+        """The document after it; RecipeError where it has no meaning there."""
 
     @property
     def steps(self) -> tuple[Command, ...]:
@@ -79,24 +73,12 @@ class Command(Options):
 
 
 def made(command: type[_Command], **values: object) -> _Command:
-    """A command of plain values.
-
-    Raises
-    ------
-    RecipeError
-        Naming the value that has no meaning.
-    """
+    """A command of plain values; RecipeError names the value that has no meaning."""
     return validated(command, values)
 
 
 def sized(document: Document, what: str) -> Document:
-    """The document, if its items are of sizes that can be seen.
-
-    Raises
-    ------
-    RecipeError
-        If one is a speck, or far larger than the canvas.
-    """
+    """The document; RecipeError if an item is a speck, or far larger than the canvas."""
     container = document.container
     extents = np.array([item.outline.extent for item in document.items]) * document.poses.scale
     shares = extents / container.side
@@ -111,13 +93,7 @@ def sized(document: Document, what: str) -> Document:
 
 
 def index_of(document: Document, number: int, what: str) -> int:
-    """Index of an item in the arrays.
-
-    Raises
-    ------
-    RecipeError
-        If there is none of that number.
-    """
+    """Index of an item in the arrays."""
     found = document.index(number)
     if found is None:
         raise RecipeError(what, f"there is no item {number}; {_numbers(document)}")
@@ -130,13 +106,7 @@ def is_chart(document: Document) -> bool:
 
 
 def check_no_chart(document: Document, what: str) -> None:
-    """Refuse to size marks of a chart.
-
-    Raises
-    ------
-    RecipeError
-        If the layout is one.
-    """
+    """Refuse to size marks of a chart."""
     if is_chart(document):
         raise RecipeError(what, "marks of a chart are as large as their numbers say; change those")
 
@@ -148,13 +118,7 @@ def _numbers(document: Document) -> str:
 
 
 def known(values: Mapping[str, Item] | Mapping[str, Container], name: str, what: str) -> object:
-    """A value of a library.
-
-    Raises
-    ------
-    RecipeError
-        If it has none of that name.
-    """
+    """A value of a library."""
     if name not in values:
         raise RecipeError(what, f"nothing was read under the name {name[:40]!r}")
     return values[name]

@@ -68,13 +68,6 @@ def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes
     ----------
     kind
         One of :data:`FORMATS`.
-
-    Raises
-    ------
-    WriteError
-        If it cannot be drawn so, or a package is missing.
-    RecipeError
-        If an option has no meaning.
     """
     if kind not in FORMATS:
         raise WriteError(kind[:20], f"is no format; use one of {', '.join(FORMATS)}")
@@ -90,13 +83,6 @@ def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
         One of :data:`FILM_FORMATS`.
     options
         Of films, as on the command line, and ``background`` and ``show_container``.
-
-    Raises
-    ------
-    WriteError
-        If it cannot be drawn so, or a package is missing.
-    RecipeError
-        If an option has no meaning.
     """
     if kind not in FILM_FORMATS:
         raise WriteError(kind[:20], f"is no film; use one of {', '.join(FILM_FORMATS)}")
@@ -109,15 +95,7 @@ def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
 
 
 def recipe_zip(document: Document, name: str) -> bytes:
-    """A document as a recipe: a folder in a ZIP file, with a text that tells how to run it.
-
-    Raises
-    ------
-    RecipeError
-        If the numbers of the document make no recipe.
-    ReadError
-        If the file of a photograph is no longer there.
-    """
+    """A document as a recipe: a folder in a ZIP file, with a text that tells how to run it."""
     made, known = BytesIO(), "".join(c for c in name if c.isalnum() or c in " -_")[:60].strip()
     with (
         TemporaryFolder("recipe") as place,

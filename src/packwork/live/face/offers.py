@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
@@ -81,58 +82,37 @@ def form_fields() -> tuple[FormField, ...]:
     )
 
 
-@dataclass(frozen=True)
-class BuiltIn:
-    """Something bundled, as it is offered.
-
-    Parameters
-    ----------
-    outline
-        Of a container on a square of 100; None of items.
-    """
-
-    name: str
-    item: Item | None = None
-    outline: Outline | None = None
-
-
-def offered_containers() -> tuple[BuiltIn, ...]:
-    """Bundled containers, drawings first.
+@cache
+def offers() -> dict[str, Any]:
+    """All that a page is offered, as plain values: settings, and what is bundled or installed.
 
     Examples
     --------
-    >>> "heart" in {one.name for one in offered_containers()}
-    True
+    >>> offers()["items"][0]["name"], "heart" in {one["name"] for one in offers()["containers"]}
+    ('anchor', True)
     """
-    names = sorted(_plain(container_names()), key=lambda name: (name in NAMES, name))
-    return tuple(BuiltIn(name, outline=builtin_container(name, 100.0).outline) for name in names)
+    # Drawings first; without names of one of many sizes.
+    containers = sorted(container_names(), key=lambda name: (name in NAMES, name))
+    icons = icon_names()
+    return {
+        "options": [asdict(one) for one in form_fields()],
+        "containers": [_container(name) for name in containers if ":" not in name],
+        "fonts": offered_fonts(),
+        "palettes": dict(PALETTES),
+        "items": [
+            {"name": name, **asdict(drawing_of(builtin_item(name)))}
+            for name in (*icons, *(one for one in NAMES if ":" not in one and one not in icons))
+        ],
+    }
 
 
-def offered_items() -> tuple[BuiltIn, ...]:
-    """Bundled icons, then plain shapes.
-
-    Examples
-    --------
-    >>> offered_items()[0].name
-    'anchor'
-    """
-    names = [*icon_names(), *(name for name in _plain(NAMES) if name not in icon_names())]
-    return tuple(BuiltIn(name, item=builtin_item(name)) for name in names)
-
-
-def _plain(names: Sequence[str]) -> list[str]:
-    """Names without those that are one of many sizes."""
-    return [name for name in names if ":" not in name]
+def _container(name: str) -> dict[str, Any]:
+    outline = builtin_container(name, 100.0).outline
+    return {"name": name, "path": path_of(outline, FINENESS), "box": outline.bounds}
 
 
 def items_of(sources: Sequence[str]) -> ItemsRead:
-    """Items of bundled names and of folders of files that were given.
-
-    Raises
-    ------
-    ReadError
-        If nothing of them is an item.
-    """
+    """Items of bundled names and of folders of files that were given."""
     return read_items(sources)
 
 
@@ -147,30 +127,13 @@ def offered_fonts() -> tuple[str, ...]:
     return tuple(sorted(installed_families()))
 
 
-def offered_palettes() -> dict[str, tuple[str, ...]]:
-    """Colours that words can have, by the names of the palettes."""
-    return dict(PALETTES)
-
-
 def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
-    """Container of a bundled name, ``text:WORD`` or a file that was given.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be used.
-    """
+    """Container of a bundled name, ``text:WORD`` or a file that was given."""
     return read_container(source, canvas, font=font)
 
 
 def only_file(folder: Path) -> Path:
-    """The one file of a folder.
-
-    Raises
-    ------
-    ReadError
-        If there are several.
-    """
+    """The one file of a folder."""
     files = sorted(folder.iterdir())
     if len(files) != 1:
         raise ReadError("container", f"is one file, not {len(files)}; drop one")

@@ -50,13 +50,6 @@ def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) 
         None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
         ending, an SVG that this program wrote too. Else the container, then the items.
 
-    Raises
-    ------
-    ReadError
-        If a file cannot be used.
-    RecipeError
-        If a number has no meaning.
-
     Examples
     --------
     >>> opening_of([]).recipe.container, opening_of(["bear", "star"], 9).recipe.count
@@ -91,25 +84,13 @@ def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:
 
 
 def opened(path: Path) -> tuple[Session, Keeper]:
-    """Session that a file holds, all done again that its journal adds, and what keeps it there.
-
-    Raises
-    ------
-    ReadError
-        If it is no session file, or a spoilt one.
-    """
+    """Session that a file holds, all done again that its journal adds, and what keeps it there."""
     disk = Disk(path, is_journaled=True)
     return disk.opened(Session), Keeper(disk)
 
 
 def kept_in(path: Path, session: Session) -> Keeper:
-    """Keeper of a new session in a file.
-
-    Raises
-    ------
-    WriteError
-        If nothing can be written there.
-    """
+    """Keeper of a new session in a file."""
     keeper = Keeper(Disk(path, is_journaled=True))
     keeper.begin(session)
     return keeper
@@ -132,13 +113,7 @@ class Keeper:
         self._disk = disk
 
     def begin(self, session: Session) -> None:
-        """Write the file, and note from now on what is done.
-
-        Raises
-        ------
-        WriteError
-            If nothing can be written there.
-        """
+        """Write the file, and note from now on what is done."""
         self._disk.save(session)
 
     @property

@@ -47,25 +47,13 @@ _Session = TypeVar("_Session", bound=Session)
 
 
 def layout_in(path: str | Path) -> Layout:
-    """Layout of a session's file, as the session stands there.
-
-    Raises
-    ------
-    ReadError
-        If it is no session file, or a spoilt one.
-    """
+    """Layout of a session's file, as the session stands there."""
     return Disk(path, is_journaled=False).opened(Session).layout
 
 
 @contextlib.contextmanager
 def saving(layout: Layout, paths: Iterable[Path]) -> Iterator[list[tuple[Path, bytes]]]:
-    """Session files that begin with a layout, for the block to write; nobody else does meanwhile.
-
-    Raises
-    ------
-    WriteError
-        If somebody else has one of them open.
-    """
+    """Session files that begin with a layout, for the block to write, and nobody else."""
     with contextlib.ExitStack() as stack:
         disks = [Disk(path, is_journaled=False) for path in paths]
         session = Session(Document.of(layout)) if disks else None
@@ -103,15 +91,7 @@ class Disk:
         return self.path.with_name(self.path.name + ".log")
 
     def opened(self, kind: type[_Session]) -> _Session:
-        """A session of a kind that goes on from the file and from its journal.
-
-        Raises
-        ------
-        ReadError
-            If either is spoilt, or the journal is of another file.
-        WriteError
-            If a journal is asked for and another session writes it.
-        """
+        """A session of a kind that goes on from the file and from its journal."""
         with contextlib.ExitStack() as undone:
             if self.is_journaled:
                 self._own()
@@ -134,26 +114,13 @@ class Disk:
         ----------
         journal
             Whether one is kept from now on; None for as before.
-
-        Raises
-        ------
-        RecipeError
-            If something is grabbed.
-        WriteError
-            If nothing can be written there, or others write the file; what was there is as it was.
         """
         with self.replacing(session, journal) as data:
             write_atomic(self.path, data)
 
     @contextlib.contextmanager
     def replacing(self, session: Session, journal: bool | None = None) -> Iterator[bytes]:
-        """The file's new bytes, for the block to write; nobody else writes the file meanwhile.
-
-        Raises
-        ------
-        RecipeError, WriteError
-            As for :meth:`save`.
-        """
+        """The file's new bytes, for the block to write; nobody else writes the file meanwhile."""
         was_owned = self._lock.is_locked
         kept = session.kept()
         self._own()
@@ -203,10 +170,10 @@ class Disk:
         """Contents of the file, and the entries that its journal adds."""
         data = read_bytes(self.path, MOST_BYTES)
         forget_input(self.path)
-        found = read_session(data, str(self.path))
+        state, follows = read_session(data, str(self.path))
         self._digest = hashlib.sha256(data).hexdigest()
-        entries = self._later(found.follows) if exists(self.journal) else iter(())
-        return found.kept, entries
+        entries = self._later(follows) if exists(self.journal) else iter(())
+        return state, entries
 
     def _go_on(self, session: Session, entries: Iterable[Entry]) -> None:
         """Do to a session what a journal adds, and begin the next journal."""
@@ -222,13 +189,7 @@ class Disk:
             (self.save if gestures else self._begin)(session)
 
     def _replaced(self) -> str:
-        """Digest of the file that is to be replaced; empty if there is none.
-
-        Raises
-        ------
-        WriteError
-            If it is not the one that was read or written last.
-        """
+        """Digest of the file that is to be replaced; empty if there is none."""
         if not exists(self.path):
             return self._digest
         try:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -116,14 +115,6 @@ def records_of(
         before, then = document, now
 
 
-@dataclass(frozen=True)
-class Parts:
-    """Parts that documents of a file are made of."""
-
-    items: Sequence[Item]
-    containers: Sequence[Container]
-
-
 def rows_of(records: Iterable[DocumentRecord]) -> int:
     """Items of all documents together.
 
@@ -139,22 +130,16 @@ def rows_of(records: Iterable[DocumentRecord]) -> int:
     return rows
 
 
-def documents_of(records: Sequence[DocumentRecord], parts: Parts) -> Iterator[Document]:
-    """Documents of records.
-
-    Raises
-    ------
-    UnfitError
-        If one is no document, or they are too many of too many items.
-    RecipeError
-        If an item is of a size that none has.
-    """
+def documents_of(
+    records: Sequence[DocumentRecord], items: Sequence[Item], containers: Sequence[Container]
+) -> Iterator[Document]:
+    """Documents of records."""
     if rows_of(records) > MOST_ROWS:
         raise UnfitError(f"holds documents of more than {MOST_ROWS:,} items together")
     before: Document | None = None
     then: dict[Column, FloatArray] = {}
     for record in records:
-        before, then = _document(record, before, then, parts)
+        before, then = _document(record, before, then, items, containers)
         yield before
 
 
@@ -179,7 +164,11 @@ def _changed(
 
 
 def _document(
-    record: DocumentRecord, before: Document | None, then: Mapping[Column, FloatArray], parts: Parts
+    record: DocumentRecord,
+    before: Document | None,
+    then: Mapping[Column, FloatArray],
+    items: Sequence[Item],
+    containers: Sequence[Container],
 ) -> tuple[Document, dict[Column, FloatArray]]:
     """The document of a record, and its columns."""
     was = None if record.ids is not None else before
@@ -190,7 +179,7 @@ def _document(
     else:
         raise UnfitError("holds no document to begin with")
     columns = {name: _column(record, name, then, len(ids)) for name in COLUMNS}
-    chosen = _indices(columns["items"], len(parts.items), "items")
+    chosen = _indices(columns["items"], len(items), "items")
     held = _indices(columns["held"], 2 ** len(PROPERTIES), "held")
     next_id = record.next_id if was is None or record.next_id is not None else was.next_id
     options = record.options if was is None or record.options is not None else was.options
@@ -199,8 +188,8 @@ def _document(
         raise UnfitError("holds a document with something left out")
     _check_ids(ids, next_id)
     document = Document(
-        container=_container(record, was, parts),
-        items=tuple(parts.items[k] for k in chosen),
+        container=_container(record, was, containers),
+        items=tuple(items[k] for k in chosen),
         ids=ids,
         poses=Poses(*(columns[name] for name in _POSE)),
         weights=columns["weights"],
@@ -230,14 +219,16 @@ def _note_of(record: NoteRecord) -> Attached:
     return Attached(note, record.item, record.pose)
 
 
-def _container(record: DocumentRecord, was: Document | None, parts: Parts) -> Container:
+def _container(
+    record: DocumentRecord, was: Document | None, containers: Sequence[Container]
+) -> Container:
     if record.container is None:
         if was is None:
             raise UnfitError("holds a document without a container")
         return was.container
-    if record.container >= len(parts.containers):
+    if record.container >= len(containers):
         raise UnfitError(f"holds no container of number {record.container}")
-    return parts.containers[record.container]
+    return containers[record.container]
 
 
 def _column(

@@ -47,17 +47,7 @@ class SessionRecipe:
 
 
 def write_recipe(session: Session, folder: str | Path) -> SessionRecipe:
-    """Write a folder with a recipe whose run starts from a session's layout.
-
-    Raises
-    ------
-    RecipeError
-        If the numbers of the session make no recipe.
-    ReadError
-        If the file of a photograph is no longer there.
-    WriteError
-        If nothing can be written there.
-    """
+    """Write a folder with a recipe whose run starts from a session's layout."""
     document, into = session.document, Path(folder)
     names = _names(document)
     drawings = dict(zip(names, document.items, strict=True))
@@ -85,13 +75,7 @@ def write_recipe(session: Session, folder: str | Path) -> SessionRecipe:
 
 @contextlib.contextmanager
 def recipe_of_session(path: str | Path) -> Iterator[Path]:
-    """A recipe that goes on from a session's file, there for the block.
-
-    Raises
-    ------
-    ReadError
-        If it is no session file, or a spoilt one.
-    """
+    """A recipe that goes on from a session's file, there for the block."""
     with tempfile.TemporaryDirectory(prefix="packwork-session-") as folder:
         session = Disk(path, is_journaled=False).opened(Session)
         yield write_recipe(session, folder).file

@@ -9,7 +9,7 @@ import re
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -18,7 +18,6 @@ from packwork.errors import RecipeError
 from packwork.live.file.documents import (
     MOST_ROWS,
     DocumentRecord,
-    Parts,
     documents_of,
     records_of,
     rows_of,
@@ -86,11 +85,6 @@ def session_bytes(kept: SessionState, things: Things, follows: str = "") -> byte
     ----------
     follows
         SHA-256 of the file that it is to replace; empty for none.
-
-    Raises
-    ------
-    ReadError
-        If the file of a photograph is no longer there.
     """
     past, future = kept.history.past, kept.history.future
     while True:
@@ -129,28 +123,8 @@ def _record(kept: SessionState, things: Things, follows: str) -> SessionRecord:
     )
 
 
-@dataclass(frozen=True)
-class SessionFile:
-    """Contents of a session file.
-
-    Parameters
-    ----------
-    follows
-        SHA-256 of the file that it has replaced; empty for none.
-    """
-
-    kept: SessionState
-    follows: str
-
-
-def read_session(data: bytes, name: str) -> SessionFile:
-    """Contents of a session file, from its bytes.
-
-    Raises
-    ------
-    ReadError
-        If it is no session file, or a spoilt one.
-    """
+def read_session(data: bytes, name: str) -> tuple[SessionState, str]:
+    """Contents of a session file, and the SHA-256 of the file that it has replaced, or nothing."""
     with reading_file(name):
         try:
             return _read(unpacked(data))
@@ -158,7 +132,7 @@ def read_session(data: bytes, name: str) -> SessionFile:
             raise UnfitError(f"holds what has no meaning: {error}") from None
 
 
-def _read(parts: Mapping[str, bytes]) -> SessionFile:
+def _read(parts: Mapping[str, bytes]) -> tuple[SessionState, str]:
     record = decoded(SessionRecord, parts["session.json"])
     shared = Shared(lambda key: _part(parts, f"fonts/{key}"))
     known = {
@@ -169,7 +143,7 @@ def _read(parts: Mapping[str, bytes]) -> SessionFile:
         container_of(decoded(ContainerRecord, _part(parts, path)), shared)
         for path in record.containers
     ]
-    documents = list(documents_of(record.documents, Parts(items, walls)))
+    documents = list(documents_of(record.documents, items, walls))
     base = documents.pop() if record.unsettled else None
     if record.present >= len(documents):
         raise UnfitError(f"holds {len(documents)} documents and no number {record.present}")
@@ -177,7 +151,7 @@ def _read(parts: Mapping[str, bytes]) -> SessionFile:
     history = UndoHistory(documents[: record.present], documents[record.present + 1 :])
     marks = _marks_of(record.marks)
     marks.keep(set(document.ids.tolist()))
-    return SessionFile(SessionState(document, base or document, history, marks), record.follows)
+    return SessionState(document, base or document, history, marks), record.follows
 
 
 def _marks_record(marks: Marks) -> MarksRecord:
@@ -253,14 +227,7 @@ def packed(parts: Mapping[str, bytes]) -> bytes:
 
 
 def unpacked(data: bytes) -> Mapping[str, bytes]:
-    """Parts of a zip, each unpacked whenever it is asked for, so that never all are in memory.
-
-    Raises
-    ------
-    UnfitError
-        If it is none, is spoilt, or holds more or larger parts than a session has; of a part, when
-        it is asked for.
-    """
+    """Parts of a zip, each unpacked whenever it is asked for, so that never all are in memory."""
     return _Parts(data)
 
 

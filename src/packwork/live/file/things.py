@@ -61,27 +61,13 @@ class Shared:
         self._allowance = Allowance(MAX_CROSSINGS)
 
     def outline(self, record: OutlineRecord) -> Outline:
-        """The outline of a record.
-
-        Raises
-        ------
-        UnfitError
-            If it is none.
-        ShapeError
-            If it has no area.
-        """
+        """The outline of a record."""
         if record not in self._outlines:
             self._outlines[record] = outline_of(record, self._allowance)
         return self._outlines[record]
 
     def font(self, run: RunRecord) -> FontFile:
-        """The font of a run.
-
-        Raises
-        ------
-        UnfitError
-            If it is no font that can be read.
-        """
+        """The font of a run."""
         key = (run.font, run.font_name, run.index, run.weight)
         if key not in self._fonts:
             data = self._read(run.font)
@@ -102,13 +88,7 @@ class Things:
         self._keys: dict[object, str] = {}
 
     def item(self, item: Item) -> str:
-        """Path of an item, which is encoded unless it has been.
-
-        Raises
-        ------
-        ReadError
-            If the file of a photograph is no longer there.
-        """
+        """Path of an item, which is encoded unless it has been."""
         return self._put("items", item, lambda: item_record(item, self))
 
     def container(self, container: Container) -> str:
@@ -152,15 +132,7 @@ def item_record(item: Item, things: Things) -> ItemRecord:
 
 
 def item_of(record: ItemRecord, shared: Shared) -> Item:
-    """The item of a record; rows of data frames are not in files.
-
-    Raises
-    ------
-    UnfitError
-        If it holds what no item of ours holds.
-    ShapeError
-        If an outline has no area.
-    """
+    """The item of a record; rows of data frames are not in files."""
     outline = shared.outline(record.outline)
     label, datum, text = record.label, record.datum, record.text
     return Item(
@@ -198,15 +170,7 @@ def container_record(container: Container) -> ContainerRecord:
 
 
 def container_of(record: ContainerRecord, shared: Shared) -> Container:
-    """The container of a record.
-
-    Raises
-    ------
-    UnfitError
-        If it holds what no container of ours holds.
-    ShapeError
-        If its outline has no area.
-    """
+    """The container of a record."""
     behind, walls = record.backdrop, record.walls
     return Container(
         record.name,
@@ -221,13 +185,7 @@ def container_of(record: ContainerRecord, shared: Shared) -> Container:
 
 
 def decoded(model: type[_Model], data: bytes) -> _Model:
-    """A record of JSON.
-
-    Raises
-    ------
-    UnfitError
-        Saying what is wrong with it, or that it is too large.
-    """
+    """A record of JSON."""
     check_size(data)
     try:
         return model.model_validate_json(data)

@@ -50,13 +50,7 @@ def text_of(points: FloatArray) -> str:
 
 
 def bytes_of(text: str) -> bytes:
-    """Bytes of base64.
-
-    Raises
-    ------
-    UnfitError
-        If it is none.
-    """
+    """Bytes of base64."""
     try:
         return base64.b64decode(text, validate=True)
     except (binascii.Error, ValueError):
@@ -64,13 +58,7 @@ def bytes_of(text: str) -> bytes:
 
 
 def points_of(text: str) -> FloatArray:
-    """``(n, 2)`` points of base64.
-
-    Raises
-    ------
-    UnfitError
-        If it holds none, or more than a run takes.
-    """
+    """``(n, 2)`` points of base64."""
     data = bytes_of(text)
     if len(data) % 16 or len(data) > 16 * MAX_POINTS:
         raise UnfitError(f"holds {len(data) // 16:,} points, or parts of one; {MAX_POINTS:,} go")
@@ -88,15 +76,7 @@ def outline_record(outline: Outline) -> OutlineRecord:
 
 
 def outline_of(record: OutlineRecord, allowance: Allowance) -> Outline:
-    """The outline bit for bit; mended, if its rings are not what an outline's have to be.
-
-    Raises
-    ------
-    UnfitError
-        If it is none, or a scribble.
-    ShapeError
-        If it has no area.
-    """
+    """The outline bit for bit; mended, if its rings are not what an outline's have to be."""
     points, starts = points_of(record.points), np.array(record.starts, dtype=np.int64)
     if (
         len(starts) < 2
@@ -131,11 +111,6 @@ def art_record(art: Art, extent: float) -> ArtRecord:
     ----------
     extent
         Longer side of the item, in its own units.
-
-    Raises
-    ------
-    ReadError
-        If the file of a photograph is no longer there.
     """
     if isinstance(art, FlatArt):
         return FlatRecord(fill=art.fill)
@@ -151,13 +126,7 @@ def art_record(art: Art, extent: float) -> ArtRecord:
 
 
 def photo_record(art: PhotoArt, extent: float) -> PhotoRecord:
-    """A photograph as plain values, its large copy no larger than the gate lets pass.
-
-    Raises
-    ------
-    ReadError
-        If its file is no longer there.
-    """
+    """A photograph as plain values, its large copy no larger than the gate lets pass."""
     share = min(1.0, LONGEST_PRINT / extent)
     printed = art.original.printed(share)
     for _ in range(HALVES):
@@ -169,13 +138,7 @@ def photo_record(art: PhotoArt, extent: float) -> PhotoRecord:
 
 
 def art_of(record: ArtRecord) -> Art:
-    """The art of a record.
-
-    Raises
-    ------
-    UnfitError
-        If it holds what no drawing of ours holds.
-    """
+    """The art of a record."""
     if isinstance(record, FlatRecord):
         return FlatArt(colour_of(record.fill))
     if isinstance(record, VectorRecord):
@@ -217,13 +180,7 @@ def _vector_of(record: VectorRecord) -> VectorArt:
 
 
 def colour_of(text: str) -> str:
-    """The same text, if it is a colour.
-
-    Raises
-    ------
-    UnfitError
-        If it is none.
-    """
+    """The same text, if it is a colour."""
     try:
         css_colour(text)
     except ValueError:

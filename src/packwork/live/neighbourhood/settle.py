@@ -7,7 +7,7 @@ is widened by a ring of neighbours, three times at most.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -26,12 +26,13 @@ from packwork.geometry.overlay import (
     union_of_layout,
     valid,
 )
-from packwork.live.document import Document, differing
+from packwork.live.document import Document
 from packwork.live.neighbourhood.caches import ShapeCache
 from packwork.live.neighbourhood.contacts import ContactGraph
 from packwork.options import SizeMode
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
+from packwork.scene.pose import Poses
 
 MOST_RINGS = 3
 """Rings by which a neighbourhood is widened at most. More move what is far away. Chosen."""
@@ -52,23 +53,6 @@ ABOUT = 2.0
 usual item's area. Larger costs time, smaller lets nothing out. Chosen."""
 
 
-@dataclass(frozen=True, eq=False)
-class Settled:
-    """Result of a settle.
-
-    Parameters
-    ----------
-    moved
-        ``(n,)`` which items are elsewhere than before, or of other sizes.
-    is_clean
-        Whether those that may move are in conflict with nothing.
-    """
-
-    document: Document
-    moved: BoolArray
-    is_clean: bool
-
-
 def settle(
     document: Document,
     touched: IntArray,
@@ -76,8 +60,8 @@ def settle(
     contacts: ContactGraph,
     shapes: ShapeCache,
     stop: Stop = never,
-) -> Settled:
-    """Finish what a gesture has touched, and no more than that needs.
+) -> tuple[Poses, bool]:
+    """Finish what a gesture has touched, and no more; poses, and whether nothing is in conflict.
 
     Parameters
     ----------
@@ -90,7 +74,7 @@ def settle(
     """
     is_still = document.held[:, 0].copy()
     first = touched
-    found = Settled(document, np.zeros(len(document), dtype=bool), False)
+    found = document.poses, False
     for ring in range(MOST_RINGS + 1):
         # What the hand has left stays for as long as that may be; it gives way in the end.
         still = is_still.copy()
@@ -98,7 +82,7 @@ def settle(
             still[given] = True
         movable = first[~still[first]]
         found = _finished(document, movable, shapes, stop)
-        if found.is_clean or stop():
+        if found[1] or stop():
             break
         first = contacts.beside(first)
     return found
@@ -109,7 +93,7 @@ def sizes_are_common(document: Document) -> bool:
     return document.options.sizes == "shared" and not document.held[:, [0, 2]].any()
 
 
-def made_smaller(document: Document, shapes: ShapeCache, stop: Stop) -> Settled:
+def made_smaller(document: Document, shapes: ShapeCache, stop: Stop) -> tuple[Poses, bool]:
     """All items finished in one, as much smaller as that takes: sizes stay in proportion."""
     everything = np.arange(len(document))
     return _finished(document, everything, shapes, stop, sizes="shared")
@@ -122,7 +106,7 @@ def polish(
     seed: int,
     shapes: ShapeCache,
     stop: Stop = never,
-) -> Settled:
+) -> tuple[Poses, bool]:
     """Try turns of items ``(m,)`` in conflict with nothing; those that gain are kept."""
     return _finished(document, items[~document.held[items, 0]], shapes, stop, trials, seed)
 
@@ -135,16 +119,15 @@ def _finished(
     trials: int = 0,
     seed: int = 0,
     sizes: SizeMode | None = None,
-) -> Settled:
+) -> tuple[Poses, bool]:
     """The exact finish of some items among all others."""
-    moved = np.zeros(len(document), dtype=bool)
     if len(movable) == 0:
-        return Settled(document, moved, True)
+        return document.poses, True
     some = document.poses.subset(movable)
     outlines = [shapes.cover(document.items[k].outline) for k in movable]
     room = room_of(document, movable, shapes)
     if room is None:
-        return Settled(document, moved, False)
+        return document.poses, False
     options = _options(document, movable, trials, seed)
     if sizes is not None:
         options = options.model_copy(update={"sizes": sizes})
@@ -155,10 +138,9 @@ def _finished(
         angle=np.where(held[:, 1], some.angle, result.poses.angle),
         scale=np.where(held[:, 2], some.scale, result.poses.scale),
     )
-    poses = document.poses.with_some(movable, made)
-    moved[movable] = differing(some, made)
     dwarfs = (result.poses.scale * DWARF < document.smallest[movable]) & (sizes is None)
-    return Settled(document.with_poses(poses), moved, result.clean and not dwarfs.any())
+    is_clean = result.clean and not bool(dwarfs.any())
+    return document.poses.with_some(movable, made), is_clean
 
 
 def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Container | None:
