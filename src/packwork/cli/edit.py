@@ -195,7 +195,6 @@ def _written(
 
 
 def _drawing_of(layout: Layout) -> dict[str, Any]:
-    """Options by which the file was drawn that a layout came from."""
     found = layout.manifest.get("drawing")
     known = found if isinstance(found, Mapping) else {}
     return {key: known[key] for key in GONE_ON_WITH if key in known}

@@ -37,7 +37,6 @@ def with_edits(command: Command) -> Command:
 
 
 def _parameter(edit: Edit, flag: Flag) -> inspect.Parameter:
-    """Parameter of a command's signature for one flag."""
     own = inspect.signature(edit.apply).parameters.get(flag.name)
     settings: dict[str, Any] = {"metavar": flag.form, "help": flag.help or _help_of(flag.name)}
     kind: Any = str
@@ -96,7 +95,6 @@ def _make(flag: str, make: Callable[[], object]) -> None:
 
 
 def _values(session: Session, edit: Edit, flag: Flag, text: str) -> list[Any]:
-    """Values of an edit's parameters, of one text."""
     form = flag.form or ""
     shown = form.replace("[=", " or ITEM=").rstrip("]")
     shown += f" such as {flag.example}" if flag.example else ""
@@ -119,7 +117,6 @@ def _values(session: Session, edit: Edit, flag: Flag, text: str) -> list[Any]:
 
 
 def _of_text(session: Session, parameter: inspect.Parameter, text: Any) -> Any:
-    """Value of a parameter, by its type."""
     kind = parameter.annotation
     if kind == "float":
         return _number(text)

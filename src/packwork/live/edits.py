@@ -75,7 +75,6 @@ EDITS: list[Edit] = []
 
 
 def _edit(*flags: Flag) -> Callable[[_Function], _Function]:
-    """Declare an edit of command lines."""
 
     def declared(function: _Function) -> _Function:
         EDITS.append(Edit(function, flags))

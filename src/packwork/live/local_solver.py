@@ -337,7 +337,6 @@ class LocalSolver:
         return numbers - bad
 
     def _turn_to(self, document: Document) -> None:
-        """Have another document, and the flow go on from it."""
         self._flow.turn_to(document, document.held)
 
     def _strict(self, document: Document) -> BoolArray:

@@ -75,7 +75,6 @@ def length_of(document: Document, key: str, value: Coordinate) -> float:
 
 
 def _some(names: list[str]) -> str:
-    """A few names, for messages."""
     different = list(dict.fromkeys(names))
     more = " ..." if len(different) > 5 else ""
     return f"there are {', '.join(different[:5])}{more}" if different else "the layout is empty"

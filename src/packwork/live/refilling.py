@@ -149,6 +149,5 @@ def _is_cloud(document: Document) -> bool:
 
 
 def _is_reweighed(before: Document, now: Document) -> bool:
-    """Whether words are others, or weigh otherwise."""
     outlines = [[item.outline for item in one.items] for one in (before, now)]
     return outlines[0] != outlines[1] or not np.array_equal(now.weights, before.weights)

@@ -127,7 +127,6 @@ def arranged(numbers: Sequence[int], poses: Poses) -> Arrange:
 
 
 def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
-    """A draft with the numbers of a document."""
     options = document.options
     return make_recipe(
         container="page",
@@ -146,7 +145,6 @@ def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
 
 
 def _weighed(document: Document) -> list[Item]:
-    """Items of a document, each with the weight that it has there."""
     pairs = zip(document.items, _positive(document.weights), strict=True)
     return [replace(item, weight=weight) for item, weight in pairs]
 

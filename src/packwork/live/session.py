@@ -376,7 +376,6 @@ class Session:
         self.log.flush()
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
-        """Run epochs, and note it."""
         seen = self._solver.run(epochs, resolution)
         if seen is not None:
             self.log.note("flow", (seen, epochs))

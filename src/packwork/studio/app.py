@@ -136,7 +136,6 @@ def page_text() -> str:
 
 
 async def _received(socket: WebSocket, tab: Tab) -> None:
-    """Take one message."""
     message = await socket.receive()
     if message["type"] == "websocket.disconnect":
         raise WebSocketDisconnect(message.get("code", 1000))
@@ -145,7 +144,6 @@ async def _received(socket: WebSocket, tab: Tab) -> None:
 
 
 async def _body(request: Request, most: int) -> bytes:
-    """Body of a request."""
     parts, length = [], 0
     try:
         async with asyncio.timeout(BODY_SECONDS):

@@ -100,7 +100,6 @@ def _shortened(text: str, most: int) -> str:
 
 
 def _free(folder: Path, name: str) -> Path:
-    """Path of a name that is not taken there."""
     path, number = folder / name, 1
     while path.exists():
         number += 1

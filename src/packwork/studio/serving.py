@@ -119,7 +119,6 @@ def _leading_to(address: str, folder: Path) -> Path:
 
 
 def _bound(place: Address) -> socket.socket:
-    """Socket that listens there."""
     family = socket.AF_INET6 if ":" in place.host else socket.AF_INET
     bound = socket.socket(family, socket.SOCK_STREAM)
     if sys.platform == "win32":

@@ -99,7 +99,6 @@ class Tab:
         return False
 
     def _is_seen(self, poses: Poses, done: int) -> bool:
-        """Whether the newest frame had these poses, and knew as many commands."""
         return self._seen is not None and self._seen[0] is poses and self._seen[1] == done
 
     async def _send_scene(self, scene: Scene) -> None:
@@ -160,5 +159,4 @@ def _unsettled(state: State) -> State:
 
 
 def _apart(state: State) -> State:
-    """A state without what changes with every frame."""
     return state.model_copy(update={"covered": 0.0, "progress": 0.0})

@@ -157,7 +157,6 @@ def page_types(schema: Mapping[str, Any]) -> str:
 
 
 def _written(said: dict[str, Any]) -> str:
-    """A JSON schema as a type."""
     if "$ref" in said:
         return str(said["$ref"]).rpartition("/")[2]
     if "const" in said or "enum" in said:

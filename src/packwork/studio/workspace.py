@@ -146,7 +146,6 @@ class Workspace:
         return self._scenes
 
     def _state(self, view: View, frame: Frame | None, *, is_run: bool) -> State:
-        """State of the desk."""
         is_moving = is_run or frame is None or frame.in_the_way is None
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
         return State(
@@ -241,7 +240,6 @@ class Workspace:
             self._wake(Variant(seed=number, covered=placed.covered, command=found))
 
     def _open(self) -> None:
-        """Make the first session, in the worker."""
         opening = self._opening
         keeper = None
         if opening.file is not None:
@@ -306,7 +304,6 @@ class Workspace:
         owner.call(lambda session: session.apply(whole)).result()
 
     def _see(self, view: View, moment: Moment) -> None:
-        """Show a moment of a run, from its thread."""
         self._moment, self._progress = view, moment.progress
         self._wake()
 

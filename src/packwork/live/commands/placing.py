@@ -162,7 +162,6 @@ class Arrange(Command):
 
 
 def _posed(document: Document, k: int, **values: float) -> Document:
-    """The document with some numbers of one pose replaced."""
     poses: Poses = document.poses
     columns = {name: getattr(poses, name).copy() for name in values}
     for name, value in values.items():

@@ -219,7 +219,6 @@ def path_of(outline: Outline, fineness: float) -> str:
 
 
 def _seen(colour: str) -> str:
-    """A colour as hex digits, opacity with it."""
     return "#" + "".join(f"{channel:02x}" for channel in css_colour(colour))
 
 

@@ -170,7 +170,6 @@ def _document(
     items: Sequence[Item],
     containers: Sequence[Container],
 ) -> tuple[Document, dict[Column, FloatArray]]:
-    """The document of a record, and its columns."""
     was = None if record.ids is not None else before
     if record.ids is not None:
         ids, then = np.array(record.ids, dtype=np.int64), {}
@@ -234,7 +233,6 @@ def _container(
 def _column(
     record: DocumentRecord, name: Column, then: Mapping[Column, FloatArray], count: int
 ) -> FloatArray:
-    """A column in full."""
     given = record.columns.get(name)
     if isinstance(given, tuple):
         if len(given) != count:
@@ -253,7 +251,6 @@ def _column(
 
 
 def _indices(values: FloatArray, most: int, name: str) -> Any:
-    """The same as whole numbers below a bound."""
     if not ((values >= 0) & (values < most) & (values == np.floor(values))).all():
         raise UnfitError(f"holds {name} that are none of {most}")
     return values.astype(np.int64)

@@ -30,7 +30,6 @@ def _is_sound(letter: str) -> bool:
 
 
 def _sound_text(text: str) -> str:
-    """The same text, if any file can hold it."""
     if not all(map(_is_sound, text)):
         raise ValueError("must hold no control characters")
     return text
@@ -55,7 +54,6 @@ def kept_text(text: str) -> str:
 
 
 def _turning(matrix: tuple[float, ...]) -> tuple[float, ...]:
-    """The same matrix, if it can be inverted."""
     a, b, _, c, d, _ = matrix
     if not math.isfinite(1 / (a * d - b * c or math.inf)) or a * d == b * c:
         raise ValueError("must be a map that can be inverted")
@@ -164,7 +162,6 @@ class LabelRecord(Options):
 
 
 def _plain_cell(value: Any) -> Any:
-    """The same value, if a table may hold it."""
     if isinstance(value, float) and not math.isfinite(value):
         raise ValueError("must be a number")
     if value is not None and not isinstance(value, str | int | float | bool):

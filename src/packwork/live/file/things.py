@@ -224,7 +224,6 @@ def _datum_record(datum: Datum) -> DatumRecord:
 
 
 def _cell(value: object) -> object:
-    """A cell as a file can hold it."""
     if isinstance(value, str):
         return kept_text(value)
     is_plain = value is None or isinstance(value, bool | int)

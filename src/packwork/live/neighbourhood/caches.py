@@ -109,7 +109,6 @@ class LevelCache:
 
 
 def _covered(outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:
-    """Covers; copies stretched alike are made once."""
     covers, known = Covers(), dict[tuple[Outline, float], Outline]()
     for outline, stretch in zip(outlines, stretches, strict=True):
         key = (outline, stretch)

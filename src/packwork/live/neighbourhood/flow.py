@@ -282,7 +282,6 @@ class Flow:
         self._left[reached] = np.maximum(self._left[reached], left)
 
     def _rebuilt(self, resolution: int) -> tuple[Level, Motion]:
-        """Level and motion of the items that go on now."""
         self._since = 0
         if len(self._given) and self._may is None:
             self._reach(self._given, RINGS, int(self._left.max()))
@@ -309,7 +308,6 @@ class Flow:
         return self._working
 
     def _seen_of(self, items: IntArray, resolution: int) -> list[Outline]:
-        """Outlines of some items as a level sees them."""
         document = self.document
         outlines = [document.items[k].outline for k in items]
         px_per_cu, margin = resolution / document.container.side, document.options.padding / 2

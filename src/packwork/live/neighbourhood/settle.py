@@ -120,7 +120,6 @@ def _finished(
     seed: int = 0,
     sizes: SizeMode | None = None,
 ) -> tuple[Poses, bool]:
-    """The exact finish of some items among all others."""
     if len(movable) == 0:
         return document.poses, True
     some = document.poses.subset(movable)
