@@ -88,13 +88,13 @@ def main() -> None:
 
 def warm_up(layout: pw.Layout) -> None:
     """Compile what a gesture needs."""
-    session = Session(Document.of(layout))
+    session = Session(Document.from_layout(layout))
     rng = np.random.default_rng(1)
     gesture(session, rng, Gestures())
 
 
 def measured(layout: pw.Layout, gestures: int) -> Gestures:
-    session = Session(Document.of(layout))
+    session = Session(Document.from_layout(layout))
     rng, found = np.random.default_rng(0), Gestures()
     found.covered.append(covered(session))
     for _ in range(gestures):
@@ -219,7 +219,7 @@ def one_more(layout: pw.Layout) -> tuple[float, float, float]:
 
 def repeats(layout: pw.Layout, gestures: int = 12) -> str:
     """Whether a replay, and undo and redo of everything, end at equal bytes."""
-    start = Document.of(layout)
+    start = Document.from_layout(layout)
     stream = io.StringIO()
     session, rng = Session(start, log=Log(stream)), np.random.default_rng(5)
     for _ in range(gestures):
@@ -244,7 +244,7 @@ def same(one: Poses, other: Poses) -> bool:
 
 def memory(layout: pw.Layout) -> str:
     """Python's memory of a session in the middle and at the end of many short gestures."""
-    session, rng = Session(Document.of(layout)), np.random.default_rng(0)
+    session, rng = Session(Document.from_layout(layout)), np.random.default_rng(0)
     tracemalloc.start()
     seen = []
     for number in range(1, MANY + 1):

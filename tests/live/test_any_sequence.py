@@ -22,7 +22,7 @@ from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.metrics.violations import violations
 
-START = Document.of(pw.fill("circle", ["star", "heart"], count=7, epochs=60, levels="50"))
+START = Document.from_layout(pw.fill("circle", ["star", "heart"], count=7, epochs=60, levels="50"))
 
 (HEXAGON,) = pw.read_items("hexagon")
 

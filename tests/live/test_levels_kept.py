@@ -26,7 +26,7 @@ def test_what_was_asked_before_changes_nothing() -> None:
 
 
 def test_a_flow_that_was_made_ready_flows_as_one_that_was_not(dozen: pw.Layout) -> None:
-    document = Document.of(dozen)
+    document = Document.from_layout(dozen)
     flows = Flow(document), Flow(document)
     flows[0].make_ready()
     for flow in flows:

@@ -24,7 +24,7 @@ from packwork.live.session import Session
 def test_a_sender_that_is_faster_sees_a_bounded_queue_and_the_last_state(
     dozen: pw.Layout,
 ) -> None:
-    with Owner(Session(Document.of(dozen))) as owner:
+    with Owner(Session(Document.from_layout(dozen))) as owner:
         owner.post(Grab(items=(0,)))
         most = 0
         for step in range(3_000):
@@ -38,7 +38,7 @@ def test_a_sender_that_is_faster_sees_a_bounded_queue_and_the_last_state(
 
 def test_more_than_wait_are_not_taken(dozen: pw.Layout, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "MOST_WAITING", 5)
-    owner = Owner(Session(Document.of(dozen)))
+    owner = Owner(Session(Document.from_layout(dozen)))
     taken = [owner.post(Rename(item=0, name=f"n{k}")) for k in range(9)]
     assert taken == [True] * 5 + [False] * 4
     with owner:
@@ -47,7 +47,7 @@ def test_more_than_wait_are_not_taken(dozen: pw.Layout, monkeypatch: pytest.Monk
 
 
 def test_what_has_no_meaning_is_told_with_a_frame_and_the_rest_is_done(dozen: pw.Layout) -> None:
-    with Owner(Session(Document.of(dozen))) as owner:
+    with Owner(Session(Document.from_layout(dozen))) as owner:
         owner.post(Move(item=77, x=1.0, y=1.0))
         told = wait_for(owner)
         owner.post(Rename(item=0, name="sun"))
@@ -71,13 +71,16 @@ def test_a_fault_in_the_thread_is_raised_at_the_end_of_the_block(dozen: pw.Layou
         def applied(self, document: Document, library: Library) -> Document:
             raise RuntimeError("broken")
 
-    with pytest.raises(RuntimeError, match="broken"), Owner(Session(Document.of(dozen))) as owner:
+    with (
+        pytest.raises(RuntimeError, match="broken"),
+        Owner(Session(Document.from_layout(dozen))) as owner,
+    ):
         owner.post(Broken())
     assert not any(thread.name == "session" for thread in threading.enumerate())
 
 
 def test_leaps_are_posted_as_commands_are(dozen: pw.Layout) -> None:
-    session = Session(Document.of(dozen))
+    session = Session(Document.from_layout(dozen))
     with Owner(session) as owner:
         for step in (Rename(item=0, name="a"), Rename(item=0, name="b"), Leap.UNDO):
             assert owner.post(step)
@@ -90,7 +93,7 @@ def test_leaps_are_posted_as_commands_are(dozen: pw.Layout) -> None:
 
 
 def test_a_settle_gives_way_to_what_is_posted_and_is_as_if_never_begun(dozen: pw.Layout) -> None:
-    session = Session(Document.of(dozen))
+    session = Session(Document.from_layout(dozen))
     session.apply(Move(item=0, x=300.0, y=300.0))
     before, touched = session.document, set(session.marks.touched)
     asked = iter(range(1_000))
@@ -106,7 +109,7 @@ def test_calls_are_made_in_their_turn_and_answered(dozen: pw.Layout) -> None:
     def fail(session: Session) -> None:
         raise RuntimeError("of the caller")
 
-    with Owner(Session(Document.of(dozen))) as owner:
+    with Owner(Session(Document.from_layout(dozen))) as owner:
         owner.post(Rename(item=0, name="first"))
         name = owner.call(lambda session: session.document.items[0].name)
         failed = owner.call(fail)
@@ -126,7 +129,7 @@ def test_moves_of_the_same_items_together_replace_each_other(dozen: pw.Layout) -
     def both(x: float) -> Together:
         return Together(commands=(Move(item=0, x=x, y=200.0), Move(item=1, x=x + 90, y=200.0)))
 
-    owner = Owner(Session(Document.of(dozen)))
+    owner = Owner(Session(Document.from_layout(dozen)))
     assert all(owner.post(both(200.0 + step)) for step in range(600))
     assert owner.waiting == 1
     with owner:
@@ -137,7 +140,7 @@ def test_moves_of_the_same_items_together_replace_each_other(dozen: pw.Layout) -
 def test_whoever_listens_is_told_of_every_frame(dozen: pw.Layout) -> None:
     told: list[int] = []
     owner = Owner(
-        Session(Document.of(dozen)), lambda: told.append(owner.frame.number), polishes=True
+        Session(Document.from_layout(dozen)), lambda: told.append(owner.frame.number), polishes=True
     )
     with owner:
         owner.post(Move(item=0, x=300.0, y=300.0))
@@ -146,7 +149,7 @@ def test_whoever_listens_is_told_of_every_frame(dozen: pw.Layout) -> None:
 
 
 def test_what_was_not_settled_when_it_was_left_is_settled(dozen: pw.Layout) -> None:
-    session = Session(Document.of(dozen))
+    session = Session(Document.from_layout(dozen))
     session.apply(Move(item=0, x=300.0, y=300.0))
     with Owner(session) as owner:
         pass
@@ -158,7 +161,7 @@ def test_whoever_has_an_answer_sees_what_the_call_has_changed(dozen: pw.Layout) 
     def remove(session: Session) -> None:
         session.apply(Remove(items=(0,)))
 
-    with Owner(Session(Document.of(dozen))) as owner:
+    with Owner(Session(Document.from_layout(dozen))) as owner:
         owner.call(remove).result(10)
         seen = owner.frame
     assert len(seen.document) == 11
@@ -167,7 +170,7 @@ def test_whoever_has_an_answer_sees_what_the_call_has_changed(dozen: pw.Layout) 
 
 def test_what_was_broken_off_is_done_again_byte_for_byte(dozen: pw.Layout) -> None:
     stream = io.StringIO()
-    session = Session(Document.of(dozen), log=Log(stream))
+    session = Session(Document.from_layout(dozen), log=Log(stream))
     with Owner(session, polishes=True) as owner:
         for step in range(12):
             x, wait = 200.0 + 9 * step, 0.02 * (step % 4)
@@ -188,7 +191,7 @@ def test_what_was_broken_off_is_done_again_byte_for_byte(dozen: pw.Layout) -> No
     session.log.flush()
     assert stream.getvalue().count("broken_off") >= 3
     entries = read_entries(iter(stream.getvalue().splitlines(keepends=True)), "log")
-    again = Session.replay(Document.of(dozen), entries)
+    again = Session.replay(Document.from_layout(dozen), entries)
     for column in ("x", "y", "angle", "scale"):
         made, remade = (getattr(one.document.poses, column) for one in (session, again))
         assert (made == remade).all()

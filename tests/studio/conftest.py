@@ -87,7 +87,7 @@ def dozen() -> pw.Layout:
 @pytest.fixture
 def opening(dozen: pw.Layout) -> Opening:
     """A desk begins with the dozen."""
-    return Opening(document=Document.of(dozen))
+    return Opening(document=Document.from_layout(dozen))
 
 
 @pytest.fixture

@@ -73,7 +73,7 @@ def until_closed(made: socket.socket) -> bytes:
 
 @pytest.fixture
 def running(dozen: Any) -> Iterator[Running]:
-    made = Running(Document.of(dozen))
+    made = Running(Document.from_layout(dozen))
     yield made
     made.stop()
 

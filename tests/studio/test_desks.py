@@ -42,7 +42,9 @@ def test_the_desk_left_alone_for_longest_is_written_over(folder: Path) -> None:
 def test_a_desk_that_somebody_works_at_is_nobody_elses(folder: Path) -> None:
     first = kept_workspaces.new()
     assert first is not None
-    session = Session(Document.of(pw.fill("circle", "star", count=3, effort="draft", levels="50")))
+    session = Session(
+        Document.from_layout(pw.fill("circle", "star", count=3, effort="draft", levels="50"))
+    )
     keeper = kept_in(first.file, session)
     os.utime(first.file, (1_000, 1_000))
     os.utime(opening.lock_of(first.file), (1_000, 1_000))
@@ -87,7 +89,7 @@ def test_a_place_that_means_nothing_is_none(said: str) -> None:
 
 def test_what_was_done_before_a_crash_is_there_again(dozen: pw.Layout, tmp_path: Path) -> None:
     file = tmp_path / "desk.packwork"
-    session = Session(Document.of(dozen))
+    session = Session(Document.from_layout(dozen))
     left = kept_in(file, session)
     for name in ("one", "two"):
         session.apply(Rename(item=0, name=name))
@@ -104,7 +106,7 @@ def test_a_long_journal_is_written_into_the_file(
     dozen: pw.Layout, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(opening, "LONGEST_JOURNAL", 300)
-    session = Session(Document.of(dozen))
+    session = Session(Document.from_layout(dozen))
     keeper = kept_in(tmp_path / "desk.packwork", session)
     assert not keeper.is_long
     for number in range(9):

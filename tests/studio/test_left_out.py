@@ -23,7 +23,7 @@ SAID = [
 @pytest.fixture(params=[SAID, "spoilt", None], ids=["some", "spoilt", "none"])
 def opening(dozen: pw.Layout, request: pytest.FixtureRequest) -> Opening:
     layout = replace(dozen, manifest={**dozen.manifest, "unplaced": request.param})
-    return Opening(document=Document.of(layout))
+    return Opening(document=Document.from_layout(layout))
 
 
 def test_pages_are_told_what_was_left_out(play, request: pytest.FixtureRequest) -> None:

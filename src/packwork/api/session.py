@@ -210,4 +210,4 @@ class Session(LiveSession):
 
 def session_of(layout: scene.Layout, *, record: bool) -> Session:
     """A session that begins with a layout."""
-    return Session(Document.of(layout), record=record)
+    return Session(Document.from_layout(layout), record=record)

@@ -129,7 +129,7 @@ def _opened(path: Path, items: list[str]) -> tuple[Session, Disk | None]:
             found, not_kept = with_drawings(found, path.parent)
         for line in (*changed_since(found.manifest), *not_kept):
             say(f"{path}: {line}")
-        return Session(Document.of(found)), None
+        return Session(Document.from_layout(found)), None
     if items:
         raise RecipeError("items", "are in a session file already; leave them out")
     disk = Disk(path, is_journaled=False)

@@ -39,7 +39,7 @@ class Certificate:
     Examples
     --------
     >>> from packwork import fill
-    >>> document = Document.of(fill("circle", "star", count=3, effort="draft", levels="50"))
+    >>> document = Document.from_layout(fill("circle", "star", count=3, levels="50"))
     >>> Certificate().in_the_way(document)
     ()
     """

@@ -50,7 +50,7 @@ class Document:
     Examples
     --------
     >>> from packwork import fill
-    >>> document = Document.of(fill("circle", "star", count=3, effort="draft", levels="50"))
+    >>> document = Document.from_layout(fill("circle", "star", count=3, levels="50"))
     >>> document.ids.tolist(), document.held.any()
     ([0, 1, 2], np.False_)
     """
@@ -76,10 +76,10 @@ class Document:
         put(self, "poses", Poses(*(_frozen(values) for values in columns)))
 
     @classmethod
-    def of(cls, layout: Layout) -> Document:
+    def from_layout(cls, layout: Layout) -> Document:
         """Document of a layout: nothing held, sizes as free as its run had them."""
         count = len(layout.items)
-        options = LiveOptions.of(layout.manifest)
+        options = LiveOptions.from_manifest(layout.manifest)
         document = cls(
             container=layout.container,
             items=layout.items,

@@ -169,7 +169,7 @@ class Frames:
     Examples
     --------
     >>> from packwork import fill
-    >>> document = Document.of(fill("circle", "star", count=3, effort="draft", levels="50"))
+    >>> document = Document.from_layout(fill("circle", "star", count=3, levels="50"))
     >>> frames = Frames(document)
     >>> frames.keep(document)
     >>> frames.track

@@ -48,12 +48,12 @@ class LiveOptions(Options):
         return force
 
     @classmethod
-    def of(cls, manifest: Mapping[str, Any]) -> LiveOptions:
+    def from_manifest(cls, manifest: Mapping[str, Any]) -> LiveOptions:
         """Options that the run of a manifest had; the usual ones where it tells of none.
 
         Examples
         --------
-        >>> LiveOptions.of({"recipe": {"sizes": "graded", "rotate": "30"}}).rotate
+        >>> LiveOptions.from_manifest({"recipe": {"sizes": "graded", "rotate": "30"}}).rotate
         '30'
         """
         recipe = manifest.get("recipe")

@@ -124,7 +124,7 @@ class Owner(Generic[AnySession]):
     --------
     >>> import packwork as pw
     >>> layout = pw.fill("circle", "hexagon", count=7, effort="draft", levels="50")
-    >>> with Owner(Session(Document.of(layout))) as owner:
+    >>> with Owner(Session(Document.from_layout(layout))) as owner:
     ...     posted = [owner.post(Move(item=0, x=x, y=300.0)) for x in range(250, 301)]
     >>> all(posted), float(owner.frame.document.poses.x[0]), owner.frame.in_the_way
     (True, 300.0, ())

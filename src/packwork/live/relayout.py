@@ -268,7 +268,7 @@ def poured_into(
 
 def in_place(document: Document, library: Library, layout: Layout) -> list[Command]:
     """Commands after which the items of a layout are there, and none of those before."""
-    options = LiveOptions.of(layout.manifest)
+    options = LiveOptions.from_manifest(layout.manifest)
     poses, container = layout.poses, layout.container
     kept = ("padding", "sizes", "size_ratio", "rotate")
     asked = [

@@ -48,7 +48,7 @@ class Session:
     >>> import packwork as pw
     >>> from packwork.live.commands.placing import Move
     >>> layout = pw.fill("circle", "hexagon", count=7, effort="draft", levels="50")
-    >>> session = Session(Document.of(layout))
+    >>> session = Session(Document.from_layout(layout))
     >>> change = session.apply(Move(item=0, x=300.0, y=300.0))
     >>> session.settle().certified, session.document.poses.x[0]
     (True, np.float64(300.0))

@@ -14,13 +14,10 @@ from packwork.studio.importer import Importer
 from packwork.studio.messages import UnreadableError, read
 from packwork.studio.view import View
 from packwork.studio.wire import Line, Said, Scene, Shapes, State, frame_bytes
-from packwork.studio.workspace import NOT_YET, News, Workspace
+from packwork.studio.workspace import MOST_LINES, NOT_YET, News, Workspace
 
 STATE_SECONDS = 0.1
 """Time between two states of which only the covered share differs. Chosen."""
-
-MOST_LINES = 32
-"""Lines that wait for a page at most. Chosen."""
 
 
 class Wire(Protocol):

@@ -10,16 +10,12 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.face.offers import FINENESS, Drawing, drawing_of, path_of
+from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.studio.wire import LeftOut, Scene, Shape, Thing
-
-CONTAINER_FINENESS = FINENESS / 4
-"""By how much the container's line may be off on the page, as a share of its extent. Chosen."""
-
 
 MOST_LEFT_OUT = 100
 """Unplaced items that pages are told of at most. Chosen."""
@@ -165,7 +161,7 @@ class Scenes:
 
     def _path(self, container: Container) -> str:
         if self._outline is None or self._outline[0] is not container:
-            path = path_of(container.outline, CONTAINER_FINENESS)
+            path = path_of(container.outline, INK_FINENESS)
             self._outline = (container, path)
         return self._outline[1]
 

@@ -37,8 +37,8 @@ News = Line | Variant
 VARIANTS = 6
 """How many are tried when more are asked for. Chosen."""
 
-MOST_UNHEARD = 8
-"""Lines that wait for the first page. Chosen."""
+MOST_LINES = 32
+"""Lines that wait for a page at most. Chosen."""
 
 QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
@@ -75,7 +75,7 @@ class Workspace:
         self._busy, self._progress = "", 0.0
         self._keeper: Keeper | None = None
         self._unplaced: tuple[IntArray, tuple[LeftOut, ...]] | None = None
-        self._unheard: deque[News] = deque(maxlen=MOST_UNHEARD)
+        self._unheard: deque[News] = deque(maxlen=MOST_LINES)
         self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[News | None], object]] = {}
         self.owner: Owner[Session] | None = None
@@ -248,7 +248,7 @@ class Workspace:
             layout = poured(
                 opening.recipe, lambda moment: self._see(View.of_moment(moment), moment)
             )
-            session = Session(Document.of(layout))
+            session = Session(Document.from_layout(layout))
         elif opening.document is not None:
             session = Session(opening.document)
         else:

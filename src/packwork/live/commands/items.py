@@ -26,13 +26,11 @@ from packwork.live.commands.command import (
 )
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
+from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.item import MAX_LENGTH, Item, Label
 from packwork.scene.pose import Poses
 from packwork.scene.recolour import recoloured
-
-MOST_ITEMS = 100_000
-"""Items of a document at most, as of a recipe."""
 
 OFFSET = 0.02
 """How far beside its original a copy is put, as a share of the canvas. Chosen."""
@@ -187,8 +185,8 @@ _COLUMNS = ("ids", "weights", "smallest", "largest", "held")
 
 
 def _joined(document: Document, item: Item, pose: Poses, weight: float) -> Document:
-    if len(document) >= MOST_ITEMS:
-        raise RecipeError("add", f"{MOST_ITEMS} items are the most; remove one first")
+    if len(document) >= MAX_COUNT:
+        raise RecipeError("add", f"{MAX_COUNT} items are the most; remove one first")
     joined = replace(
         document,
         items=(*document.items, item),

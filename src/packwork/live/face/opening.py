@@ -74,7 +74,7 @@ def _of_file(path: Path, ending: str, count: int | None, options: dict[str, Any]
         return Opening(recipe=make_recipe(**{**read_recipe(path), **_drafted(count, options)}))
     if ending == ENDING:
         return Opening(file=path)
-    return Opening(document=Document.of(read_written(path)))
+    return Opening(document=Document.from_layout(read_written(path)))
 
 
 def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:

@@ -56,7 +56,7 @@ def saving(layout: Layout, paths: Iterable[Path]) -> Iterator[list[tuple[Path, b
     """Session files that begin with a layout, for the block to write, and nobody else."""
     with contextlib.ExitStack() as stack:
         disks = [Disk(path, is_journaled=False) for path in paths]
-        session = Session(Document.of(layout)) if disks else None
+        session = Session(Document.from_layout(layout)) if disks else None
         yield [
             (disk.path, stack.enter_context(disk.replacing(session)))
             for disk in disks

@@ -10,7 +10,6 @@ from pydantic import Field
 
 from packwork.arrays import FloatArray
 from packwork.live.commands.command import FARTHEST, sized
-from packwork.live.commands.items import MOST_ITEMS
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text, kept_text
 from packwork.live.file.values import colour_of, matrix_of, matrix_record
@@ -19,6 +18,7 @@ from packwork.live.options import LiveOptions
 from packwork.options import Options
 from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDEST_STRETCH
 from packwork.readers.reading import UnfitError
+from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Note
@@ -49,7 +49,7 @@ Id: TypeAlias = Annotated[int, Field(ge=0, le=MOST_ID)]
 class Changed(Options):
     """Some rows of a column."""
 
-    rows: tuple[Annotated[int, Field(ge=0, lt=MOST_ITEMS)], ...]
+    rows: tuple[Annotated[int, Field(ge=0, lt=MAX_COUNT)], ...]
     values: tuple[Number, ...]
 
 
@@ -257,8 +257,8 @@ def _indices(values: FloatArray, most: int, name: str) -> Any:
 
 
 def _check_ids(ids: Any, next_id: int) -> None:
-    if not 0 < len(ids) <= MOST_ITEMS:
-        raise UnfitError(f"holds {len(ids)} items; 1 to {MOST_ITEMS} go")
+    if not 0 < len(ids) <= MAX_COUNT:
+        raise UnfitError(f"holds {len(ids)} items; 1 to {MAX_COUNT} go")
     if len(np.unique(ids)) < len(ids) or ids.max() >= next_id:
         raise UnfitError("holds two items of one number, or a number that is not given yet")
 

@@ -20,6 +20,7 @@ import numpy as np
 
 from packwork.live.document import Document
 from packwork.live.file.disk import Disk
+from packwork.live.file.values import LONGEST_PRINT
 from packwork.live.relayout import pin_of
 from packwork.live.session import Session
 from packwork.recipe import make_recipe
@@ -30,9 +31,6 @@ from packwork.writers import encoded, recipe_bytes, write_all, write_options
 
 KEPT = ("seed", "effort", "holes", "stretch", "apart")
 """Options of the run that made the layout that hold for the next one too."""
-
-LONGEST_PHOTO = 4_000.0
-"""Longer side of photographs in such a folder, px, as in session files. Chosen."""
 
 _NO_LETTER = re.compile(r"[^\w .()-]")
 
@@ -144,7 +142,7 @@ def _drawing(item: Item) -> bytes:
     """An item as an SVG of its own, a unit of it one px."""
     art = item.art
     if isinstance(art, PhotoArt):
-        art = art.original.printed(min(1.0, LONGEST_PHOTO / item.outline.extent))
+        art = art.original.printed(min(1.0, LONGEST_PRINT / item.outline.extent))
     if isinstance(art, FlatArt):
         inside = f'<path fill="{art.fill}" fill-rule="evenodd" d="{path_data(item.ink, 9)}"/>'
     else:

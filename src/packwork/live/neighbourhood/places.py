@@ -33,7 +33,7 @@ def widest_places(document: Document, shapes: ShapeCache) -> Iterator[tuple[floa
     --------
     >>> from packwork import fill
     >>> layout = fill("square", "circle", count=1, epochs=20, levels="50")
-    >>> x, y, radius = next(widest_places(Document.of(layout), ShapeCache()))
+    >>> x, y, radius = next(widest_places(Document.from_layout(layout), ShapeCache()))
     >>> 0 < radius < 300
     True
     """
