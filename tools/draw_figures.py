@@ -21,7 +21,7 @@ from packwork.losses.image import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
-from packwork.solve.outlines import Ensemble, seen_posed
+from packwork.solve.outlines import Ensemble, simplify_for_level
 from packwork.solve.schedule import weights_at
 
 OUT = Path(__file__).parents[1] / "docs" / "pictures" / "figures"
@@ -68,7 +68,7 @@ class Scene:
         outlines = [item.outline for item in layout.items]
         if poses is not None:
             # As the solver sees them at this level: no finer than its pixels.
-            outlines = seen_posed(outlines, poses, self.px_per_cu, 0.0)
+            outlines = simplify_for_level(outlines, poses, self.px_per_cu, 0.0)
         self.ensemble = Ensemble(outlines)
         self.rasteriser = Rasteriser(self.shape, np.float32)
         region = layout.container.outline

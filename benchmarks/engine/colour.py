@@ -27,7 +27,7 @@ from packwork.raster.coverage import Rasteriser
 from packwork.scene.contrast import channels_of
 from packwork.scene.item import FlatArt
 from packwork.scene.swatch import mean_lights
-from packwork.solve.outlines import Ensemble, seen_at
+from packwork.solve.outlines import Ensemble, simplify_at_scales
 
 COUNTS = (10, 100, 1_000)
 RESOLUTIONS = (200, 600, 1_200)
@@ -77,7 +77,7 @@ def cost_row(count: int, resolution: int) -> list[str]:
     outlines = list(islice(cycle(frozen.outlines_of(EDGES)), count))
     poses = spread_out(outlines, container)
     px_per_cu = resolution / container.side
-    ensemble = Ensemble(seen_at(outlines, poses.scale, px_per_cu))
+    ensemble = Ensemble(simplify_at_scales(outlines, poses.scale, px_per_cu))
     points = ensemble.place(poses, px_per_cu)
     rasteriser = Rasteriser((resolution, resolution))
     image = ColourImage(rasteriser)

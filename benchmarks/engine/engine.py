@@ -31,7 +31,7 @@ from packwork.losses.image import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
-from packwork.solve.outlines import seen_at
+from packwork.solve.outlines import simplify_at_scales
 
 WEIGHTS = {"containment": 5.0, "overlap": 5.0, "filling": 1.0, "evenness": 2.0}
 RESOLUTIONS = (50, 200, 600, 1_200, 2_400)
@@ -84,7 +84,7 @@ def stage_rows() -> list[list[str]]:
         outlines = list(islice(cycle(base), count))
         poses = spread_out(outlines, container)
         for resolution in RESOLUTIONS:
-            seen = seen_at(outlines, poses.scale, resolution / container.side)
+            seen = simplify_at_scales(outlines, poses.scale, resolution / container.side)
             level = Level(container, seen, resolution)
             rows.append(_stages(level, poses, count, sum(len(o.points) for o in seen)))
             print("  ".join(rows[-1]), flush=True)

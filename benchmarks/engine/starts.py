@@ -29,7 +29,7 @@ from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
-from packwork.solve.outlines import seen_at
+from packwork.solve.outlines import simplify_at_scales
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import solve
 from packwork.start.angles_and_sizes import nominal_scales, start_angles, yielding_scales
@@ -147,7 +147,7 @@ def _at(case: Setting, x: FloatArray, y: FloatArray) -> Poses:
 
 def unburied(case: Setting, start: Poses) -> Poses:
     """The start with its buried items relocated."""
-    seen = seen_at(case.outlines, start.scale, BURIED_RESOLUTION / case.container.side)
+    seen = simplify_at_scales(case.outlines, start.scale, BURIED_RESOLUTION / case.container.side)
     level = Level(case.container, seen, BURIED_RESOLUTION)
     shares = violation_shares(level, start, level.density(start))
     buried = np.flatnonzero(shares > BURIED_SHARE)

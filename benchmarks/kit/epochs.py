@@ -16,7 +16,7 @@ from packwork.scene.pose import Poses
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
-from packwork.solve.outlines import seen_at
+from packwork.solve.outlines import simplify_at_scales
 from packwork.start.angles_and_sizes import nominal_scales
 from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions
@@ -75,7 +75,7 @@ def epoch_of(
     outlines = list(islice(cycle(frozen.outlines_of(EDGES)), count))
     poses = spread_out(outlines, container)
     if resolution != RESOLUTION:
-        outlines = seen_at(outlines, poses.scale, resolution / container.side)
+        outlines = simplify_at_scales(outlines, poses.scale, resolution / container.side)
     level = Level(container, outlines, resolution, weights)
     motion = Motion(poses, poses.scale, container.side, SolveOptions())
 

@@ -32,7 +32,13 @@ from packwork.compaction.kernels import (
 )
 from packwork.compaction.kernels.contacts import rows_of
 from packwork.compaction.kernels.steps import Objective
-from packwork.compaction.kernels.trials import Rounds, Trial, attempt, disjoint, room_for
+from packwork.compaction.kernels.trials import (
+    Rounds,
+    Trial,
+    allocate_batch,
+    attempt,
+    choose_disjoint,
+)
 from packwork.fields.distance_transform import distance_to, label_components
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
@@ -299,7 +305,7 @@ def neighbourhoods() -> None:
     near = _arrangement()
     broad_phase.nearby(near.board.boxes, np.arange(1), 1.0)
     moved, places = np.array([[0, -1]]), np.zeros((1, 2, 4))
-    disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, room_for(1, 6, 1))
+    choose_disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, allocate_batch(1, 6, 1))
 
 
 PARTS: tuple[Part, ...] = (

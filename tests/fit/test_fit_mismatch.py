@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from numerics import assert_gradient
-from packwork.fit.descent import Mismatch, drawn_to
+from packwork.fit.descent import Mismatch, fit_to_picture
 from packwork.geometry.outline import Outline
 
 STAR = Outline.from_region(
@@ -57,7 +57,7 @@ def test_each_level_is_nearer_than_the_start() -> None:
     ring = STAR.rings[0]
     step = (np.roll(ring, -1, axis=0) - ring) / 3
     edges = np.stack([ring, ring + step, ring + 2 * step], axis=1)
-    stages = drawn_to(STAR, 0.8 * edges + 0.7, counts)
+    stages = fit_to_picture(STAR, 0.8 * edges + 0.7, counts)
     judge = Mismatch(STAR, counts, 128)
     values = [judge(judge.to_px(stage))[0] for stage in stages]
     assert len(stages) == 4

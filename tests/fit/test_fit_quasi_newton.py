@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from packwork.arrays import FloatArray
-from packwork.fit.descent import lowest
+from packwork.fit.descent import minimise
 from strategies import generators
 
 
@@ -26,7 +26,7 @@ def test_the_bottom_of_a_bowl_is_found(rng: np.random.Generator) -> None:
     def bowl(x: FloatArray) -> tuple[float, FloatArray]:
         return float(slopes @ (x - bottom) ** 2), 2 * slopes * (x - bottom)
 
-    assert lowest(bowl, np.zeros(12), 300, 1e-14) == pytest.approx(bottom, abs=1e-3)
+    assert minimise(bowl, np.zeros(12), 300, 1e-14) == pytest.approx(bottom, abs=1e-3)
 
 
 def test_a_crooked_valley_is_followed_to_its_end() -> None:
@@ -37,17 +37,17 @@ def test_a_crooked_valley_is_followed_to_its_end() -> None:
         calls += 1
         return rosenbrock(x)
 
-    assert lowest(counted, np.zeros(6), 300, 1e-14) == pytest.approx(np.ones(6), abs=1e-4)
+    assert minimise(counted, np.zeros(6), 300, 1e-14) == pytest.approx(np.ones(6), abs=1e-4)
     assert calls < 150
 
 
 def test_it_stays_where_the_slope_is_zero() -> None:
-    assert lowest(rosenbrock, np.ones(4), 50, 1e-9).tolist() == [1, 1, 1, 1]
+    assert minimise(rosenbrock, np.ones(4), 50, 1e-9).tolist() == [1, 1, 1, 1]
 
 
 def test_it_never_ends_higher_than_it_began(rng: np.random.Generator) -> None:
     start = rng.normal(0, 3, 8)
-    values = [rosenbrock(lowest(rosenbrock, start, n, 0.0))[0] for n in range(12)]
+    values = [rosenbrock(minimise(rosenbrock, start, n, 0.0))[0] for n in range(12)]
     assert values[0] == rosenbrock(start)[0]
     assert values == sorted(values, reverse=True)
 
@@ -56,4 +56,4 @@ def test_a_gradient_that_lies_ends_the_search() -> None:
     def uphill(x: FloatArray) -> tuple[float, FloatArray]:
         return float(np.abs(x).sum()), -np.sign(x)
 
-    assert lowest(uphill, np.array([1.0, 2.0]), 50, 1e-9).tolist() == [1, 2]
+    assert minimise(uphill, np.array([1.0, 2.0]), 50, 1e-9).tolist() == [1, 2]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import region
-from packwork.geometry.snapping import CLEFT, STEP, sound, without_clefts
+from packwork.geometry.snapping import CLEFT, STEP, snap_rounded, without_clefts
 from strategies import ring_sets
 
 _SIZES = st.sampled_from([1e-3, 1.0, 1e6])
@@ -30,8 +30,8 @@ def extent_of(shape: shapely.Geometry) -> float:
 def test_differences_near_the_smallest_numbers_raise_no_warning(tiny: float, size: float) -> None:
     ring = size * np.array([[0.0, 0.0], [0.0, tiny], [1.0, 0.0]])
     crossed = size * np.array([[1, -1], [-tiny, 0], [0, 1], [0, -1], [1, 0.0]])
-    assert sound(region([ring], "evenodd")).area == 0
-    assert sound(region([crossed], "evenodd")).is_valid
+    assert snap_rounded(region([ring], "evenodd")).area == 0
+    assert snap_rounded(region([crossed], "evenodd")).is_valid
 
 
 @given(ring_sets(), _SIZES, _SLIPS, st.integers(0, 99), st.booleans())
@@ -43,7 +43,7 @@ def test_sound_regions_stay_valid_when_turned_and_rounded(
     # Each ring twice, a hair apart: edges that all but coincide.
     both = [*rings, *(ring[::-1] + slip for ring in rings)] if doubled else rings
     wild = region([size * (r + rng.normal(0, slip, r.shape)) for r in both], "evenodd")
-    clean = sound(wild)
+    clean = snap_rounded(wild)
     if clean.area == 0:
         return
     extent, before = extent_of(clean), extent_of(wild)
@@ -65,8 +65,8 @@ def test_a_ring_that_all_but_touches_itself_is_parted() -> None:
          (2, 1 + neck), (2, 2), (0, 2)]
     )  # fmt: skip
     assert shape.is_valid
-    assert sound(shape).geom_type == "MultiPolygon"
-    assert abs(sound(shape).area - 8) < 1e-5
+    assert snap_rounded(shape).geom_type == "MultiPolygon"
+    assert abs(snap_rounded(shape).area - 8) < 1e-5
 
 
 def test_a_bay_whose_mouth_a_file_could_close_is_filled() -> None:
@@ -78,5 +78,5 @@ def test_a_bay_whose_mouth_a_file_could_close_is_filled() -> None:
 
 def test_a_sound_region_is_left_alone() -> None:
     star = shapely.Point(0, 0).buffer(3.0)
-    assert sound(star) is star
+    assert snap_rounded(star) is star
     assert without_clefts(star) is star

@@ -19,7 +19,7 @@ from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.placement import Placement, Pose
 from packwork.api.saved import keep_session
 from packwork.api.signatures import of_model
-from packwork.display.axes import drawn_on
+from packwork.display.axes import draw_on_axes
 from packwork.display.bar import bar_for, shown
 from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
@@ -342,7 +342,7 @@ class Layout(scene.Layout):
         >>> len(layout.plot().patches)
         3
         """
-        axes: Axes = drawn_on(self, ax)
+        axes: Axes = draw_on_axes(self, ax)
         return axes
 
     @cached_property

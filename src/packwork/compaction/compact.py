@@ -49,7 +49,7 @@ def compact(
     of it that was not asked for.
     """
     near = broad_phase.nearby(arrangement.board.boxes, items, gap + TRAVEL * trust)
-    return _compacted(arrangement, objective, items, near, trust, gap, hair)
+    return _compact_block(arrangement, objective, items, near, trust, gap, hair)
 
 
 def compact_all(
@@ -69,7 +69,7 @@ def compact_all(
     boxes = arrangement.board.boxes
     # What stands still is looked at from as far as two items come nearer; what moves, farther.
     reach = gap + 2 * TRAVEL * trust
-    for group in colours(blocks(arrangement.places[:, :2], turn), boxes, reach):
+    for group in disjoint_groups(blocks(arrangement.places[:, :2], turn), boxes, reach):
         if stop():
             return
         near = [broad_phase.nearby(boxes, items, gap + TRAVEL * trust) for items in group]
@@ -77,10 +77,10 @@ def compact_all(
             (arrangement, objective, items, about, trust, gap, hair)
             for items, about in zip(group, near, strict=True)
         ]
-        at_once(_compacted, calls)
+        at_once(_compact_block, calls)
 
 
-def _compacted(
+def _compact_block(
     arrangement: Arrangement,
     objective: Objective,
     items: IntArray,
@@ -128,15 +128,15 @@ def blocks(positions: FloatArray, turn: int, most: int = MOST_IN_BLOCK) -> list[
     return found
 
 
-def colours(found: list[IntArray], boxes: FloatArray, reach: float) -> list[list[IntArray]]:
+def disjoint_groups(found: list[IntArray], boxes: FloatArray, reach: float) -> list[list[IntArray]]:
     """Blocks in groups of which no two come within ``reach``, in the order of their firsts.
 
     Greedy colouring of the graph of neighbours (D. Welsh and M. Powell, "An upper bound for the
     chromatic number of a graph", The Computer Journal 10 (1967), 85-86), without their order.
     ``boxes``: ``(n, 4)`` left, top, right, bottom.
 
-    >>> side_by_side = np.array([[x, 0.0, x + 1, 1.0] for x in range(4)])
-    >>> [len(group) for group in colours([np.array([k]) for k in range(4)], side_by_side, 0.5)]
+    >>> row = np.array([[x, 0.0, x + 1, 1.0] for x in range(4)])
+    >>> [len(group) for group in disjoint_groups([np.array([k]) for k in range(4)], row, 0.5)]
     [2, 2]
     """
     least = np.array([boxes[block, :2].min(axis=0) for block in found]) - reach

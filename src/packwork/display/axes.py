@@ -14,7 +14,7 @@ from packwork.scene.swatch import representative_colour
 INSTEAD = "save a picture"
 
 
-def drawn_on(layout: Layout, ax: Any = None) -> Any:
+def draw_on_axes(layout: Layout, ax: Any = None) -> Any:
     """Axes with a patch for each item, in canvas units, y down.
 
     Raises ``PackworkError`` if Matplotlib is not installed.

@@ -21,7 +21,13 @@ from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.compact import compact_all
 from packwork.compaction.kernels.steps import TRAVEL, Objective
-from packwork.compaction.kernels.trials import Rounds, Trial, attempt, disjoint, room_for
+from packwork.compaction.kernels.trials import (
+    Rounds,
+    Trial,
+    allocate_batch,
+    attempt,
+    choose_disjoint,
+)
 from packwork.compaction.objective import AREA_POWER
 from packwork.finish.objective import Pulling
 from packwork.finish.proposals import (
@@ -31,7 +37,7 @@ from packwork.finish.proposals import (
     destination,
     destinations,
     pools_of,
-    proposed,
+    propose,
 )
 from packwork.progress import Stop, never
 from packwork.threads import at_once
@@ -170,14 +176,19 @@ class _Search:
 
     def sweep(self, turn: int, stop: Stop) -> None:
         """Rounds of compaction over all items."""
-        _sweep(self._arrangement, self._objective, self._lengths, turn, stop)
+        lengths = self._lengths
+        for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
+            compact_all(
+                self._arrangement, self._objective, turn + index, trust, lengths.gap,
+                lengths.hair, stop,
+            )  # fmt: skip
 
     def _proposed(self) -> Iterator[Proposal]:
         """Trials without end, of the items as they are now."""
         arrangement, pulling = self._arrangement, self._pulling
         pools = pools_of(arrangement, self._objective.power < 0, pulling is not None)
         while True:
-            yield proposed(arrangement, pools, self._can_turn, self._rng, pulling, self._exchanges)
+            yield propose(arrangement, pools, self._can_turn, self._rng, pulling, self._exchanges)
 
     def _disjoint(self, most: int) -> list[tuple[Proposal, Trial]]:
         """The first trials that wait whose neighbourhoods do not meet; they wait no more."""
@@ -186,8 +197,8 @@ class _Search:
         places = destinations(self._arrangement, moved)
         room = ROOM * lengths.spacing
         margin = lengths.gap + TRAVEL * max(*TRUST, ANGLE_TRUST) * lengths.spacing
-        chosen = room_for(most, NEIGHBOURS, self._arrangement.count)
-        count = disjoint(
+        chosen = allocate_batch(most, NEIGHBOURS, self._arrangement.count)
+        count = choose_disjoint(
             self._arrangement.board, self._arrangement.radii, moved, places, NEIGHBOURS, room,
             margin, chosen,
         )  # fmt: skip
@@ -239,10 +250,3 @@ def made(
     return float(
         attempt(board, objective, trial, rounds, allowed, least, lengths.gap, lengths.hair)
     )
-
-
-def _sweep(
-    arrangement: Arrangement, objective: Objective, lengths: Lengths, turn: int, stop: Stop
-) -> None:
-    for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
-        compact_all(arrangement, objective, turn + index, trust, lengths.gap, lengths.hair, stop)

@@ -77,7 +77,7 @@ def pools_of(arrangement: Arrangement, smallest_counts: bool, is_forced: bool) -
     return Pools(radii, _some(by_size, SMALL_TURNED), 1.0, _some(by_size, SMALL_EXCHANGED))
 
 
-def proposed(
+def propose(
     arrangement: Arrangement,
     pools: Pools,
     can_turn: bool,
@@ -87,9 +87,9 @@ def proposed(
 ) -> Proposal:
     """An exchange or a turn; ``can_turn``: whether any item may; ``exchanges``: their share."""
     if arrangement.count > 1 and (not can_turn or rng.random() < exchanges):
-        moved = _exchanged(arrangement, pools, rng, pulling)
+        moved = _pick_exchange(arrangement, pools, rng, pulling)
     else:
-        moved = _turned(arrangement.count, pools, rng)
+        moved = _pick_turn(arrangement.count, pools, rng)
     return Proposal(moved, rng.random((ANGLES, len(moved))), rng.exponential())
 
 
@@ -97,19 +97,19 @@ def _some(items: IntArray, share: float) -> IntArray:
     return items[: max(round(share * len(items)), 1)]
 
 
-def _turned(count: int, pools: Pools, rng: np.random.Generator) -> IntArray:
+def _pick_turn(count: int, pools: Pools, rng: np.random.Generator) -> IntArray:
     if rng.random() < pools.share:
         return rng.choice(pools.first, size=1)
     return rng.integers(count, size=1)
 
 
-def _exchanged(
+def _pick_exchange(
     arrangement: Arrangement, pools: Pools, rng: np.random.Generator, pulling: Pulling | None
 ) -> IntArray:
     """Two items of like size that change places."""
     radii = pools.radii
     i = int(rng.choice(pools.exchanged))
-    alike = least_of(np.abs(np.log(radii / radii[i])), ALIKE + 1)
+    alike = smallest(np.abs(np.log(radii / radii[i])), ALIKE + 1)
     alike = alike[alike != i]
     j = int(rng.choice(alike))
     if pulling is not None and rng.random() < WITH_FORCES:
@@ -135,10 +135,10 @@ def destinations(arrangement: Arrangement, moved: IntArray) -> FloatArray:
     return places
 
 
-def least_of(values: FloatArray, count: int) -> IntArray:
+def smallest(values: FloatArray, count: int) -> IntArray:
     """Indices of the smallest of values ``(n,)``, in order; of equal ones the first.
 
-    >>> least_of(np.array([3.0, 1.0, 2.0, 1.0]), 3).tolist()
+    >>> smallest(np.array([3.0, 1.0, 2.0, 1.0]), 3).tolist()
     [1, 3, 2]
     """
     if count < len(values):

@@ -24,7 +24,7 @@ FILLER_CUT, FILLER_CHECKS = 0.04, 20
 cut wastes less of its void and takes more checks. Tried."""
 
 
-def admitted(
+def admit_fillers(
     container: Container,
     outlines: Sequence[Outline],
     poses: Poses,
@@ -41,7 +41,7 @@ def admitted(
     >>> poses = Poses(
     ...     np.array([3.0, 7.9, 3.2]), np.full(3, 5.0), np.zeros(3), np.array([2.8, 2.4, 0.1])
     ... )
-    >>> kept, stay = admitted(wall, [box] * 3, poses, 2, 0.0)
+    >>> kept, stay = admit_fillers(wall, [box] * 3, poses, 2, 0.0)
     >>> kept.tolist(), bool(2 < stay.scale[1] < 2.1)
     ([0, 1], True)
     """

@@ -32,13 +32,13 @@ LEAST_GAIN = 5e-7
 image that is inked. Smaller takes twice the time. Tried."""
 
 
-def drawn_to(target: Outline, chain: FloatArray, counts: Sequence[int]) -> list[FloatArray]:
+def fit_to_picture(target: Outline, chain: FloatArray, counts: Sequence[int]) -> list[FloatArray]:
     """Controls ``(k, 3, 2)`` after each level, coarse to fine, the start in front.
 
     >>> from packwork.fit.chains import Chains, straight_chain
     >>> from packwork.geometry.polygon import signed_area
     >>> square = np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]])
-    >>> stages = drawn_to(Outline.from_rings([square]), straight_chain(0.9 * square), [4])
+    >>> stages = fit_to_picture(Outline.from_rings([square]), straight_chain(0.9 * square), [4])
     >>> [round(signed_area(Chains([4], 16).points(stage)), 1) for stage in stages]
     [3.2, 4.0, 4.0, 4.0]
     """
@@ -58,7 +58,7 @@ def _descend(mismatch: Mismatch, controls_px: FloatArray, iterations: int) -> Fl
         return value, gradient.ravel()
 
     least_gain = LEAST_GAIN * mismatch.inked
-    return lowest(value_and_gradient, controls_px.ravel(), iterations, least_gain).reshape(shape)
+    return minimise(value_and_gradient, controls_px.ravel(), iterations, least_gain).reshape(shape)
 
 
 MARGIN_PX = 2
@@ -145,7 +145,7 @@ class Visit(NamedTuple):
     gradient: FloatArray
 
 
-def lowest(
+def minimise(
     objective: Objective, start: FloatArray, iterations: int, least_gain: float
 ) -> FloatArray:
     """Point near ``start`` where a smooth function is lowest.
@@ -155,7 +155,7 @@ def lowest(
 
     >>> def bowl(x):
     ...     return float(x[0] ** 2 + 10 * x[1] ** 2), np.array([2 * x[0], 20 * x[1]])
-    >>> lowest(bowl, np.array([3.0, 1.0]), 50, 1e-12).round(4).tolist()
+    >>> minimise(bowl, np.array([3.0, 1.0]), 50, 1e-12).round(4).tolist()
     [0.0, 0.0]
     """
     here = Visit(start, *objective(start))
@@ -164,7 +164,7 @@ def lowest(
         direction = _direction(here.gradient, steps)
         if not float(direction @ here.gradient) < 0:
             break
-        there = _searched(objective, here, direction)
+        there = _line_search(objective, here, direction)
         if there is None:
             break
         move, turn = there.x - here.x, there.gradient - here.gradient
@@ -195,7 +195,7 @@ def _direction(
     return -rest
 
 
-def _searched(objective: Objective, here: Visit, direction: FloatArray) -> Visit | None:
+def _line_search(objective: Objective, here: Visit, direction: FloatArray) -> Visit | None:
     """First point found along a direction that is low and flat enough; None if none is low."""
     slope = float(here.gradient @ direction)
     low, high, length = 0.0, np.inf, 1.0

@@ -18,7 +18,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.fit.chains import flattened, straight_chain, without_loops
-from packwork.fit.descent import drawn_to
+from packwork.fit.descent import fit_to_picture
 from packwork.fit.knots import best_chain
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection
@@ -164,7 +164,7 @@ def _fit(outline: Outline, curves: int) -> FittedOutline | None:
     start = np.concatenate(
         [best_chain(ring, count) for ring, count in zip(target.rings, counts, strict=True)]
     )
-    stages = drawn_to(target, start, counts)
+    stages = fit_to_picture(target, start, counts)
     for stage in reversed(stages):
         drawn = np.split(stage, np.cumsum(counts)[:-1])
         mended = [without_loops(chain, FLATNESS * outline.extent) for chain in drawn]

@@ -14,7 +14,7 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import Region, buffered, polygon_parts, simplify
+from packwork.geometry.overlay import buffered, polygon_parts, simplify
 
 
 def simplified(outline: Outline, tolerance: float) -> Outline:
@@ -33,15 +33,12 @@ def simplified(outline: Outline, tolerance: float) -> Outline:
     # The plain algorithm is ten times faster; where it lets rings cross or drops one,
     # the careful one is asked.
     region = simplify(outline.region, tolerance, keeps_topology=False)
-    if not region.is_valid or _ring_count(region) != len(outline.rings):
+    rings = sum(1 + len(part.interiors) for part in polygon_parts(region))
+    if not region.is_valid or rings != len(outline.rings):
         region = simplify(outline.region, tolerance, keeps_topology=True)
     if not polygon_parts(region):
         return outline
     return Outline.from_region(region)
-
-
-def _ring_count(region: Region) -> int:
-    return sum(1 + len(part.interiors) for part in polygon_parts(region))
 
 
 def closed(outline: Outline, radius: float) -> Outline:

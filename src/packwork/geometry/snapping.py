@@ -29,17 +29,17 @@ MOST_ROUNDS = 8
 """Times that a region is snapped at most; two have been enough for all that was tried. Chosen."""
 
 
-def sound(shape: Region, step: float = STEP) -> Region:
+def snap_rounded(shape: Region, step: float = STEP) -> Region:
     """The region itself if its rings keep clear of each other, else one whose rings do.
 
     Each vertex is within a few steps, shares of the extent, of where it was; empty if nothing is as
     wide as a step. A region that is not valid is repaired.
 
     >>> nearly = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 1e-12), (0, 4)])
-    >>> sound(nearly).geom_type, sound(nearly).area
+    >>> snap_rounded(nearly).geom_type, snap_rounded(nearly).area
     ('MultiPolygon', 8.0)
     >>> box = shapely.box(0, 0, 1, 1)
-    >>> sound(box) is box
+    >>> snap_rounded(box) is box
     True
     """
     shape = valid(shape)
@@ -74,4 +74,4 @@ def without_clefts(shape: Region, width: float = CLEFT) -> Region:
     bays = [shapely.Polygon(hole) for part in polygon_parts(grown) for hole in part.interiors]
     if not bays:
         return shape
-    return sound(union([shape, *(buffered(bay, least, join_style="mitre") for bay in bays)]))
+    return snap_rounded(union([shape, *(buffered(bay, least, join_style="mitre") for bay in bays)]))

@@ -21,7 +21,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions
-from packwork.solve.outlines import seen_posed
+from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import Ending
 
@@ -178,7 +178,7 @@ def find_unplaced(layout: Layout, limits: Limits = NO_LIMITS) -> tuple[Unplaced,
     """Items of which most is overlapped or outside the container or their zone."""
     outlines = [item.outline for item in layout.items]
     px_per_cu = CHECK_RESOLUTION / layout.container.side
-    seen = seen_posed(outlines, layout.poses, px_per_cu)
+    seen = simplify_for_level(outlines, layout.poses, px_per_cu)
     level = Level(layout.container, seen, CHECK_RESOLUTION, limits=limits)
     shares = violation_shares(level, layout.poses, level.density(layout.poses))
     return tuple(

@@ -10,7 +10,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
-from packwork.geometry.snapping import sound, without_clefts
+from packwork.geometry.snapping import snap_rounded, without_clefts
 from packwork.readers.reading import UnfitError, notice
 from packwork.units import Unit, convert
 
@@ -82,7 +82,7 @@ def clean_union(*regions: Region, speck: float = SPECK) -> Region:
     >>> clean_union(shapely.box(0, 0, 1, 1), shapely.box(5, 5, 5.0001, 5.0001)).area
     1.0
     """
-    whole = sound(united(regions))
+    whole = snap_rounded(united(regions))
     if whole.area == 0:
         raise UnfitError("paints no area; give at least one filled or stroked shape")
     left, top, right, bottom = whole.bounds

@@ -15,7 +15,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.geometry.snapping import sound
+from packwork.geometry.snapping import snap_rounded
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
@@ -148,7 +148,7 @@ def container_around(
     for kept in options.keep_clear:
         region = difference(region, _kept_clear(kept, size, read_region))
     try:
-        outline = Outline.from_region(sound(region))
+        outline = Outline.from_region(snap_rounded(region))
     except ShapeError:
         raise ReadError(
             file, "has no quiet part outside of what is to be kept clear; raise the quiet share"

@@ -57,12 +57,12 @@ class Adam:
         self._mean[items] = 0.0
         self._square[items] = np.mean(self._square)
 
-    def go_on_from(self, other: Adam, mine: IntArray, theirs: IntArray) -> None:
+    def copy_moments(self, other: Adam, mine: IntArray, theirs: IntArray) -> None:
         """Take over what another has learnt about some items: ``theirs`` there, ``mine`` here.
 
         >>> one, two = Adam((1, 1)), Adam((3, 1))
         >>> step = one.step(np.array([[3.0]]), 1.0)
-        >>> two.go_on_from(one, np.array([2]), np.array([0]))
+        >>> two.copy_moments(one, np.array([2]), np.array([0]))
         >>> two.step(np.zeros((3, 1)), 1.0)[:, 0].round(1).tolist()
         [-0.0, -0.0, -0.7]
         """
@@ -182,13 +182,13 @@ class Motion:
         self.x[items], self.y[items], self.angle[items] = poses.x, poses.y, poses.angle
         self._growth[items] = np.log(poses.scale) - self._nominal[items]
 
-    def go_on_from(self, other: Motion, mine: IntArray, theirs: IntArray) -> None:
+    def copy_moments(self, other: Motion, mine: IntArray, theirs: IntArray) -> None:
         """Take over the moments of items ``theirs`` of another for items ``mine`` of this.
 
         ``(m,)`` indices each; both of free or both of other sizes.
         """
         columns = ((self._moves, other._moves), (self._turns, other._turns))
         for own, theirs_adam in (*columns, (self._shapes, other._shapes)):
-            own.go_on_from(theirs_adam, mine, theirs)
+            own.copy_moments(theirs_adam, mine, theirs)
         if self._options.sizes == "free":
-            self._sizes.go_on_from(other._sizes, mine, theirs)
+            self._sizes.copy_moments(other._sizes, mine, theirs)

@@ -49,7 +49,7 @@ the exact finish keeps them in full. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class OutlineCache:
     """Outlines that were simplified before, kept with those that they were made of."""
 
     shaped: dict[tuple[Outline, float], Outline] = field(default_factory=dict)
@@ -57,12 +57,12 @@ class Seen:
     given_back: dict[tuple[Outline, float], Outline] = field(default_factory=dict)
 
 
-def seen_posed(
+def simplify_for_level(
     outlines: Sequence[Outline],
     poses: Poses,
     px_per_cu: float,
     margin_cu: float = 0.0,
-    before: Seen | None = None,
+    before: OutlineCache | None = None,
 ) -> list[Outline]:
     """Outlines simplified to a level's pixels in the shape and size of their poses.
 
@@ -74,20 +74,20 @@ def seen_posed(
     >>> half = np.array([[-8.0, -8], [8, -8], [8, 8], [-8, 8]])
     >>> one = np.ones(1)
     >>> wide = Poses(one, one, 0 * one, one, 4 * one)
-    >>> (seen,) = seen_posed([Outline.from_rings([half])], wide, 99.0, margin_cu=1.0)
+    >>> (seen,) = simplify_for_level([Outline.from_rings([half])], wide, 99.0, margin_cu=1.0)
     >>> [round(v, 2) for v in seen.bounds]
     [-8.5, -10.0, 8.5, 10.0]
     """
     # Items within a factor of two of one shape share one outline, as sizes do; but a
     # margin has the same width whatever the shape.
     ratios = poses.stretch if margin_cu > 0 else 2.0 ** np.rint(np.log2(poses.stretch))
-    before = before or Seen()
+    before = before or OutlineCache()
     shaped = _stretched_once(outlines, ratios, before.shaped)
-    seen = seen_at(shaped, poses.scale, px_per_cu, margin_cu, before.made)
+    seen = simplify_at_scales(shaped, poses.scale, px_per_cu, margin_cu, before.made)
     return _stretched_once(seen, 1 / ratios, before.given_back)
 
 
-def seen_at(
+def simplify_at_scales(
     outlines: Sequence[Outline],
     scales: FloatArray,
     px_per_cu: float,
@@ -108,12 +108,12 @@ def seen_at(
         rung = round(size)
         key = (outline, rung if margin_cu == 0 else round(size * MARGIN_RUNGS))
         if key not in done:
-            done[key] = _seen(outline, 2.0**rung, margin_cu / scale)
+            done[key] = _simplify(outline, 2.0**rung, margin_cu / scale)
         seen.append(done[key])
     return seen
 
 
-def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
+def _simplify(outline: Outline, pixel: float, margin: float) -> Outline:
     """One outline at a level whose pixel is ``pixel`` item units."""
     # Half the tolerance before closing, which is slow on many points, half after.
     rough = simplified(outline, 0.5 * DETAIL_PX * pixel)

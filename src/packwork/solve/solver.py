@@ -26,7 +26,7 @@ from packwork.solve.exchange import exchange
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
-from packwork.solve.outlines import seen_posed
+from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import Relocation, relocate_trapped
 from packwork.solve.schedule import force_factor, growth, pace_of, rate_factor, weights_at
 
@@ -134,7 +134,9 @@ class _Solve:
         began, before = time.perf_counter(), self._done
         resolution = self._options.levels[index]
         px_per_cu = resolution / self._container.side
-        seen = seen_posed(self._outlines, self.motion.poses, px_per_cu, self._options.margin)
+        seen = simplify_for_level(
+            self._outlines, self.motion.poses, px_per_cu, self._options.margin
+        )
         level = Level(
             self._container, seen, resolution, self._options.losses, self._nominal, self._limits,
             self._forces,

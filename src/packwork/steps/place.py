@@ -29,7 +29,7 @@ from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
-from packwork.solve.outlines import seen_posed
+from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.start.angles_and_sizes import (
     nominal_scales,
@@ -196,7 +196,7 @@ def unburied(setting: Setting, poses: Poses, limits: Limits) -> tuple[Poses, Flo
     violation
         ``(n,)`` share of each item that lay under others or outside before.
     """
-    seen = seen_posed(setting.outlines, poses, BURIED_PX / setting.region.side)
+    seen = simplify_for_level(setting.outlines, poses, BURIED_PX / setting.region.side)
     level = Level(setting.region, seen, BURIED_PX, limits=limits)
     violation = violation_shares(level, poses, level.density(poses))
     buried = np.flatnonzero(violation > BURIED_SHARE)

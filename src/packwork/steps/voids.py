@@ -12,7 +12,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
-from packwork.finish.shrink import admitted
+from packwork.finish.shrink import admit_fillers
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Filling, Sentence
 from packwork.pipeline.plan.copies import ItemRules
@@ -181,7 +181,7 @@ class _Filling:
         poses = self.poses.followed_by(replace(fillers.poses, angle=angle))
         shapes = [*outlines, *(self._shapes[k] for k in fillers.sort)]
         self._work += corner_pairs(shapes, poses)
-        stay, poses = admitted(container, shapes, poses, len(fillers.sort), self._gap)
+        stay, poses = admit_fillers(container, shapes, poses, len(fillers.sort), self._gap)
         here = np.array([*self.added, *fillers.sort], dtype=np.int64)[
             stay[self._first :] - self._first
         ]

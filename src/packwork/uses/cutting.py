@@ -11,7 +11,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, intersection, polygon_parts
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.geometry.snapping import sound
+from packwork.geometry.snapping import snap_rounded
 from packwork.scene.item import Art, FlatArt, Item, Original, PhotoArt, PictureArt, VectorArt
 
 PART = 0.05
@@ -87,8 +87,8 @@ def cut(item: Item, matrix: FloatArray, window: Region, name: str) -> Cut | None
     if not parts:
         return None
     back = affine.inverse(matrix)
-    seen = sound(shapely.MultiPolygon(parts))
-    ink = sound(intersection(item.ink.mapped(matrix).region, seen))
+    seen = snap_rounded(shapely.MultiPolygon(parts))
+    ink = snap_rounded(intersection(item.ink.mapped(matrix).region, seen))
     opening = intersection(buffered(seen, FREE * whole.extent, join_style="mitre"), window)
     rings = oriented_rings(Outline.from_region(opening).mapped(back).region)
     path = "".join(
@@ -113,8 +113,8 @@ def part_of(item: Item, share: float) -> Item:
     """
     region, ink = item.outline.region, item.ink.region
     at = _cut_line(region, share)
-    outline = Outline.from_region(sound(_left(region, at)))
-    inked = sound(_left(ink, at))
+    outline = Outline.from_region(snap_rounded(_left(region, at)))
+    inked = snap_rounded(_left(ink, at))
     left, top, _, bottom = item.ink.bounds
     # The line of the cut is sharp; on all other sides the window is wider than the drawing.
     free = bottom - top + at - left

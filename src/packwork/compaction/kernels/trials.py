@@ -183,7 +183,7 @@ def attempt(board, objective, trial, rounds, allowed, least, gap, hair):
     return -np.inf
 
 
-class Chosen(NamedTuple):
+class TrialBatch(NamedTuple):
     """Room for trials that may be made at once, and where each may reach.
 
     ``trials``: ``(c,)`` which of those that were asked for; ``items``: of all of them one after
@@ -200,10 +200,10 @@ class Chosen(NamedTuple):
     reached: np.ndarray
 
 
-def room_for(most: int, neighbours: int, count: int) -> Chosen:
+def allocate_batch(most: int, neighbours: int, count: int) -> TrialBatch:
     """Room for so many trials, with so many neighbours of each moved item, among so many items."""
     width = 2 * neighbours + 4
-    return Chosen(
+    return TrialBatch(
         np.empty(most, np.int64), np.zeros((most + 1, 3), np.int64),
         np.empty(most * width, np.int64), np.empty((most * width, 4)),
         np.empty(most * count, np.int64), np.empty((most * (width + 2), 4)),
@@ -222,7 +222,7 @@ def _away(places, j, moved, pair):
 
 
 @helper
-def _about(board, radii, moved, pair, wanted, found):
+def _nearest_items(board, radii, moved, pair, wanted, found):
     """Write the moved items and those nearest to them, by their x; returns how many.
 
     What is nearest goes by distances of centres less radii, ``(n,)``.
@@ -327,7 +327,7 @@ def _add_near(boxes, begin, end, hull, polygons, moved, margin, near, count):
 
 
 @kernel
-def disjoint(board, radii, moved, places, neighbours, room, margin, chosen):
+def choose_disjoint(board, radii, moved, places, neighbours, room, margin, chosen):
     """Choose the first of some trials and those after it whose neighbourhoods do not meet.
 
     As many as there is room for; returns how many. ``moved``: ``(p, 2)`` those that are put
@@ -345,7 +345,7 @@ def disjoint(board, radii, moved, places, neighbours, room, margin, chosen):
         here = chosen.items[begin:]
         pair = 2 if moved[p, 1] >= 0 else 1
         wanted = min(pair * (neighbours + 1), radii.shape[0])
-        held = _about(board, radii, moved[p], pair, wanted, here)
+        held = _nearest_items(board, radii, moved[p], pair, wanted, here)
         for k in range(held):
             _bound(board, here[k], moved[p], pair, places[p], room, reached[last + k])
         for k in range(pair):

@@ -19,7 +19,7 @@ from packwork.pipeline.plan.limits import padded
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.free_space import FreeSpace
-from packwork.solve.outlines import MARGIN_RUNGS, Seen, seen_posed
+from packwork.solve.outlines import MARGIN_RUNGS, OutlineCache, simplify_for_level
 
 
 class ShapeCache:
@@ -66,7 +66,7 @@ class LevelCache:
     """
 
     def __init__(self) -> None:
-        self._seen: dict[tuple[float, float], Seen] = {}
+        self._seen: dict[tuple[float, float], OutlineCache] = {}
         self._kept = set[Outline]()
         self._covers: tuple[Sequence[Outline], Sequence[float], list[Outline]] = ((), (), [])
         self._region: tuple[Container, float, Container] | None = None
@@ -98,14 +98,16 @@ class LevelCache:
     def outlines(
         self, outlines: Sequence[Outline], poses: Poses, px_per_cu: float, margin: float
     ) -> list[Outline]:
-        """Outlines at a level, see :func:`packwork.solve.outlines.seen_posed`."""
+        """Outlines at a level, see :func:`packwork.solve.outlines.simplify_for_level`."""
         if len(self._kept) > MOST:
             self._seen, self._kept = {}, set()
         self._kept.update(outlines)
-        seen = self._seen.setdefault((px_per_cu, margin), Seen())
+        seen = self._seen.setdefault((px_per_cu, margin), OutlineCache())
         # Of sizes that share an outline the first would tell which: here they are the same.
         rungs = np.rint(np.log2(poses.scale) * MARGIN_RUNGS) / MARGIN_RUNGS
-        return seen_posed(outlines, replace(poses, scale=2.0**rungs), px_per_cu, margin, seen)
+        return simplify_for_level(
+            outlines, replace(poses, scale=2.0**rungs), px_per_cu, margin, seen
+        )
 
 
 def _covered(outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:

@@ -302,7 +302,7 @@ class Flow:
         motion.pace = FADE ** self._ring[active].astype(np.float64)
         if before is not None:
             _, mine, theirs = np.intersect1d(active, was, return_indices=True)
-            motion.go_on_from(before[1], mine, theirs)
+            motion.copy_moments(before[1], mine, theirs)
         self.moved[active] = True
         self._working = (level, motion)
         return self._working

@@ -14,7 +14,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
-from packwork.geometry.snapping import sound
+from packwork.geometry.snapping import snap_rounded
 from packwork.pipeline.plan.forces import point_at
 from packwork.readers.container import read_container
 from packwork.readers.options import AS_DRAWN
@@ -103,9 +103,9 @@ def opened(
         _swept(gate, way * (canvas + needed / max(_breadth(gate, way), 1e-9 * canvas)))
         for gate, way in gates
     ]
-    outline = Outline.from_region(sound(_solid(whole)))
+    outline = Outline.from_region(snap_rounded(_solid(whole)))
     inside = replace(container, outline=outline, walls=_walls(region, gates, beyond[1:]))
-    return Opened(inside, Outline.from_region(sound(_solid(union([whole, *far])))))
+    return Opened(inside, Outline.from_region(snap_rounded(_solid(union([whole, *far])))))
 
 
 def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
