@@ -20,7 +20,7 @@ from packwork.compaction.kernels import trials
 from packwork.compaction.kernels.steps import LEAST_GROWTH
 from packwork.compaction.options import HOPELESS
 from packwork.fields.voids import Clearance, largest_voids
-from packwork.raster.coverage import coverage
+from packwork.raster.coverage import TOUCHED, coverage
 
 CUT = 0.004
 """Logarithm of size that an item in conflict loses at a time. Larger gives room away, smaller needs
@@ -168,9 +168,6 @@ SNUG = 0.9
 """Radius of an item in a void over the void's. Larger may not fit, smaller has farther to
 grow. Chosen."""
 
-FAINT = 1e-3
-"""Coverage of a pixel that counts as none. Chosen."""
-
 SMALLEST_VOID = 0.5
 """Radius of the smallest void that takes an item, px of that image, which is not exact. Chosen."""
 
@@ -210,4 +207,4 @@ def free_room(
 
     inside = image(arrangement.container.points, arrangement.container.starts)
     taken = image(*arrangement.rings(items)) if len(items) else np.zeros(shape)
-    return Clearance((inside > 1 - FAINT) & (taken < FAINT)), px_per_cu, (left, top)
+    return Clearance((inside > 1 - TOUCHED) & (taken < TOUCHED)), px_per_cu, (left, top)

@@ -28,6 +28,10 @@ while fewer than 2**(24 - bits) (float32) or 2**(53 - bits) items share a pixel.
 _X_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 38}
 """The walk's x are multiples of 2**-bits pixel; it bounds the width of an image."""
 
+TOUCHED = 1e-3
+"""Coverage from which on a pixel counts as taken: those that are only grazed are not. Derived: ten
+times what float32 images are off by."""
+
 MAX_SIDE_PX = 8_192
 """Largest image side: beyond it the float64 walk would lose its exact sums."""
 

@@ -17,7 +17,7 @@ from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.progress import Stop, never
-from packwork.raster.coverage import coverage
+from packwork.raster.coverage import TOUCHED, coverage
 
 HeightOf = Callable[[FloatArray, int], FloatArray]
 """Heights ``(m,)`` of an item at points ``(m, 2)``."""
@@ -27,9 +27,6 @@ PIXELS_ACROSS = 16.0
 
 MOST_PIXELS = 2**20
 """Pixels of the image of free room at most. Chosen."""
-
-FAINT = 1e-3
-"""Coverage of a pixel that counts as none. Chosen."""
 
 STEPS = 3
 """Parts of a pixel to which a place by a wall is refined. More takes longer, fewer leave
@@ -76,9 +73,9 @@ class FreeRoom:
         def image(points: FloatArray, starts: IntArray) -> Image:
             return coverage((points - self._corner) * self._px_per_cu, starts, shape, np.float32)
 
-        free = image(arrangement.container.points, arrangement.container.starts) > 1 - FAINT
+        free = image(arrangement.container.points, arrangement.container.starts) > 1 - TOUCHED
         if len(standing):
-            free &= image(*arrangement.rings(standing)) < FAINT
+            free &= image(*arrangement.rings(standing)) < TOUCHED
         self._wall = distance_inside(free) / self._px_per_cu
         rows, columns = np.indices(shape)
         pixels = np.column_stack([columns.ravel(), rows.ravel()]) + 0.5

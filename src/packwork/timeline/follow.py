@@ -21,9 +21,10 @@ from packwork.finish.options import FinishOptions
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
+from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit.occupancy import TOUCHED, Occupancy, covered, cut
+from packwork.start.first_fit.occupancy import Occupancy, covered, cut
 from packwork.start.first_poses import container_image
 from packwork.steps.finish import gap_with_bulge
 from packwork.timeline.step import SeriesStep

@@ -21,11 +21,12 @@ from packwork.forces.forces import FieldForce
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
+from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
-from packwork.start.first_fit.occupancy import TOUCHED, Occupancy, Stencil, cut
+from packwork.start.first_fit.occupancy import Occupancy, Stencil, cut
 from packwork.start.first_fit.preferences import Homes, KindPenalty
 from packwork.start.first_poses import container_image
 

@@ -18,9 +18,10 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
+from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.occupancy import TOUCHED, Occupancy, Stencil, covered, stencil_of
+from packwork.start.first_fit.occupancy import Occupancy, Stencil, covered, stencil_of
 from packwork.start.first_poses import container_image
 
 PoseRow: TypeAlias = tuple[float, float, float, float]

@@ -12,11 +12,8 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
-from packwork.raster.coverage import Rasteriser
+from packwork.raster.coverage import TOUCHED, Rasteriser
 from packwork.start.first_fit import _kernels
-
-TOUCHED = 1e-3
-"""Coverage from which on a pixel counts as taken: those that are only grazed are not."""
 
 MOST_OFFSET_PX = 2.0
 """Margin up to which vertices are moved, which takes hardly any time; wider ones are drawn round
