@@ -16,7 +16,7 @@ from packwork.batches.batch import (
 )
 from packwork.batches.report import rows_of
 from packwork.batches.task import RowOutcome
-from packwork.display.extras import found
+from packwork.display.extras import import_extra
 from packwork.errors import RecipeError
 from packwork.progress import Stop, never
 
@@ -62,7 +62,9 @@ class Batch:
         PackworkError
             If pandas is not installed.
         """
-        frame: DataFrame = found("pandas", "use the outcomes").DataFrame(rows_of(self.outcomes))
+        frame: DataFrame = import_extra("pandas", "use the outcomes").DataFrame(
+            rows_of(self.outcomes)
+        )
         return frame
 
     def __repr__(self) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from packwork.api.frozen import ReadOnly
-from packwork.display.extras import found
+from packwork.display.extras import import_extra
 from packwork.errors import RecipeError
 from packwork.progress import ObjectiveTerms, Step
 
@@ -83,7 +83,9 @@ class History:
         PackworkError
             If pandas is not installed.
         """
-        frame: DataFrame = found("pandas", "use the arrays in columns").DataFrame(self.columns)
+        frame: DataFrame = import_extra("pandas", "use the arrays in columns").DataFrame(
+            self.columns
+        )
         return frame
 
 

@@ -19,9 +19,8 @@ from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.placement import Placement, Pose
 from packwork.api.saved import keep_session
 from packwork.api.signatures import of_model
-from packwork.display.axes import draw_on_axes
 from packwork.display.bar import bar_for, shown
-from packwork.display.frame import data_frame
+from packwork.display.extras import data_frame, draw_on_axes
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean

@@ -22,7 +22,7 @@ from typing import Any
 
 from packwork import precompile, threads
 from packwork.batches.task import Drawn, RowOutcome, Task, draw, failed, make, write
-from packwork.display.extras import found
+from packwork.display.extras import import_extra
 from packwork.errors import PackworkError
 from packwork.installed import installed_version
 from packwork.mirror import mirrored, place_in
@@ -109,7 +109,9 @@ def _quiet() -> Iterator[None]:
 
 
 def _connected(address: str) -> Any:
-    distributed = found("distributed", "leave --scheduler out (or pip install packwork[cluster])")
+    distributed = import_extra(
+        "distributed", "leave --scheduler out (or pip install packwork[cluster])"
+    )
     try:
         client = distributed.Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:

@@ -68,10 +68,10 @@ def studio(
             raise RecipeError(
                 "host", f"{host[:60]} lets others reach the studio; add --i-know if that is meant"
             )
-        from packwork.display.extras import found
+        from packwork.display.extras import import_extra
 
         for module in ("starlette", "uvicorn", "websockets"):
-            found(module, "all that the studio needs: pip install '.[studio]'")
+            import_extra(module, "all that the studio needs: pip install '.[studio]'")
         from packwork.live.face.opening import Opening, opening_of
         from packwork.studio import kept_workspaces
         from packwork.studio.serving import Address, serve

@@ -26,7 +26,6 @@ CUT = 0.004
 """Logarithm of size that an item in conflict loses at a time. Larger gives room away, smaller needs
 more checks. Tried."""
 
-
 HASTE = 1.03
 """Factor on that loss with each further check, once it has made items hopeless that often, so that
 even hopeless layouts come to an end. Chosen."""

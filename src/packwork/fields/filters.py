@@ -42,7 +42,6 @@ middle. Tried."""
 
 _NEIGHBOURS = 3
 
-
 _SPREAD = 2.5
 
 _FLOOR = 1e-6

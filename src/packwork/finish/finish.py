@@ -70,7 +70,6 @@ LEVELLING_TRUST = (0.0006, 0.01)
 """Smallest and largest trust region, as above, of the last rounds where sizes are shared,
 in which all come down to the smallest. Larger than a full layout grants moves nothing. Tried."""
 
-
 LEVELLING_ROOM = 1.5
 """Trust region of such a round over what the largest item has to come down. Larger moves items for
 nothing, smaller leaves them too large. Chosen."""

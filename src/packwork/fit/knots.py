@@ -26,7 +26,6 @@ _GRAM = np.array([[20, 10, 4, 1], [10, 12, 9, 4], [4, 9, 12, 10], [1, 4, 10, 20]
 
 _HANDLES = np.linalg.inv(_GRAM[1:3, 1:3])
 
-
 _GAUSS_AT = 0.5 + np.sqrt(0.15) * np.array([-1, 0, 1])
 
 _GAUSS_WEIGHTS = np.array([5, 8, 5]) / 18

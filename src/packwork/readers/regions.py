@@ -8,9 +8,9 @@ from shapely.geometry import MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.distance import snap_rounded, without_clefts
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
-from packwork.geometry.snapping import snap_rounded, without_clefts
 from packwork.readers.reading import UnfitError, notice
 from packwork.units import Unit, convert
 

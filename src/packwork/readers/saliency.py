@@ -12,10 +12,10 @@ from packwork.arrays import FloatArray
 from packwork.errors import ReadError, ShapeError
 from packwork.fields.filters import spectral_residual
 from packwork.geometry import affine
+from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.geometry.snapping import snap_rounded
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES

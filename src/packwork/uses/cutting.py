@@ -8,10 +8,10 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, intersection, polygon_parts
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.geometry.snapping import snap_rounded
 from packwork.scene.item import Art, FlatArt, Item, Original, PhotoArt, PictureArt, VectorArt
 
 PART = 0.05

@@ -14,8 +14,8 @@ from shapely import affinity
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
+from packwork.geometry.distance import CLEFT
 from packwork.geometry.outline import Outline, centre_of_area
-from packwork.geometry.snapping import CLEFT
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
 from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering

@@ -11,10 +11,10 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
+from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
-from packwork.geometry.snapping import snap_rounded
 from packwork.pipeline.plan.forces import point_at
 from packwork.readers.container import read_container
 from packwork.readers.options import AS_DRAWN
