@@ -19,7 +19,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from packwork.api.handing import CONTAINERS, ITEMS, PICTURES, VECTORS
+from packwork.api.inputs import CONTAINERS, ITEMS, PICTURES, VECTORS
 from packwork.api.verbs import BACKGROUND
 from packwork.offers import Offer, Offered, Verbs
 from packwork.options import Options, offered

@@ -19,16 +19,15 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
-    from packwork.api.albums import photos
     from packwork.api.batches import Batch, batch
     from packwork.api.history import History
     from packwork.api.judging import finish, measure
     from packwork.api.layout import Layout
-    from packwork.api.placement import Placement
-    from packwork.api.recipes import run
+    from packwork.api.parts import Placement
     from packwork.api.series import Series, chart_series, series
     from packwork.api.session import Session
-    from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
+    from packwork.api.inputs import read_container, read_items
+    from packwork.api.verbs import chart, fill, photos, pile, run, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.geometry.outline import Outline
@@ -102,7 +101,7 @@ _HOMES = {
     "Metrics": "packwork.metrics.measure:Metrics",
     "Outline": "packwork.geometry.outline:Outline",
     "PackworkError": "packwork.errors:PackworkError",
-    "Placement": "packwork.api.placement:Placement",
+    "Placement": "packwork.api.parts:Placement",
     "PoseTerm": "packwork.losses.term:PoseTerm",
     "PosedItems": "packwork.losses.term:PosedItems",
     "Poses": "packwork.scene.pose:Poses",
@@ -121,15 +120,15 @@ _HOMES = {
     "finish": "packwork.api.judging:finish",
     "fit_outline": "packwork.fit.fitted:fit_outline",
     "measure": "packwork.api.judging:measure",
-    "photos": "packwork.api.albums:photos",
+    "photos": "packwork.api.verbs:photos",
     "pile": "packwork.api.verbs:pile",
-    "read_container": "packwork.api.verbs:read_container",
-    "read_items": "packwork.api.verbs:read_items",
+    "read_container": "packwork.api.inputs:read_container",
+    "read_items": "packwork.api.inputs:read_items",
     "render": "packwork.raster.coverage:coverage",
     "render_colour": "packwork.raster.colour:render_colour",
     "render_colour_pullback": "packwork.raster.colour:render_colour_pullback",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
-    "run": "packwork.api.recipes:run",
+    "run": "packwork.api.verbs:run",
     "series": "packwork.api.series:series",
     "words": "packwork.api.verbs:words",
 }

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from packwork.api.frozen import ReadOnly
+from packwork.api.parts import ReadOnly
 from packwork.display.extras import import_extra
 from packwork.errors import RecipeError
 from packwork.progress import ObjectiveTerms, Step

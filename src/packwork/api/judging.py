@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from packwork.api.frozen import ReadOnly
+from packwork.api.parts import ReadOnly
 from packwork.api.layout import Layout, public
 from packwork.errors import RecipeError
 from packwork.finish.finish import finish as exact_finish

@@ -13,11 +13,10 @@ from typing import IO, TYPE_CHECKING, Any, Unpack, cast
 from pydantic import ValidationError
 
 from packwork import writers
-from packwork.api.frozen import ReadOnly, checked_poses, frozen, frozen_poses, manifest_of
+from packwork.api.parts import ReadOnly, checked_poses, frozen, frozen_poses, manifest_of
 from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
-from packwork.api.placement import Placement, Pose
-from packwork.api.saved import keep_session
+from packwork.api.parts import Placement, Pose
 from packwork.api.signatures import of_model
 from packwork.display.bar import bar_for, shown
 from packwork.display.extras import data_frame, draw_on_axes
@@ -184,7 +183,11 @@ class Layout(scene.Layout):
         """
         if isinstance(path, str | Path):
             if format is None and is_session(path):
-                keep_session(self.edit(), path, options)
+                if options:
+                    names = ", ".join(options)
+                    line = f"{path}: a session's file is no drawing; leave out {names}"
+                    raise RecipeError("path", line)
+                self.edit().save(path)
             elif format is None:
                 writers.write(self, path, _drawing(options))
             else:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from packwork import threads, writers
-from packwork.api.handing import handed_over, with_names
+from packwork.api.inputs import handed_over, with_names
 from packwork.api.keywords import ChartKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.batches.sheet import THUMB_PX, sheet_bytes

@@ -1,17 +1,52 @@
-"""Signatures that list the options of the fields, for ``help``, notebooks and the reference."""
+"""Signatures that list what verbs share, for ``help``, notebooks and the reference."""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypedDict, TypeVar, get_type_hints
 
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
+from packwork.progress import Listener, Stop, never
 from packwork.recipe import Recipe
 from packwork.recipe.verbs import default_of, run_options
 
 Signed = TypeVar("Signed", bound=Callable[..., Any])
+
+
+class RunKeywords(TypedDict, total=False):
+    """How a run is watched: parameters of all verbs, which :func:`packwork.fill` describes."""
+
+    y_up: bool | None
+    """Whether the y of geometries points up; None: where a frame says its reference system."""
+
+    observer: Listener | None
+    """Told of progress."""
+
+    stop: Stop
+    """Asked before every epoch; True ends the run with what it has."""
+
+    progress: bool | None
+    """True shows a bar, False none; None one in a notebook only."""
+
+    record: bool
+    """Keep the way of the items, for ``Layout.save_film``."""
+
+    history: bool | int
+    """Keep losses by epoch, in ``layout.history``: of each, or of every so many."""
+
+
+_UNASKED: Mapping[str, Any] = {
+    "y_up": None, "observer": None, "stop": never, "progress": None, "record": False,
+    "history": False,
+}  # fmt: skip
+
+RUN = [
+    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_UNASKED[name], annotation=kind)
+    for name, kind in get_type_hints(RunKeywords).items()
+]
+"""Parameters for :class:`RunKeywords`."""
 
 RULES = inspect.Parameter(
     "rules", inspect.Parameter.KEYWORD_ONLY, default=Recipe.model_fields["rules"].default
@@ -20,9 +55,9 @@ RULES = inspect.Parameter(
 
 
 def of_verb(verb: Verbs, *more: Offered) -> Callable[[Signed], Signed]:
-    """Show the options of a verb, further ones and ``rules`` in place of ``**options``."""
+    """Show what all verbs have, a verb's options, further ones and ``rules`` for ``**options``."""
     listed = (*(option for option in run_options(verb) if option.name != "items"), *more)
-    return _showing([*(_parameter(o, default_of(verb, o)) for o in listed), RULES])
+    return _showing([*RUN, *(_parameter(o, default_of(verb, o)) for o in listed), RULES])
 
 
 def of_model(model: type[Options]) -> Callable[[Signed], Signed]:

@@ -36,13 +36,7 @@ MOST_ROWS = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """A recipe with places for columns.
-
-    Parameters
-    ----------
-    name
-        Of its file, without ending.
-    """
+    """A recipe with places for columns, and the name of its file without ending."""
 
     name: str
     options: Mapping[str, Any]
@@ -75,15 +69,7 @@ def read_request(
     *,
     allow_code: bool,
 ) -> BatchRequest:
-    """Inputs of a batch, read and checked: see :func:`packwork.batch`.
-
-    Raises
-    ------
-    ReadError
-        If the recipe or the table cannot be read.
-    RecipeError
-        If an option of drawing has no meaning, or a recipe names code that may not be run.
-    """
+    """Inputs of a batch, read and checked: see :func:`packwork.batch`."""
     drawing = validated(DrawingOptions, drawing).model_dump()
     writers.write_options(**drawing)
     templates = _read_templates(recipe, allow_code)
@@ -135,13 +121,7 @@ def _read_table(source: Any, templates: Iterable[Any]) -> Table:
 
 @dataclass(frozen=True)
 class BatchPlan:
-    """Tasks of a batch, and rows of which there can be none.
-
-    Parameters
-    ----------
-    tasks, bad
-        In the order of the rows.
-    """
+    """Tasks of a batch and rows of which there can be none, in the order of the rows."""
 
     tasks: tuple[Task, ...]
     bad: tuple[RowOutcome, ...]
@@ -151,12 +131,7 @@ class BatchPlan:
 def plan_batch(request: BatchRequest) -> BatchPlan:
     """A task for each row, all checked before the first is run.
 
-    Raises
-    ------
-    RecipeError
-        If no row could be made: a column that is not there, one file for all rows.
-    WriteError
-        If the ending of a file is none of ours.
+    What no row could be made of is an error: a column that is not there, one file for all rows.
     """
     _check(request)
     tasks: list[Task] = []
@@ -226,13 +201,7 @@ def _task(request: BatchRequest, template: Template, row: Mapping[str, Any], nam
 
 
 def _take(task: Task, taken: dict[str, int]) -> None:
-    """Note the files of a task.
-
-    Raises
-    ------
-    RecipeError
-        If one of them is another row's, or one of its own twice.
-    """
+    """Note the files of a task; none may be another row's, or one of its own twice."""
     paths = (*task.outputs, record_path(task.outputs))
     names = [identity_of(path) for path in paths]
     for path, name in zip(paths, names, strict=True):
@@ -243,7 +212,6 @@ def _take(task: Task, taken: dict[str, int]) -> None:
 
 
 def _name_of(row: Mapping[str, Any], request: BatchRequest) -> str:
-    """Name of a row."""
     known = {column.casefold(): column for column in reversed(request.columns)}
     first = next(iter(request.columns), RECIPE)
     column = next((known[name] for name in NAMING if name in known), first)
@@ -255,22 +223,14 @@ Told = Callable[[RowOutcome], object]
 
 @dataclass(frozen=True)
 class BatchProgress:
-    """Progress of a batch.
-
-    Parameters
-    ----------
-    to_do
-        Tasks that are not made, or not any more as they would be.
-    kept
-        Of rows that are.
-    """
+    """Tasks that are to be made, and outcomes of rows whose files are there as they would be."""
 
     to_do: tuple[Task, ...]
     kept: tuple[RowOutcome, ...]
 
 
 def batch_progress(plan: BatchPlan, *, anew: bool = False) -> BatchProgress:
-    """Progress of a plan before it is run: rows whose files are made already."""
+    """Progress of a plan before it is run."""
     to_do, kept = [], []
     for task in plan.tasks:
         found = None if anew else is_done(task.key, task.outputs)
@@ -301,14 +261,8 @@ def run_batch(
 ) -> list[RowOutcome]:
     """Outcomes of all rows, in their order; of those that were stopped too.
 
-    Parameters
-    ----------
-    workers
-        Processes; None for one a core.
-    scheduler
-        Address of that of a cluster, whose workers make all; None for processes of this machine.
-    in_place
-        Whether those see the same files, and write the outputs themselves.
+    By processes of this machine, one a core where ``workers`` is None, or by the workers of the
+    cluster whose scheduler has that address; these write the outputs themselves ``in_place``.
     """
     found: list[RowOutcome] = [*plan.bad, *now.kept]
     made_by: Iterable[tuple[Task, RowOutcome | Exception]]

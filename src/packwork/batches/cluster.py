@@ -52,16 +52,10 @@ _ONE_AT_A_TIME = threading.Lock()
 
 @dataclass(frozen=True)
 class Parcel:
-    """A task, and what it reads.
+    """A task with what it reads.
 
-    Parameters
-    ----------
-    files
-        Content by name, as the task's options have it.
-    folders
-        Names of folders, which may be empty.
-    version
-        Of the program that sends it.
+    Content by name as its options have it, names of folders (which may be empty), and the version
+    of the program that sends it.
     """
 
     task: Task
@@ -75,19 +69,8 @@ def clustered(
 ) -> Iterator[tuple[Task, RowOutcome | Exception]]:
     """Outcomes of tasks by the workers of a cluster, as they come.
 
-    Tasks that are not done when it is stopped, or the scheduler is lost, have none.
-
-    Parameters
-    ----------
-    address
-        Of the scheduler, as ``tcp://10.0.0.1:8786``.
-    in_place
-        Whether workers see the same files as this process, and write the outputs themselves.
-
-    Raises
-    ------
-    PackworkError
-        If Dask is not installed, or there is no scheduler.
+    Tasks that are not done when it is stopped, or the scheduler is lost, have none. Workers that
+    see the same files as this process write the outputs themselves (``in_place``).
     """
     with ExitStack() as stack:
         stack.enter_context(_quiet())
@@ -138,7 +121,6 @@ class _Dealer:
         self._counted, self._counted_at = 0, -math.inf
 
     def outcomes(self) -> Iterator[tuple[Task, RowOutcome | Exception]]:
-        """Outcomes as they come, until all are there, or it is stopped, or the scheduler lost."""
         while self._waiting or self._under_way:
             if self._stop() or self._is_lost():
                 if self._client.status == "running":
@@ -206,13 +188,7 @@ class _Dealer:
 
 
 def parcel_of(task: Task) -> Parcel:
-    """A task with the content of all files that its recipe names.
-
-    Raises
-    ------
-    PackworkError
-        If they are too large.
-    """
+    """A task with the content of all files that its recipe names."""
     files: dict[str, bytes] = {}
     folders = []
     for name in dict.fromkeys(named_files(task.options)):

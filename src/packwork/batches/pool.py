@@ -50,12 +50,7 @@ def results(
 ) -> Iterator[tuple[Task, Result | Exception]]:
     """Results of a call for each task, or what it raised, as they come.
 
-    Tasks that are not begun when it is stopped have none.
-
-    Parameters
-    ----------
-    workers
-        Processes; with 1 all is done in this one.
+    Tasks that are not begun when it is stopped have none. One worker is this process itself.
 
     Examples
     --------
@@ -153,11 +148,5 @@ def _called(call: Call[Task, Result], task: Task) -> Result:
 
 
 def worker_count(asked: int | None, tasks: int) -> int:
-    """Processes for so many tasks: as many as asked for, else one a core.
-
-    Examples
-    --------
-    >>> worker_count(None, 1), worker_count(4, 9)
-    (1, 4)
-    """
+    """Processes for so many tasks: as many as asked for, else one a core."""
     return max(1, min(asked or threads.available(), tasks))

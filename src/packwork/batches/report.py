@@ -29,13 +29,7 @@ _STYLE = (
 
 
 def rows_of(outcomes: Iterable[RowOutcome]) -> list[dict[str, Any]]:
-    """Plain rows, metrics among their columns.
-
-    Examples
-    --------
-    >>> rows_of([RowOutcome(row=1, name="Ann", status="made", metrics={"LC": 0.8})])[0]["LC"]
-    0.8
-    """
+    """Plain rows, metrics among their columns."""
     return [
         {
             "row": one.row,
@@ -51,13 +45,7 @@ def rows_of(outcomes: Iterable[RowOutcome]) -> list[dict[str, Any]]:
 
 
 def flat(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """Metrics by one name each.
-
-    Examples
-    --------
-    >>> flat({"LC": 1, "exact": {"LC": 2}})
-    {'LC': 1, 'exact_LC': 2}
-    """
+    """Metrics by one name each: ``{"exact": {"LC": 2}}`` is ``{"exact_LC": 2}``."""
     found: dict[str, Any] = {}
     for key, value in metrics.items():
         if isinstance(value, Mapping):
@@ -68,13 +56,7 @@ def flat(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
 
 
 def report_bytes(path: Path, outcomes: Sequence[RowOutcome]) -> bytes:
-    """Table of a batch as CSV or JSON, by the file's ending.
-
-    Raises
-    ------
-    WriteError
-        If the ending is another.
-    """
+    """Table of a batch as CSV or JSON, by the file's ending."""
     rows = rows_of(outcomes)
     ending = path.suffix.lower()
     if ending == ".json":

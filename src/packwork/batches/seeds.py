@@ -44,14 +44,9 @@ class Seeded:
 
 @dataclass(frozen=True)
 class Choice:
-    """Runs of several seeds.
+    """Runs of several seeds and their scores, of which more is better.
 
-    Parameters
-    ----------
-    runs
-        The best first; what is not as asked comes after all that is.
-    scores
-        What they were judged by, more is better.
+    The best comes first, what is not as asked after all that is.
     """
 
     runs: tuple[Run, ...]
@@ -74,19 +69,9 @@ def best_of(
 ) -> Choice:
     """Runs of a recipe's seed and those after it, the best first.
 
-    Each gives the same bytes as a run of its seed alone.
-
-    Parameters
-    ----------
-    by
-        ``coverage``, ``evenness`` or a metric of the report, with a minus where less is better.
-
-    Raises
-    ------
-    RecipeError
-        If there is no such metric.
-    PackworkError
-        If no seed gives anything.
+    Each gives the same bytes as a run of its seed alone. ``by`` is ``coverage``, ``evenness`` or a
+    metric of the report, with a minus where less is better. If no seed gives anything, the first
+    one's error is raised.
     """
     check_metric(by)
     plain = recipe.plain()
@@ -116,26 +101,14 @@ def run_seed(task: Seeded, stop: Stop) -> Run:
 
 
 def check_metric(by: str) -> None:
-    """Refuse what no report has.
-
-    Raises
-    ------
-    RecipeError
-        Naming all there are.
-    """
+    """Refuse what no report has, naming all there are."""
     if _MEANT.get(by, by).removeprefix("-") not in METRICS:
         there = enumerated([COVERAGE, EVENNESS, *METRICS], 30)
         raise RecipeError("best_by", f"must be one of {there}, not {by[:40]!r}")
 
 
 def score_of(run: Run, by: str) -> float:
-    """Score of a run, more is better.
-
-    Raises
-    ------
-    RecipeError
-        If there is no such metric.
-    """
+    """Score of a run, more is better."""
     check_metric(by)
     meant = _MEANT.get(by, by)
     value = float(flat(run.metrics.as_dict())[meant.removeprefix("-")])

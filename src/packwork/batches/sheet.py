@@ -44,19 +44,9 @@ def shown_of(outputs: Iterable[Path]) -> Path | None:
 
 
 def sheet_bytes(pictures: Sequence[Path | bytes], captions: Sequence[str] = ()) -> bytes:
-    """PNG of small pictures, in rows.
+    """PNG of small pictures in rows, a caption under each if there are captions.
 
-    Parameters
-    ----------
-    pictures
-        Files that we have written, or such files' bytes, of pixels.
-    captions
-        What stands under each; nothing if there are none.
-
-    Raises
-    ------
-    RecipeError
-        If there are none, or too many.
+    The pictures are files that we have written, or such files' bytes.
     """
     if not 0 < len(pictures) <= MOST_PICTURES:
         raise RecipeError(

@@ -34,14 +34,8 @@ Status: TypeAlias = Literal["made", "short", "kept", "failed", "stopped"]
 class Task:
     """Request of a row; plain values, so that it goes to any process.
 
-    Parameters
-    ----------
-    row
-        Its number, from 1.
-    options
-        Of the recipe, the row's cells in it, files by paths that the process finds.
-    drawing
-        How they are drawn: fields of ``DrawingOptions``.
+    ``row`` is its number from 1; ``options`` are the recipe's with the row's cells in it, files by
+    paths that the process finds; ``drawing`` are fields of ``DrawingOptions``.
     """
 
     row: int
@@ -58,16 +52,9 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class RowOutcome:
-    """Outcome of a row.
+    """What became of a row: files that are there, metrics of its layout if there is one.
 
-    Parameters
-    ----------
-    row, name, status, outputs
-        As of a :class:`Task`; outputs are those that are there.
-    metrics
-        Of the layout; empty if there is none.
-    said
-        Why it failed, or is not as asked; empty else.
+    ``said`` tells why it failed or is not as asked.
     """
 
     row: int
@@ -153,15 +140,7 @@ def write(task: Task, found: Drawn) -> RowOutcome:
 
 @contextmanager
 def collecting_notices() -> Iterator[list[str]]:
-    """Collect what is told on the way, which is then told nowhere else.
-
-    Examples
-    --------
-    >>> with collecting_notices() as heard:
-    ...     logging.getLogger("packwork").warning("its %s were closed", "slits")
-    >>> heard
-    ['its slits were closed']
-    """
+    """Collect what the library logs in the block, which is then told nowhere else."""
     heard: list[str] = []
     handler = _LogCollector(heard)
     logger = logging.getLogger("packwork")
@@ -224,25 +203,13 @@ MOST_BYTES = 4_000_000
 
 
 def record_path(outputs: Iterable[Path]) -> Path:
-    """Path of the record of a row.
-
-    Examples
-    --------
-    >>> record_path([Path("out/Ann.svg"), Path("out/Ann.pdf")]).name
-    'Ann.batch.json'
-    """
+    """Path of a row's record, beside the first of its files."""
     first = next(iter(outputs))
     return first.with_name(first.stem + ENDING)
 
 
 def relative(outputs: Iterable[Path]) -> list[str]:
-    """Files of a row as seen from the folder of its record.
-
-    Examples
-    --------
-    >>> relative([Path("svg/Ann.svg"), Path("pdf/Ann.pdf")])
-    ['Ann.svg', '../pdf/Ann.pdf']
-    """
+    """Files of a row as seen from the folder of its record."""
     outputs = list(outputs)
     home = outputs[0].parent
     return [Path(os.path.relpath(path, home)).as_posix() for path in outputs]
@@ -260,7 +227,7 @@ def key_of(options: Mapping[str, Any], outputs: Iterable[Path], drawing: Mapping
 
 
 def inputs_of(options: Mapping[str, Any], read: Iterable[str]) -> dict[str, str]:
-    """Digests of all files that were read, and of what stands in the folders that are named."""
+    """Digests of all files that were read, and of what the folders hold that are named."""
     named = [name for name in named_files(options) if name]
     listed = [name for name in named if glob.has_magic(name) or Path(name).is_dir()]
     return {name: digest_of(name) for name in sorted({*read, *listed})}

@@ -22,13 +22,7 @@ _PLACE = re.compile(r"\{\{|\}\}|\{([^{}]*)\}")
 
 
 def columns_of(template: Any) -> Iterator[str]:
-    """Names of the columns that a template's texts, tables and arrays name.
-
-    Examples
-    --------
-    >>> list(columns_of({"container": "text:{name}", "items": ["{{a}}", "{drawing}"]}))
-    ['name', 'drawing']
-    """
+    """Names of the columns that a template's texts, tables and arrays name."""
     if isinstance(template, Mapping):
         for key, value in template.items():
             yield from columns_of(key)
@@ -45,11 +39,6 @@ def filled(template: Any, row: Mapping[str, Any]) -> Any:
 
     What is a column and nothing else is the cell as it is, a number where it is one; an empty one
     leaves its option out. ``{{`` and ``}}`` stand for braces.
-
-    Raises
-    ------
-    RecipeError
-        If a cell that stands inside a longer text is empty.
 
     Examples
     --------
@@ -105,15 +94,10 @@ _DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\..*)?", re.IGNORECAS
 def path_of(template: str, row: Mapping[str, Any]) -> Path:
     """File of a row, its cells in the template's places.
 
-    Raises
-    ------
-    RecipeError
-        If a cell is nothing that can be part of a file's name.
+    Any system takes it, and no cell leaves the template's folder.
 
     Examples
     --------
-    >>> path_of("out/{name}.svg", {"name": "Ann"}).name
-    'Ann.svg'
     >>> path_of("out/{name}.svg", {"name": "../Ann"})
     Traceback (most recent call last):
     packwork.errors.RecipeError: name: '../Ann' holds '/', which no file's name may hold; ...
@@ -129,13 +113,7 @@ def path_of(template: str, row: Mapping[str, Any]) -> Path:
 
 
 def identity_of(path: Path) -> str:
-    """Key that all names of one file share on the least careful of file systems.
-
-    Examples
-    --------
-    >>> identity_of(Path("out/ANN.svg")) == identity_of(Path("out/x/../Ann.svg"))
-    True
-    """
+    """Key that all names of one file share on the least careful of file systems."""
     return unicodedata.normalize("NFC", os.path.abspath(path)).casefold()  # noqa: PTH100
 
 

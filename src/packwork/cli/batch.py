@@ -152,7 +152,7 @@ def batch(
 
 @dataclass(frozen=True, kw_only=True)
 class BatchFiles:
-    """File that is written of all rows together; None for none."""
+    """Files that are written of all rows together; None for none."""
 
     report: Path | None = None
     contact_sheet: Path | None = None
@@ -164,13 +164,7 @@ class BatchFiles:
         return [p for p in (self.report, self.contact_sheet, self.index) if p is not None]
 
     def check(self) -> None:
-        """Refuse what could not be written.
-
-        Raises
-        ------
-        WriteError
-            Before anything is run.
-        """
+        """Refuse, before anything is run, what could not be written."""
         from packwork import writers
         from packwork.batches.report import report_bytes
 
@@ -181,13 +175,7 @@ class BatchFiles:
             report_bytes(self.report, [])
 
     def check_plan(self, plan: BatchPlan) -> None:
-        """Refuse files that rows have too, and a sheet of what shows nothing.
-
-        Raises
-        ------
-        WriteError, RecipeError
-            Before anything is run.
-        """
+        """Refuse files that rows have too, and a sheet of what shows nothing."""
         from packwork.batches.sheet import SEEN, shown_of
         from packwork.batches.templates import identity_of
 
@@ -239,13 +227,7 @@ class _RateBar:
 
 
 def _duration(seconds: float) -> str:
-    """Time as people say it.
-
-    Examples
-    --------
-    >>> _duration(40), _duration(600)
-    ('40 s', '10 min')
-    """
+    """Time as people say it: 40 s, 10 min."""
     return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
 
 

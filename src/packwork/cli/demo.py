@@ -74,13 +74,7 @@ SPACE_PX = LETTER_PX // 20
 
 @dataclass(frozen=True)
 class TeaserLetter:
-    """A letter and how it is filled.
-
-    Parameters
-    ----------
-    name
-        The letter, and what is shown with it: part of its files' names.
-    """
+    """A letter and how it is filled; its name, with what is shown, is part of its files' names."""
 
     name: str
     items: Sequence[str]

@@ -31,10 +31,7 @@ BAD_INPUT = 2
 def clear_errors(recipe: Path | None = None) -> Iterator[None]:
     """Turn the package's errors into one line on standard error and exit code 2.
 
-    Parameters
-    ----------
-    recipe
-        The file that options come from; None if they were typed.
+    ``recipe`` is the file that options come from; None if they were typed.
     """
     try:
         yield

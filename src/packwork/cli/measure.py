@@ -104,13 +104,7 @@ def measure(
 
 
 def _painted(path: Path, layout: Layout) -> PaintedPixels:
-    """Pixels that a file's picture paints.
-
-    Raises
-    ------
-    ReadError
-        If it is no SVG.
-    """
+    """Pixels that a file's picture paints."""
     from packwork.readers.files import read_bytes
     from packwork.readers.gate.door import MAX_BYTES
     from packwork.readers.reading import UnfitError, reading_file

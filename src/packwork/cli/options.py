@@ -116,11 +116,6 @@ def loss_weights(losses: list[str] | None) -> dict[str, float]:
 
     A module of one's own is found in the working folder too, as ``python -m`` finds it.
 
-    Raises
-    ------
-    RecipeError
-        If a weight is not a number.
-
     Examples
     --------
     >>> loss_weights(["overlap=2", "mine:calm"])
@@ -149,13 +144,9 @@ def find_own_modules() -> None:
 def flag(option: Offered, default: Any, *, shown: str | None = None) -> inspect.Parameter:
     """Parameter of a command's signature for one option.
 
-    Parameters
-    ----------
-    default
-        Value if the flag is not given; None leaves the option unset, and gives a switch a form
-        that says no. Options that may be given several times are unset in any case.
-    shown
-        Default as help shows it; None shows ``default``.
+    A ``default`` of None leaves the option unset, and gives a switch a form that says no; options
+    that may be given several times are unset in any case. ``shown`` is the default as help shows
+    it, if it is not ``default``.
     """
     kind = typed(option)
     if get_origin(kind) is list:
@@ -181,16 +172,7 @@ def flag(option: Offered, default: Any, *, shown: str | None = None) -> inspect.
 
 
 def typed(option: Offered) -> Any:
-    """Type of a flag's value: text for options of several types, a list for tuples.
-
-    Examples
-    --------
-    >>> from packwork.options import offered
-    >>> from packwork.recipe import Recipe
-    >>> asked = {option.name: option for option in offered(Recipe)}
-    >>> typed(asked["seed"]), typed(asked["canvas"]), typed(asked["filler"])
-    (<class 'int'>, <class 'str'>, list[str])
-    """
+    """Type of a flag's value: text for options of several types, a list for tuples."""
     if option.offer.typed is not None:
         return option.offer.typed
     if len(option.forms) > 1:

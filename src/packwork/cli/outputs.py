@@ -28,16 +28,7 @@ from packwork.writers.options import GONE_ON_WITH, DrawingOptions
 
 @dataclass(frozen=True, kw_only=True)
 class Outputs:
-    """All that one run is to write.
-
-    Parameters
-    ----------
-    report, diagnose, recipe, saliency
-        Measures (JSON), the diagnostic picture (PNG), the recipe (TOML), what stands out of the
-        container's picture (PNG); None for none.
-    drawing
-        Options of drawing as they were asked for, by name.
-    """
+    """All that one run is to write; ``drawing`` are options of drawing as they were given."""
 
     files: Sequence[Path]
     options: writers.WriteOptions
@@ -70,13 +61,7 @@ class Outputs:
         return [*self.files, *self.films, *self.sides]
 
     def check(self) -> None:
-        """Refuse paths that cannot be written or that collide.
-
-        Raises
-        ------
-        WriteError
-            Before anything has been run or written.
-        """
+        """Refuse, before anything is run, paths that cannot be written or that collide."""
         for path in self.files:
             if is_session(path):
                 writers.check_writable(path)
@@ -105,15 +90,7 @@ class Outputs:
         return [(self.recipe, writers.recipe_bytes(recipe.plain(), self.recipe.parent))]
 
     def check_read(self, job: pipeline.Job) -> None:
-        """Refuse, once all is read, to write over any of it, and pictures that are too large.
-
-        Raises
-        ------
-        WriteError
-            Naming the output and the input.
-        RecipeError
-            About the pixels.
-        """
+        """Refuse, once all is read, to write over any of it, and pictures that are too large."""
         for path in self.every:
             check_no_input(path)
         if job.recipe.container != NO_CONTAINER:
@@ -125,13 +102,7 @@ class Outputs:
 def outputs_asked(
     asked: Mapping[str, Any], default: Path, recipes: FilmOptions | None = None
 ) -> Outputs:
-    """Outputs that the options of a command ask for.
-
-    Parameters
-    ----------
-    recipes
-        How the recipe makes films; None if it does not say.
-    """
+    """Outputs that the options of a command ask for; ``recipes`` is how its recipe makes films."""
     drawing = {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
     filming = {key: asked[key] for key in FilmOptions.model_fields if key in asked}
     outputs = Outputs(
@@ -151,13 +122,7 @@ def outputs_asked(
 
 
 def check_choosing(choosing: Choosing) -> None:
-    """Refuse what has no meaning for a choice.
-
-    Raises
-    ------
-    RecipeError
-        Before anything has been run.
-    """
+    """Refuse what has no meaning for a choice."""
     if choosing.best_of == 1:
         for key, usual in Choosing().model_dump(exclude={"best_of"}).items():
             if getattr(choosing, key) != usual:
@@ -191,13 +156,7 @@ def with_room(recipe: Recipe, kiss: str | None) -> Recipe:
 
 
 def check_room(job: pipeline.Job, kiss: str | None) -> None:
-    """Refuse a padding between which two lines at a distance would not fit.
-
-    Raises
-    ------
-    RecipeError
-        Naming the padding that would do.
-    """
+    """Refuse a padding between which two lines at a distance would not fit."""
     if kiss is None:
         return
     container = job.container
@@ -211,13 +170,7 @@ def check_room(job: pipeline.Job, kiss: str | None) -> None:
 
 
 def check_bleed(files: Iterable[Path], bleed: str | None) -> None:
-    """Refuse a bleed where no file can have one.
-
-    Raises
-    ------
-    WriteError
-        If none of the files is a PDF.
-    """
+    """Refuse a bleed where none of the files is a PDF."""
     files = list(files)
     if bleed is not None and not any(file.suffix.lower() == ".pdf" for file in files):
         raise WriteError(files[0], "has no bleed; --bleed is for a PDF, such as -o print.pdf")

@@ -37,27 +37,19 @@ DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
 def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoReturn:
     """Run and write what a command line asks for, and leave with the exit code of that.
 
-    Parameters
-    ----------
-    asked
-        All options of the command by name.
-    default
-        File to write where no file of any kind is named.
+    ``asked`` are all options of the command by name; ``default`` is written where no file of any
+    kind is named.
     """
     outputs = outputs_asked(asked, default, recipe.film)
     raise typer.Exit(run_and_write(recipe, outputs, asked["quiet"]))
 
 
 def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
-    """Run a recipe, write all that was asked for, show the measures.
+    """Run a recipe, write all that was asked for, show the measures; the exit code.
 
-    Outputs are checked before the run, so that no run is lost to a bad path.
-
-    Returns
-    -------
-    int
-        The exit code: 0; 1 if an item was not placed, the result is not certified or one of its
-        files could not be drawn; 130 after Ctrl-C.
+    That is 0; 1 if an item was not placed, the result is not certified or one of its files could
+    not be drawn; 130 after Ctrl-C. Outputs are checked before the run, so that no run is lost to a
+    bad path.
     """
     START_UP.end()
     outputs.check()

@@ -50,10 +50,7 @@ def carry_out_words(
 ) -> NoReturn:
     """Make and write all steps of a cloud that a command line asks for, and leave.
 
-    Parameters
-    ----------
-    asked, said
-        All options of the command by name; those of the recipe.
+    ``asked`` are all options of the command by name, ``said`` those of the recipe.
     """
     if source is not None:
         raise RecipeError("series", f"is in place of SOURCE; leave {source[:40]!r} out")
@@ -70,13 +67,7 @@ def carry_out_words(
 def carry_out_chart(
     container: str, data: str, asked: Mapping[str, Any], said: Mapping[str, Any]
 ) -> NoReturn:
-    """Make and write all steps of a chart that a command line asks for, and leave.
-
-    Parameters
-    ----------
-    asked, said
-        All options of the command by name; those of the recipe.
-    """
+    """Make and write all steps of a chart that a command line asks for, and leave."""
     _check(asked)
     steps = chart_steps(container, data, asked["series"], background=asked["background"], **said)
     outputs = _Files(asked, "chart", asked["series"], [step.label for step in steps])
@@ -109,13 +100,7 @@ def _check(asked: Mapping[str, Any]) -> None:
 
 
 class _Files:
-    """Output files of a series, checked before it is made.
-
-    Parameters
-    ----------
-    verb
-        What files are called by where no file of any kind is named.
-    """
+    """Output files of a series, checked before it is made; SVGs where none is named."""
 
     def __init__(
         self, asked: Mapping[str, Any], verb: str, column: str, labels: Sequence[str]
@@ -156,13 +141,7 @@ class _Files:
         return told_drawing(layout, self._drawing.svg.background, self._asked)
 
     def check_read(self) -> None:
-        """Refuse to write over what was read.
-
-        Raises
-        ------
-        WriteError
-            Naming both.
-        """
+        """Refuse to write over what was read."""
         for path in self.every:
             check_no_input(path)
 

@@ -30,10 +30,7 @@ class Paper(Console):
 def printing() -> Iterator[None]:
     """Tell a standard output that takes nothing more: a full disk, a closed pipe.
 
-    Raises
-    ------
-    WriteError
-        About it; what is printed afterwards goes nowhere.
+    What is printed after the WriteError about it goes nowhere.
     """
     try:
         yield
@@ -48,13 +45,7 @@ def printing() -> Iterator[None]:
 def show_results(
     results: Mapping[str, Any], written: Sequence[str], console: Console, unit: str
 ) -> None:
-    """Print what came of a run: its measures, its seconds, its certificate, its files.
-
-    Parameters
-    ----------
-    unit
-        What one canvas unit is.
-    """
+    """Print what came of a run: its measures, its seconds, its certificate, its files."""
     console.print(metrics_table(results["metrics"], unit))
     console.print(
         f"{results['placed']} of {number_of(results['items'], 'item')} placed; "
@@ -80,13 +71,7 @@ def show_results(
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
-    """Measures, one a row: by pixels beside exact ones, and the paper's names for them.
-
-    Parameters
-    ----------
-    unit
-        What one canvas unit is: that of the smallest gap.
-    """
+    """Measures, one a row: by pixels beside exact ones, and the paper's names for them."""
     exact = metrics.get("exact", {})
     table = Table(box=None, pad_edge=False, header_style="dim")
     for heading in ("of the container", "pixels", "exact"):
@@ -134,13 +119,7 @@ def certificate_line(
 
 
 def seconds_line(seconds: Mapping[str, float]) -> str:
-    """Time per part on one line.
-
-    Examples
-    --------
-    >>> seconds_line({"read": 0.1, "levels": 0.25, "total": 0.35})
-    'read 0.10 s, levels 0.25 s, total 0.35 s'
-    """
+    """Time per part on one line: ``read 0.10 s, levels 0.25 s, total 0.35 s``."""
     return ", ".join(f"{part} {value:.2f} s" for part, value in seconds.items())
 
 
@@ -169,35 +148,17 @@ def filling_line(filling: Mapping[str, Any]) -> str:
 
 
 def words_line(words: Mapping[str, int]) -> str:
-    """Number of a source's words that were to be set.
-
-    Examples
-    --------
-    >>> words_line({"found": 2317, "asked": 100})
-    'the 100 largest of 2,317 different words; -n takes more'
-    """
+    """Number of a source's words that were to be set."""
     return f"the {words['asked']:,} largest of {words['found']:,} different words; -n takes more"
 
 
 def beside_line(pairs: int) -> str:
-    """Number of pairs of one kind that lie side by side.
-
-    Examples
-    --------
-    >>> beside_line(1), beside_line(2)
-    ('1 pair of one kind lies side by side', '2 pairs of one kind lie side by side')
-    """
+    """Number of pairs of one kind that lie side by side."""
     return f"{number_of(pairs, 'pair of one kind lies', 'pairs of one kind lie')} side by side"
 
 
 def pile_line(pile: Mapping[str, Any]) -> str:
-    """End of a heap's settling, and how tight it is if that was asked.
-
-    Examples
-    --------
-    >>> pile_line({"rounds": 90, "compact": {"hull": 0.61, "circle": 0.4, "box": 0.5}})
-    'at rest after 90 rounds; covers 61.00 % of its hull, 40.00 % of its circle, 50.00 % of its box'
-    """
+    """End of a heap's settling, and how tight it is if that was asked."""
     ending = "stopped" if "stopped" in pile else "at rest"
     line = f"{ending} after {number_of(pile['rounds'], 'round')}"
     if "compact" not in pile:

@@ -31,13 +31,7 @@ Chance: TypeAlias = int | Random | np.random.RandomState | np.random.Generator |
 
 
 def random_of(state: Chance) -> Random | None:
-    """The generator itself, or one that begins with a whole number or one of NumPy's.
-
-    Raises
-    ------
-    TypeError
-        If it is nothing of the kind.
-    """
+    """The generator itself, or one that begins with a whole number or one of NumPy's."""
     if state is None or isinstance(state, Random):
         return state
     if isinstance(state, np.random.RandomState):
@@ -127,12 +121,6 @@ class ColourSpread(Random):
     """Numbers from 0 to 1, each far from those just before, the first drawn by another.
 
     Drawn one by one, three of the four largest words of a cloud may well look alike.
-
-    Examples
-    --------
-    >>> spread = ColourSpread(Random(0))
-    >>> [round(spread.random(), 2) for _ in range(4)]
-    [0.46, 0.08, 0.7, 0.32]
     """
 
     def __init__(self, drawn: Random) -> None:
@@ -148,17 +136,7 @@ class ColourSpread(Random):
 class legible_color_func:  # noqa: N801 - as those beside it
     """Colours drawn at random from those of a palette of ours that stand out from a background.
 
-    Parameters
-    ----------
-    palette
-        By name.
-    ground
-        ``#rrggbb``; all colours are drawn where none stands out, and where there is none.
-
-    Examples
-    --------
-    >>> legible_color_func("viridis", "#000000")(random_state=Random(5))
-    'rgb(61, 186, 118)'
+    All colours are drawn where none stands out from ``ground`` (``#rrggbb``), or there is none.
     """
 
     def __init__(self, palette: str, ground: str | None) -> None:
@@ -174,13 +152,7 @@ class legible_color_func:  # noqa: N801 - as those beside it
 
 
 def own_color_func(background: Any) -> ColourFunction:
-    """Colours where none were asked for: all of the palette on a clear background.
-
-    Examples
-    --------
-    >>> own_color_func("white") is own_color_func("#ffffff")
-    True
-    """
+    """Colours where none were asked for: all of the palette on a clear background."""
     try:
         red, green, blue, alpha = rgba(background)
     except (TypeError, ValueError):
@@ -195,24 +167,12 @@ def _legible_on(ground: str | None) -> ColourFunction:
 
 
 def chances(color_func: ColourFunction, drawn: Random | None) -> Random | None:
-    """Random numbers that a function of colours draws with: of ours, those that are spread.
-
-    Examples
-    --------
-    >>> isinstance(chances(own_color_func("white"), None), ColourSpread)
-    True
-    """
+    """Random numbers that a function of colours draws with: of ours, those that are spread."""
     return ColourSpread(drawn or Random()) if isinstance(color_func, legible_color_func) else drawn
 
 
 def rgba(colour: Any) -> tuple[int, int, int, int]:
-    """Channels of any colour that Pillow knows; None is clear.
-
-    Examples
-    --------
-    >>> rgba(None), rgba("white"), rgba([1, 2, 3, 4])
-    ((0, 0, 0, 0), (255, 255, 255, 255), (1, 2, 3, 4))
-    """
+    """Channels of any colour that Pillow knows; None is clear."""
     if colour is None:
         return (0, 0, 0, 0)
     channels = ImageColor.getrgb(colour) if isinstance(colour, str) else tuple(colour)

@@ -69,21 +69,12 @@ NO_ROOM = (
 
 @dataclass(frozen=True, eq=False)
 class CloudSettings:
-    """Settings of a cloud for the engine.
+    """Settings of a cloud for the engine; lengths in pixels of the canvas.
 
-    Parameters
-    ----------
-    container
-        In pixels of the canvas.
-    margin
-        Twice the least distance of two words, and of a word and the edge, pixels: what the other
-        package leaves round the box of a word.
-    horizontal
-        Share of words that are not turned.
-    smallest, largest
-        Bounds of the height of an em, pixels; None for no upper one.
-    step
-        By how much sizes that are tried differ at least, pixels; all are whole pixels.
+    ``margin`` is twice the least distance of two words, and of a word and the edge: what the other
+    package leaves round the box of a word. ``horizontal`` is the share of words that are not
+    turned; ``smallest`` and ``largest`` (None for no bound) are heights of an em, ``step`` by how
+    much sizes that are tried differ at least.
     """
 
     container: Container
@@ -97,17 +88,7 @@ class CloudSettings:
 
 @dataclass(frozen=True, eq=False)
 class PlacedWords:
-    """Words in place.
-
-    Parameters
-    ----------
-    container
-        In pixels of the canvas.
-    entries
-        Which of the words asked for they are.
-    undrawn
-        Words that no font could draw, each with the reason.
-    """
+    """Words in place, by number of those asked for, and why others could not be drawn."""
 
     container: Container
     words: tuple[ShapedWord, ...]
@@ -129,18 +110,7 @@ class PlacedWords:
 
 
 def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) -> Container:
-    """Canvas of that size, or what a mask leaves free: all that is not white.
-
-    Raises
-    ------
-    ValueError
-        If the mask is no picture or nothing is free.
-
-    Examples
-    --------
-    >>> container_of_mask(None, 40, 20).outline.area
-    800.0
-    """
+    """Canvas of that size, or what a mask leaves free: all that is not white."""
     no_room = ValueError(NO_ROOM)
     if min(width, height) < SMALLEST_CANVAS:
         raise no_room
@@ -188,10 +158,7 @@ def placed(
 ) -> PlacedWords:
     """Words one after another, each as large as it finds a place, none larger than one before.
 
-    Raises
-    ------
-    ValueError
-        If not even one word is large enough.
+    A ValueError if not even one word is large enough.
 
     Examples
     --------
@@ -237,14 +204,7 @@ def _image_side(container: Container, count: int) -> int:
 class _ReadCloud:
     """Words that are set when their turn comes: most of a long text finds no room.
 
-    Parameters
-    ----------
-    shaped
-        By number, those that have been read.
-    numbers
-        Of the candidates that have been given, in their order.
-    undrawn
-        Words that no font could draw, each with the reason.
+    ``shaped`` are those read so far, ``numbers`` those of the candidates given, in their order.
     """
 
     def __init__(

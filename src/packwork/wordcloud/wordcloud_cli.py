@@ -54,13 +54,7 @@ _VALUES: Sequence[tuple[str, type, Any, str]] = (
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Parser of the other package's options.
-
-    Examples
-    --------
-    >>> make_parser().parse_args(["--max_words", "9"]).max_words
-    9
-    """
+    """Parser of the other package's options."""
     parser = argparse.ArgumentParser(
         prog=_own_name(),
         description="A simple command line for word clouds, with the options of wordcloud_cli.",
@@ -160,11 +154,6 @@ def main(args: dict[str, Any], text: str, imagefile: IO[bytes]) -> None:
 
 def run(arguments: Sequence[str]) -> None:
     """Do what a command line asks; what cannot be is one line on standard error.
-
-    Raises
-    ------
-    SystemExit
-        If something cannot be.
 
     Examples
     --------

@@ -41,17 +41,9 @@ _REASONS = {
 def check_writable(path: str | Path) -> None:
     """Refuse a path that a file could not be written to; touches nothing.
 
-    Folders that are missing are no obstacle as long as they can be made.
-
-    Raises
-    ------
-    WriteError
-        If it is a folder or a device, a protected file, one that was read, or lies where
-        nothing may be written. Passing is no promise: the disk may fill up, rights may change.
-
-    Examples
-    --------
-    >>> check_writable("new-folder/layout.svg")
+    That is a folder, a device, a protected file, one that was read, or one where nothing may be
+    written. Folders that are missing are no obstacle as long as they can be made. Passing is no
+    promise: the disk may fill up, rights may change.
     """
     target = _target(path)
     with _telling(path):
@@ -65,11 +57,6 @@ def check_outputs(paths: Iterable[str | Path]) -> None:
     """Refuse paths that cannot all be written: one twice, or one as another's folder.
 
     Links are followed, so that two names of one file count as one.
-
-    Raises
-    ------
-    WriteError
-        About the first path that meets another one.
 
     Examples
     --------
@@ -94,13 +81,7 @@ def check_outputs(paths: Iterable[str | Path]) -> None:
 
 
 def check_new(paths: Iterable[str | Path]) -> None:
-    """Refuse files that are there already.
-
-    Raises
-    ------
-    WriteError
-        About the first.
-    """
+    """Refuse files that are there already."""
     for path in paths:
         if os.path.lexists(path):
             raise WriteError(path, "is there already, and --no-clobber keeps it; use another name")
@@ -109,23 +90,10 @@ def check_new(paths: Iterable[str | Path]) -> None:
 def write_atomic(path: str | Path, data: bytes) -> None:
     """Put ``data`` under ``path`` in one step; an older file stays whole until then.
 
-    Missing folders are made. The bytes reach the disk under a random name in the same
-    folder before that name is swapped for the real one, so whatever stops the write
-    (a full disk, Ctrl-C) leaves the older file as it was and nothing beside it. A link
-    is followed; an older file's permissions are kept.
-
-    Raises
-    ------
-    WriteError
-        If the file cannot be written.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write_atomic(Path(folder, "a.txt"), b"whole")
-    ...     Path(folder, "a.txt").read_bytes()
-    b'whole'
+    Missing folders are made. The bytes reach the disk under a random name in the same folder before
+    that name is swapped for the real one, so whatever stops the write (a full disk, Ctrl-C) leaves
+    the older file as it was and nothing beside it. A link is followed; an older file's permissions
+    are kept.
     """
     write_all([(path, data)])
 
@@ -133,21 +101,8 @@ def write_atomic(path: str | Path, data: bytes) -> None:
 def write_all(files: Sequence[tuple[str | Path, bytes]]) -> None:
     """Put several files in place as :func:`write_atomic` does, once all are on the disk.
 
-    What stops the write before that leaves every older file as it was. After it only
-    names are left to be swapped; should that fail for one, those before it are in place.
-
-    Raises
-    ------
-    WriteError
-        About the first file that cannot be written, or see :func:`check_outputs`.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write_all([(Path(folder, name), b"") for name in ("a.svg", "b.svg")])
-    ...     sorted(path.name for path in Path(folder).iterdir())
-    ['a.svg', 'b.svg']
+    What stops the write before that leaves every older file as it was. After it only names are left
+    to be swapped; should that fail for one, those before it are in place.
     """
     check_outputs(path for path, _ in files)
     made: list[Path] = []

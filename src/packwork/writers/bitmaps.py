@@ -31,19 +31,8 @@ _AFTER_HEADER = 33
 def png_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
     """PNG file (RGBA) of a layout, its canvas's longer side ``longer_side_px`` long.
 
-    The shorter side is rounded up to a whole pixel; nothing is stretched.
-
-    Parameters
-    ----------
-    options
-        ``ON_WHITE`` if None.
-
-    Raises
-    ------
-    RecipeError
-        If the size is out of bounds (see ``writers.frame``).
-    WriteError
-        If the renderer cannot draw an item's art.
+    The shorter side is rounded up to a whole pixel; nothing is stretched. On white unless the
+    options say otherwise.
 
     Examples
     --------
@@ -81,13 +70,6 @@ def jpeg_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None =
 
     Where the background is clear, it is white: a JPEG knows no other.
 
-    Raises
-    ------
-    RecipeError
-        If the size is out of bounds.
-    WriteError
-        If the renderer cannot draw an item's art.
-
     Examples
     --------
     >>> from packwork.scene.layout import blank
@@ -104,29 +86,13 @@ def jpeg_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None =
 
 
 def webp_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
-    """WebP file of a layout, without loss.
-
-    Raises
-    ------
-    RecipeError, WriteError
-        As :func:`jpeg_bytes`; also if it is longer than a WebP can be.
-    """
+    """WebP file of a layout, without loss."""
     check_webp_side(longer_side_px)
     return _saved(_drawn(layout, longer_side_px, options), "WEBP", lossless=True, quality=80)
 
 
 def check_webp_side(longer_side_px: int) -> None:
-    """Refuse a size that no WebP has.
-
-    Raises
-    ------
-    RecipeError
-        About ``pixels``.
-
-    Examples
-    --------
-    >>> check_webp_side(1_600)
-    """
+    """Refuse a size that no WebP has."""
     if longer_side_px > MOST_WEBP_PX:
         raise RecipeError(
             "pixels", f"a WebP is at most {MOST_WEBP_PX} px long, not {longer_side_px}; use a PNG"
@@ -134,13 +100,7 @@ def check_webp_side(longer_side_px: int) -> None:
 
 
 def tiff_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
-    """TIFF file of a layout, without loss; clear places stay clear, an opaque one has no alpha.
-
-    Raises
-    ------
-    RecipeError, WriteError
-        As :func:`jpeg_bytes`.
-    """
+    """TIFF file of a layout, without loss; clear places stay clear, an opaque one has no alpha."""
     picture = _drawn(layout, longer_side_px, options)
     if picture.getextrema()[-1] == (255, 255):
         picture = picture.convert("RGB")

@@ -47,23 +47,9 @@ Larger ones would leave little of its shape. Chosen."""
 class CutOptions:
     """Choice of the lines that are cut.
 
-    Parameters
-    ----------
-    line
-        ``outlines``: as they are, with holes; ``silhouette``: one closed line round each item.
-        None: what the format always has.
-    kiss
-        Distance of the line from the item, as a length; None for none.
-
-    Raises
-    ------
-    RecipeError
-        If the distance is no length.
-
-    Examples
-    --------
-    >>> CutOptions(kiss="2mm").is_asked
-    True
+    ``line`` says ``outlines`` (as they are, with holes), ``silhouette`` (one closed line round each
+    item) or None (what the format always has); ``kiss`` is the distance of the line from the item,
+    a length, or None.
     """
 
     line: CutLine | None = None
@@ -80,12 +66,7 @@ class CutOptions:
 
 
 def kiss_cut(text: str, unit: str, side: float) -> float:
-    """Distance of a kiss cut in canvas units.
-
-    Raises
-    ------
-    RecipeError
-        If it is no length.
+    """Distance of a kiss cut in canvas units; a RecipeError if it is no length.
 
     Examples
     --------

@@ -38,19 +38,7 @@ _BAND_ROWS = 256
 
 
 def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
-    """PNG file (RGB) of a layout's faults, by the true outlines.
-
-    Raises
-    ------
-    RecipeError
-        If the size is out of bounds (see ``writers.frame``).
-
-    Examples
-    --------
-    >>> from packwork.scene.layout import blank
-    >>> diagnose_png(blank(), 16)[1:4]
-    b'PNG'
-    """
+    """PNG file (RGB) of a layout's faults, by the true outlines."""
     frame = picture_frame(layout.container, longer_side_px)
     picture = np.empty((frame.rows, frame.columns, 3), dtype=np.uint8)
     for top in range(0, frame.rows, _BAND_ROWS):

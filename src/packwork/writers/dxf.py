@@ -63,10 +63,7 @@ _SLIVER = 1e-9
 def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
     """DXF file of a layout; its limits are the sheet. The same bytes every time.
 
-    Parameters
-    ----------
-    cut
-        Lines on the layer ``cut``; None for the items' outlines.
+    On the layer ``cut`` are the lines that are asked for, else the items' outlines.
 
     Examples
     --------
@@ -95,13 +92,7 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
 
 
 def paper_unit(unit: str) -> str:
-    """The unit in which a canvas is drawn: its own where DXF has it, else mm.
-
-    Examples
-    --------
-    >>> paper_unit("in"), paper_unit("px")
-    ('in', 'mm')
-    """
+    """The unit in which a canvas is drawn: its own where DXF has it, else mm."""
     return unit if unit in _INSERT_UNITS else "mm"
 
 
@@ -125,15 +116,10 @@ def _empty_drawing(layout: Layout, used: Set[str]) -> Drawing:
 
 @dataclass(frozen=True, eq=False)
 class _Lot:
-    """Rings that belong together, in place, canvas units.
+    """Rings that belong together, in place, canvas units; open ones are lines with two ends.
 
-    Parameters
-    ----------
-    said
-        Texts that go with each: of the container the gap that was promised and whether
-        areas are in shares, of an item its number, name and weight.
-    is_open
-        Whether they are lines with two ends.
+    ``said`` are texts that go with each: of the container the gap that was promised and whether
+    areas are in shares, of an item its number, name and weight.
     """
 
     layer: str

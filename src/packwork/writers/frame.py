@@ -18,13 +18,10 @@ MAX_PIXELS = 150_000_000
 
 @dataclass(frozen=True, kw_only=True)
 class PictureFrame:
-    """Size of a picture in pixels and its scale.
+    """Size of a picture in whole pixels and its scale.
 
-    Parameters
-    ----------
-    rows, columns
-        Whole pixels; the canvas's top left corner is the picture's, and its far edges
-        lie less than a pixel inside the picture's.
+    The canvas's top left corner is the picture's, and its far edges lie less than a pixel inside
+    the picture's.
     """
 
     rows: int
@@ -33,20 +30,7 @@ class PictureFrame:
 
 
 def side_at(container: Container, dpi: float) -> int:
-    """Longer side, in pixels, of a picture of the canvas with that many to the inch.
-
-    Raises
-    ------
-    RecipeError
-        If no picture may be so large.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 4]]])
-    >>> side_at(Container("tile", "tile", tile, 60.0, 40.0, "cm"), 300)
-    7087
-    """
+    """Longer side, in pixels, of a picture of the canvas with that many to the inch."""
     side_px = max(1, round(dpi * convert(container.side, container.unit, "in")))
     if side_px > MAX_SIDE_PX:
         most = MAX_SIDE_PX / convert(container.side, container.unit, "in")
@@ -59,32 +43,14 @@ def side_at(container: Container, dpi: float) -> int:
 
 
 def dots_per_inch(container: Container, longer_side_px: int) -> float | None:
-    """Pixels to the inch of paper; None of a canvas in px, which has no size on paper.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 4]]])
-    >>> dots_per_inch(Container("tile", "tile", tile, 10.0, 4.0, "in"), 3_000)
-    300.0
-    """
+    """Pixels to the inch of paper; None of a canvas in px, which has no size on paper."""
     if container.unit == "px":
         return None
     return longer_side_px / convert(container.side, container.unit, "in")
 
 
 def check_side(longer_side_px: int) -> None:
-    """Refuse a size that no picture may have, whatever its canvas.
-
-    Raises
-    ------
-    RecipeError
-        If it is not 1 to ``MAX_SIDE_PX``.
-
-    Examples
-    --------
-    >>> check_side(1600)
-    """
+    """Refuse a size that no picture may have, whatever its canvas."""
     if not 1 <= longer_side_px <= MAX_SIDE_PX:
         raise RecipeError(
             "pixels", f"a picture's longer side must be 1 to {MAX_SIDE_PX} px, not {longer_side_px}"
@@ -92,12 +58,7 @@ def check_side(longer_side_px: int) -> None:
 
 
 def picture_frame(container: Container, longer_side_px: int) -> PictureFrame:
-    """Frame that shows the whole canvas, ``longer_side_px`` long.
-
-    Raises
-    ------
-    RecipeError
-        If the size is not 1 to ``MAX_SIDE_PX`` or needs more than ``MAX_PIXELS``.
+    """Frame that shows the whole canvas; a RecipeError if that is out of bounds.
 
     Examples
     --------

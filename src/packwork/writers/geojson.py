@@ -32,10 +32,9 @@ from the file is what was measured before. Larger: shorter files that say less. 
 def geojson_text(layout: Layout) -> str:
     """GeoJSON FeatureCollection: the container, then one feature per item.
 
-    Coordinates are rounded to ``PRECISION``, but for outlines that would then cross
-    themselves; ``x``, ``y``, ``angle`` (degrees clockwise, -180 to 180), ``scale`` and
-    ``stretch`` are written in full. Numbers that JSON has no word for (NaN, infinity) become
-    null in the manifest.
+    Coordinates are rounded to ``PRECISION``, but for outlines that would then cross themselves;
+    ``x``, ``y``, ``angle`` (degrees clockwise, -180 to 180), ``scale`` and ``stretch`` are written
+    in full. Numbers that JSON has no word for (NaN, infinity) become null in the manifest.
 
     Examples
     --------
@@ -58,13 +57,7 @@ def geojson_text(layout: Layout) -> str:
 
 
 def untimed(manifest: Mapping[str, Any]) -> dict[str, Any]:
-    """Manifest without its seconds, so that equal runs give equal files.
-
-    Examples
-    --------
-    >>> untimed({"seed": 1, "seconds": {}, "levels": [{"epochs": 9, "seconds": 0.1}]})
-    {'seed': 1, 'levels': [{'epochs': 9}]}
-    """
+    """Manifest without its seconds, so that equal runs give equal files."""
     kept = {key: value for key, value in manifest.items() if key != "seconds"}
     levels = kept.get("levels")
     if isinstance(levels, list | tuple):
@@ -102,13 +95,7 @@ def plain(value: Any) -> Any:
 
 
 def json_bytes(values: Mapping[str, Any]) -> bytes:
-    """Indented JSON of plain values, as ``--report`` writes them.
-
-    Examples
-    --------
-    >>> json.loads(json_bytes({"gap": float("inf")}))
-    {'gap': None}
-    """
+    """Indented JSON of plain values, as ``--report`` writes them."""
     return (json.dumps(plain(values), indent=2, allow_nan=False) + "\n").encode()
 
 

@@ -67,20 +67,8 @@ STORE = Store("edges", 20_000_000)
 def faint_items(layout: Layout, background: str | None) -> tuple[Item, ...]:
     """Items of a layout, each drawing once, whose edges are like the background.
 
-    Words are made to be read anyway, photographs are as they are, and where a picture is behind
-    it decides: none of these is looked at.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[-1, -1], [1, -1], [1, 1], [-1, 1]]])
-    >>> items = [Item(c, "", tile, tile, FlatArt(c)) for c in ("ivory", "black")]
-    >>> two = np.ones(2)
-    >>> layout = Layout(Container("", "", tile, 4, 4), tuple(items), Poses(two, two, two, two), two)
-    >>> [[item.name for item in faint_items(layout, paper)] for paper in (None, "black")]
-    [['ivory'], ['black']]
+    Words are made to be read anyway, photographs are as they are, and where a picture is behind it
+    decides: none of these is looked at.
     """
     if layout.container.backdrop is not None:
         return ()

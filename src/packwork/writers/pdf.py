@@ -44,20 +44,9 @@ _PAGE_WITH_BLEED = """\
 def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | None = None) -> bytes:
     """PDF file of a layout: one page, as large as the canvas; the same bytes every time.
 
-    Lines for a cutter are strokes in the spot colour ``CutContour``.
-
-    Parameters
-    ----------
-    bleed
-        What the background reaches beyond the canvas on each side, a length: the page is larger
-        by it, and its boxes say where it is trimmed. None for none.
-
-    Raises
-    ------
-    WriteError
-        If an item's drawing cannot be rendered.
-    RecipeError
-        If the bleed is no length.
+    Lines for a cutter are strokes in the spot colour ``CutContour``. ``bleed`` is a length: the
+    background reaches that far beyond the canvas on each side, the page is larger by it, and its
+    boxes say where it is trimmed. A drawing that cannot be rendered is a WriteError.
 
     Examples
     --------
@@ -97,31 +86,12 @@ def drawing_text(layout: Layout, options: SvgOptions) -> str:
     """SVG that stands on the page of a PDF: its words are curves.
 
     What sets the page would take fonts of its own for text.
-
-    Examples
-    --------
-    >>> from packwork.scene.layout import blank
-    >>> drawing_text(blank(), SvgOptions(text="live")) == drawing_text(blank(), SvgOptions())
-    True
     """
     return svg_text(without_text(layout), replace(options, text="outlines"))
 
 
 def bleed_pt(text: str, container: Container) -> float:
-    """Bleed in points.
-
-    Raises
-    ------
-    RecipeError
-        If it is no length, or more than the canvas is long.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> round(bleed_pt("3mm", Container("tile", "tile", tile, 90.0, 90.0, "mm")), 3)
-    8.504
-    """
+    """Bleed in points; a RecipeError if it is no length, or more than the canvas is long."""
     try:
         length = parse_length(text, container.unit, container.side)
     except ValueError as error:

@@ -25,15 +25,7 @@ _MARGIN_PX = 2
 def pictured(item: Item, px_per_unit: float) -> PictureArt:
     """An item's drawing as a picture, no finer than ``MAX_PICTURE_PX`` allows.
 
-    Parameters
-    ----------
-    item
-        Its ink says how far its drawing reaches.
-
-    Raises
-    ------
-    ValueError
-        If the drawing cannot be rendered.
+    Its ink says how far it reaches. A ValueError if it cannot be rendered.
 
     Examples
     --------
@@ -74,12 +66,8 @@ softens what has no more than one. Larger takes longer and more memory. Tried by
 def printed(layout: Layout, px_per_cu: float) -> Layout:
     """Layout whose photos have that many pixels per canvas unit, if there are as many.
 
-    One photo at a time is in memory; what stays of it is a file in text.
-
-    Raises
-    ------
-    ReadError
-        If a photo is no longer there, or broken.
+    One photo at a time is in memory; what stays of it is a file in text. A ReadError if one is no
+    longer there, or broken.
     """
     layout = _with_backdrop(layout, px_per_cu)
     largest: dict[Art, float] = {}
@@ -112,11 +100,5 @@ def _with_backdrop(layout: Layout, px_per_cu: float) -> Layout:
 
 
 def printed_on_paper(layout: Layout, dpi: float) -> Layout:
-    """The same layout, its photos with that many pixels per inch of the canvas.
-
-    Raises
-    ------
-    ReadError
-        If a photo is no longer there, or broken.
-    """
+    """The same layout, its photos with that many pixels per inch of the canvas."""
     return printed(layout, dpi * convert(1.0, layout.container.unit, "in"))

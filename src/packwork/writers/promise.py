@@ -15,16 +15,7 @@ _USUAL = {"rotate": ("free", ""), "sizes": ("free",), "size_ratio": ("2.0", "2")
 
 
 def promised(layout: Layout) -> tuple[str, bool]:
-    """Smallest gap in canvas units, empty without a promise; and whether shares are kept.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> from packwork.scene.layout import blank
-    >>> said = {"promised": {"gap": 0.5, "areas_in_shares": False}}
-    >>> promised(replace(blank(), manifest=said))
-    ('0.5', False)
-    """
+    """Smallest gap in canvas units, empty without a promise; and whether shares are kept."""
     found = layout.manifest.get("promised")
     if not isinstance(found, Mapping):
         return "", False
@@ -32,14 +23,7 @@ def promised(layout: Layout) -> tuple[str, bool]:
 
 
 def stated_weights(layout: Layout) -> list[str]:
-    """Weight of each item where a promise speaks of it; else empty texts.
-
-    Examples
-    --------
-    >>> from packwork.scene.layout import blank
-    >>> stated_weights(blank())
-    []
-    """
+    """Weight of each item where a promise speaks of it; else empty texts."""
     has_shares = promised(layout)[1]
     weights = layout.weights.tolist()
     return [f"{weight:.12g}" if has_shares and weight != 1.0 else "" for weight in weights]

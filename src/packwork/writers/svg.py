@@ -65,29 +65,11 @@ CONTAINER_STROKE_SHARE = 1 / 500
 class SvgOptions:
     """Options of drawing a layout as SVG.
 
-    Parameters
-    ----------
-    background
-        CSS colour behind everything; ``None`` or ``"none"`` leaves it clear.
-    show_container
-        Show the container's line. Its path is in the file either way.
-    flatten
-        Write every copy in full, for tools that do not know ``use``.
-    text
-        ``live``: words are text, to be selected and found, in fonts that the file carries;
-        ``outlines``: they are curves.
-    cut
-        Lines for a cutter, on top of all; None for none.
-
-    Raises
-    ------
-    RecipeError
-        If ``background`` is not a colour.
-
-    Examples
-    --------
-    >>> SvgOptions(background="ivory").flatten
-    False
+    ``background`` is a CSS colour; ``None`` or ``"none"`` leaves it clear. ``show_container`` shows
+    the container's line, whose path is in the file either way. ``flatten`` writes every copy in
+    full, for tools that do not know ``use``. ``text`` is ``live`` for words that can be selected
+    and found, in fonts that the file carries, ``outlines`` for curves. Lines for a cutter (``cut``)
+    lie on top of all.
     """
 
     background: str | None = None
@@ -103,17 +85,7 @@ class SvgOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class SheetSize:
-    """Size that a document's root states.
-
-    Parameters
-    ----------
-    size
-        Width and height on paper or screen, in ``unit``.
-    unit
-        As CSS names it; px are written without a name.
-    view
-        Width and height in canvas units.
-    """
+    """Size that a document's root states: on paper or screen in ``unit``, and in canvas units."""
 
     size: tuple[float, float]
     unit: Unit
@@ -155,16 +127,7 @@ def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
 
 
 def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
-    """SVG document of a layout on a sheet of any size: :func:`svg_text`, and rendering.
-
-    Examples
-    --------
-    >>> from packwork.scene.layout import blank
-    >>> sheet = SheetSize(size=(64.0, 64.0), unit="mm", view=(4.0, 4.0))
-    >>> text = svg_document(blank(), SvgOptions(), sheet)
-    >>> 'width="64mm" height="64mm" viewBox="0 0 4 4"' in text
-    True
-    """
+    """SVG document of a layout on a sheet of any size: :func:`svg_text`, and rendering."""
     digits = decimals(layout.container.side * _STEP_SHARE)
     live = LiveWords(layout.items if options.text == "live" else ())
     shapes = _shapes(layout)

@@ -34,11 +34,6 @@ class LiveWords:
     """Items of a document that are text, and the fonts that it carries.
 
     Fonts that cannot be embedded are named in the log; their words are outlines.
-
-    Examples
-    --------
-    >>> LiveWords([]).style()
-    []
     """
 
     def __init__(self, items: Sequence[Item]) -> None:
@@ -65,14 +60,9 @@ class LiveWords:
         return [f"<style>{rules}#items text{{{_SETTING}}}</style>"]
 
     def element(self, item: Item, own: Mapping[str, str], place: str) -> str:
-        """Element of a word, its outline beside it so that the file can be measured.
+        """Element of a word that :meth:`has` affirms, with its outline, by which it is measured.
 
-        Parameters
-        ----------
-        item
-            That :meth:`has` affirms.
-        place
-            A ``transform`` to wherever it goes.
+        ``place`` is a ``transform`` to wherever it goes.
         """
         art, text = item.art, item.text
         assert isinstance(art, VectorArt)  # noqa: S101 - has() says so
@@ -163,13 +153,7 @@ class Embedded:
 
 
 def embedded_fonts(texts: Iterable[LiveText]) -> tuple[dict[FontFile, Embedded], dict[str, str]]:
-    """Parts of all fonts that texts are set in, and why some cannot be embedded, by name.
-
-    Examples
-    --------
-    >>> embedded_fonts([])
-    ({}, {})
-    """
+    """Parts of all fonts that texts are set in, and why some cannot be embedded, by name."""
     runs: dict[FontFile, list[_Said]] = {}
     for text in texts:
         for run in text.runs:
@@ -216,12 +200,8 @@ def _embedded(family: str, font: FontFile, runs: Sequence[_Said]) -> Embedded:
 def _bounded_programs() -> Iterator[None]:
     """Let fontTools run no more of a PostScript font's programs than ``MOST_STEPS``.
 
-    It follows calls of calls of calls while it cuts a font down, whatever they come to.
-
-    Raises
-    ------
-    ValueError
-        If they come to more.
+    It follows calls of calls of calls while it cuts a font down, whatever they come to; at more of
+    them a ValueError is raised.
     """
     from fontTools.misc.psCharStrings import SimpleT2Decompiler  # type: ignore[import-untyped]
 

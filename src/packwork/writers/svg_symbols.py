@@ -27,14 +27,6 @@ def shape_key(item: Item) -> Hashable:
     """Same key for items whose definition can be shared.
 
     Flat items share by ink alone, so that marks of many colours cost one path.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
-    >>> red, blue = (Item(c, "", ink, ink, FlatArt(c)) for c in ("red", "blue"))
-    >>> shape_key(red) == shape_key(blue)
-    True
     """
     return item.ink if isinstance(item.art, FlatArt) else item.art
 
@@ -64,16 +56,9 @@ def paint(item: Item) -> dict[str, str]:
 def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
     """Element that draws an item.
 
-    Parameters
-    ----------
-    item
-        Drawn in its own units.
-    own
-        Attributes of this element: its id, its colour.
-    place
-        A ``transform`` from the item's units to wherever it goes; may be empty.
-    digits
-        Digits after the point for ink, in the item's units.
+    ``own`` are attributes of this element: its id, its colour. ``place`` is a ``transform`` from
+    the item's units to wherever it goes, or empty. ``digits`` come after the point for ink, in the
+    item's units.
 
     Examples
     --------

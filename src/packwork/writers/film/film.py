@@ -38,21 +38,10 @@ def tell_nobody(_: float) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """Source of a film in every format.
+    """Source of a film in every format: a layout with a track of its items.
 
-    Parameters
-    ----------
-    layout
-        With a track of its items.
-    background
-        CSS colour behind everything; ``"none"`` leaves it clear where a format can.
-
-    Raises
-    ------
-    WriteError
-        If the layout has no track, or one of other items.
-    RecipeError
-        If ``background`` is not a colour.
+    A WriteError if it has none, or one of other items. ``background`` is a CSS colour; ``"none"``
+    leaves it clear where a format can.
     """
 
     layout: Layout
@@ -151,12 +140,9 @@ def _softened(sampled: Callable[[FloatArray], FloatArray], count: int, reach: in
 def knots(path: FloatArray, tolerance: float) -> IntArray:
     """Frames between which a path may go straight on and be nowhere farther off.
 
-    Parameters
-    ----------
-    path
-        ``(frames, k)`` numbers, all of one unit.
-    tolerance
-        Largest difference of any number, in that unit.
+    ``path`` are ``(frames, k)`` numbers, all of one unit, that of ``tolerance``. By the split of
+    Douglas and Peucker (1973, see ``geometry.simplify``), with the largest difference of any number
+    at the same time for a distance.
 
     Examples
     --------
@@ -183,14 +169,8 @@ def knots(path: FloatArray, tolerance: float) -> IntArray:
 def item_knots(frames: FloatArray, radius: float, tolerance: float) -> IntArray:
     """The same of the ``(frames, 5)`` numbers of one item: no point of it is farther off.
 
-    Parameters
-    ----------
-    frames
-        As in a track.
-    radius
-        Of the item, its own units.
-    tolerance
-        Canvas units, for each of place, turn and size.
+    ``radius`` is the item's in its own units, ``tolerance`` in canvas units for each of place, turn
+    and size.
     """
     x, y, angle, scale, stretch = frames.T
     reach = radius * float(scale.max())

@@ -144,16 +144,8 @@ def _transform(
 ) -> Json:
     """Place, turn and size of a layer at the frames ``at``.
 
-    Parameters
-    ----------
-    frames
-        ``(k, 5)`` numbers of a track.
-    at
-        ``(k,)`` when.
-    anchor
-        Where the item's origin lies in the layer.
-    unit
-        Units of the item per unit of the layer.
+    ``frames`` are ``(k, 5)`` numbers of a track at the ``(k,)`` times ``at``; ``anchor`` is where
+    the item's origin lies in the layer, ``unit`` units of the item per unit of the layer.
     """
     poses = poses_of(frames)
     return {

@@ -29,18 +29,10 @@ _SMALLEST_PX = 1.0
 
 
 class Projector:
-    """Draws the frames of a film.
+    """Draws the frames of a film, each drawing rendered once.
 
-    Parameters
-    ----------
-    is_even
-        Let both sides have an even number of pixels, as video needs: a row or a column of
-        background may come in at the far end.
-
-    Raises
-    ------
-    WriteError
-        If an item's drawing cannot be rendered.
+    ``is_even`` lets both sides have an even number of pixels, as video needs: a row or a column of
+    background may come in at the far end.
     """
 
     def __init__(self, film: Film, is_even: bool = False) -> None:
@@ -141,15 +133,7 @@ class Rectangle:
 
 
 def changed_part(changed: npt.NDArray[np.bool_]) -> Rectangle:
-    """Smallest rectangle that holds all that changed; one pixel if nothing did.
-
-    Examples
-    --------
-    >>> seen = np.zeros((4, 6), dtype=bool)
-    >>> seen[1, 2] = seen[2, 4] = True
-    >>> changed_part(seen)
-    Rectangle(top=1, left=2, bottom=3, right=5)
-    """
+    """Smallest rectangle that holds all that changed; one pixel if nothing did."""
     rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
     if len(rows) == 0:
         return Rectangle(0, 0, 1, 1)

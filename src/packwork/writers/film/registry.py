@@ -38,12 +38,6 @@ FILMS: Mapping[str, FilmEncoder] = MappingProxyType(
 def check_film(path: str | Path) -> None:
     """Refuse, before a run, a path that no film could be written to after it.
 
-    Raises
-    ------
-    WriteError
-        If the ending is unknown, its format needs a package that is missing, or nothing can
-        be written there.
-
     Examples
     --------
     >>> check_film("way.png")
@@ -56,13 +50,7 @@ def check_film(path: str | Path) -> None:
 
 
 def film_bytes(film: Film, path: str | Path, tell: Tell = tell_nobody) -> bytes:
-    """Bytes of a film in the format that a path's ending names.
-
-    Raises
-    ------
-    WriteError
-        If the ending is unknown or the film cannot be drawn.
-    """
+    """Bytes of a film in the format that a path's ending names."""
     # Labels on items would stay where the items end.
     beside = tuple(note for note in film.layout.notes if not note.is_on_item)
     return _encoder(path)(replace(film, layout=replace(film.layout, notes=beside)), tell)

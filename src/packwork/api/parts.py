@@ -1,15 +1,17 @@
-"""Immutable mappings and arrays, of which layouts are made."""
+"""Parts of layouts: immutable mappings and arrays, and one placed item."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
-from typing import Any, NoReturn
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
+from packwork.geometry.outline import Outline
+from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 
 OF_PLACES = ("metrics", "certified", "changed", "filling", "beside", "pile")
@@ -118,3 +120,44 @@ def frozen_poses(poses: Poses) -> Poses:
     if not any(column.flags.writeable for column in columns):
         return poses
     return Poses(*map(frozen, columns))
+
+
+class Pose(NamedTuple):
+    """Pose of one item: canvas units and radians, as in :class:`packwork.Poses`."""
+
+    x: float
+    y: float
+    angle: float
+    scale: float
+    stretch: float
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """One placed item.
+
+    Parameters
+    ----------
+    outline
+        Its outline there, canvas units.
+    weight
+        Share of area that was asked for it.
+    """
+
+    item: Item
+    pose: Pose
+    outline: Outline
+    weight: float
+
+    @property
+    def name(self) -> str:
+        """Name of the item, as people read it."""
+        return self.item.name
+
+    @property
+    def area(self) -> float:
+        """Area in place, squared canvas units."""
+        return self.outline.area
+
+    def __repr__(self) -> str:
+        return f"<Placement: {self.name} at ({self.pose.x:.1f}, {self.pose.y:.1f})>"
