@@ -59,3 +59,12 @@ def test_same_layout_same_bytes(three: Layout, tmp_path: Path) -> None:
         first, second = ((tmp_path / f"{n}.{ending}").read_bytes() for n in "ab")
         assert first == second
     assert json.loads((tmp_path / "a.geojson").read_text(encoding="utf-8"))
+
+
+def test_all_packages_that_a_format_lacks_are_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    line = "needs the packages typst and pikepdf; install them: pip install typst pikepdf"
+    with pytest.raises(WriteError, match=line):
+        check_output(tmp_path / "a.pdf")

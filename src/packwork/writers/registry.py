@@ -39,29 +39,10 @@ MOST_DPI = 2_400
 class WriteOptions:
     """Options of every format; each reads its own.
 
-    Parameters
-    ----------
-    svg, png
-        How the layout is drawn: in SVG and PDF, and in pictures of pixels.
-    dpi
-        Pixels to the inch, for photos in SVG and PDF and, if given, for PNG and JPEG in
-        place of their side. None: 300 for photos.
-    bleed
-        What a PDF's background reaches beyond the canvas on each side, a length.
-    halo
-        Which items of SVG, PNG, JPEG and PDF have a rim that makes them stand out.
-    takes_ground
-        Whether the ground of a layout is its background; False where another was asked for.
-
-    Raises
-    ------
-    RecipeError
-        If ``png_side_px`` or ``dpi`` is out of bounds.
-
-    Examples
-    --------
-    >>> WriteOptions(svg=SvgOptions(flatten=True)).png_side_px
-    1600
+    ``svg`` says how SVG and PDF are drawn, ``png`` how pictures of pixels are. ``dpi`` are pixels
+    to the inch, of photos in SVG and PDF (300 if None) and, if given, of PNG and JPEG in place of
+    ``png_side_px``; ``bleed`` is what a PDF's background reaches beyond the canvas, a length.
+    Without ``takes_ground`` another background was asked for than the ground of the layout.
     """
 
     svg: SvgOptions = field(default_factory=SvgOptions)
@@ -172,43 +153,14 @@ ONLY_FILMS = frozenset({".gif", ".apng", ".mp4", ".webm"})
 def check_output(path: str | Path, *others: str) -> None:
     """Refuse, before a run, a path that :func:`write` would refuse after it.
 
-    Parameters
-    ----------
-    others
-        Endings to name beside those of layouts: of what the caller writes itself.
-
-    Raises
-    ------
-    WriteError
-        If the ending is unknown, its format needs a package that is missing, or nothing
-        can be written there.
-
-    Examples
-    --------
-    >>> check_output("layout.svg")
+    ``others`` are endings to name beside those of layouts: of what the caller writes itself.
     """
     _encoder(path, *others)
     check_writable(path)
 
 
 def check_picture_size(path: str | Path, container: Container, options: WriteOptions) -> None:
-    """Refuse, before a run, pixels that no picture of a canvas may have.
-
-    Raises
-    ------
-    RecipeError
-        If the path's ending is that of a picture, and it would be too large.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 9]]])
-    >>> check_picture_size(
-    ...     "a.png", Container("tile", "tile", tile, 9.0, 9.0), WriteOptions(png_side_px=13_000)
-    ... )
-    Traceback (most recent call last):
-    packwork.errors.RecipeError: pixels: 13000 x 13000 px are too many; a picture may have ...
-    """
+    """Refuse, before a run, pixels that no picture of a canvas may have."""
     ending = Path(path).suffix.lower()
     if ending not in PICTURES:
         return
@@ -219,36 +171,12 @@ def check_picture_size(path: str | Path, container: Container, options: WriteOpt
 
 
 def write(layout: Layout, path: str | Path, options: WriteOptions | None = None) -> None:
-    """Write a layout in the format that the path's ending names.
-
-    Raises
-    ------
-    WriteError
-        If the ending is unknown or the file cannot be written; an older file is whole.
-    RecipeError
-        If an option is out of bounds.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from packwork.scene.layout import blank
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write(blank(), Path(folder, "out.svg"))
-    ...     Path(folder, "out.svg").exists()
-    True
-    """
+    """Write a layout in the format that the path's ending names."""
     write_atomic(path, encoded(layout, path, options))
 
 
 def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = None) -> bytes:
     """Bytes that :func:`write` would write: several files can be drawn before the first is.
-
-    Raises
-    ------
-    WriteError
-        If the ending is unknown or the layout cannot be drawn.
-    RecipeError
-        If an option is out of bounds.
 
     Examples
     --------
@@ -264,13 +192,6 @@ def printed_drawing(layout: Layout, options: WriteOptions | None = None) -> tupl
     """SVG that :func:`encoded` puts on a PDF's page, and the bleed around it in points.
 
     Cut lines are among it; photos are their small copies.
-
-    Examples
-    --------
-    >>> from packwork.scene.layout import blank
-    >>> text, bleed = printed_drawing(blank())
-    >>> text[:5], bleed
-    ('<?xml', 0.0)
     """
     options = (options or WriteOptions()).on_ground(layout)
     seen = haloed(layout, options.halo, options.svg.background)
@@ -293,19 +214,10 @@ def _encoder(path: str | Path, *others: str) -> Encoder:
 
 
 def write_options(**options: Any) -> WriteOptions:
-    """Options of every format from the few that people give.
+    """Options of every format from the few that people give, fields of ``DrawingOptions``.
 
-    Parameters
-    ----------
-    options
-        Those of :class:`packwork.writers.options.DrawingOptions`.
-
-    Raises
-    ------
-    pydantic.ValidationError
-        If there is no such option, or its value is of another type.
-    RecipeError
-        If a value has no meaning.
+    A pydantic.ValidationError if there is no such option or its value is of another type, a
+    RecipeError if a value has no meaning.
 
     Examples
     --------
@@ -341,19 +253,13 @@ project."""
 
 
 def check_extra(path: str | Path) -> None:
-    """Refuse a path whose format needs a package that is not installed.
-
-    Raises
-    ------
-    WriteError
-        Saying what to install.
-
-    Examples
-    --------
-    >>> check_extra("layout.svg")
-    """
-    for package in PACKAGES.get(Path(path).suffix.lower(), ()):
-        if importlib.util.find_spec(package) is None:
-            raise WriteError(
-                path, f"needs the package {package}; install it: pip install {package}"
-            )
+    """Refuse a path whose format needs packages that are not installed."""
+    needed = PACKAGES.get(Path(path).suffix.lower(), ())
+    missing = [package for package in needed if importlib.util.find_spec(package) is None]
+    if missing:
+        packages, them = ("package", "it") if len(missing) == 1 else ("packages", "them")
+        raise WriteError(
+            path,
+            f"needs the {packages} {' and '.join(missing)}; install {them}: "
+            f"pip install {' '.join(missing)}",
+        )
