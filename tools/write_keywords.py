@@ -20,7 +20,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 
 from packwork.api.inputs import CONTAINERS, ITEMS, PICTURES, VECTORS
-from packwork.api.verbs import BACKGROUND
+from packwork.api.signatures import BACKGROUND
 from packwork.offers import Offer, Offered, Verbs
 from packwork.options import Options, offered
 from packwork.recipe import Recipe
@@ -60,7 +60,7 @@ class Key:
 
 def written() -> str:
     """The whole file, before it is formatted."""
-    imports: set[str] = set()
+    imports = {"from packwork.api.signatures import RunKeywords"}
     parts = [
         _table("PinTable", "What of one item's pose is given.", _keys(Pin, imports)),
         _table("RuleTable", "What is asked of the items of some names.", _keys(Rule, imports)),
@@ -72,7 +72,7 @@ def written() -> str:
 
 
 def _verb_tables(imports: set[str]) -> Iterable[str]:
-    """Tables that several verbs share, then one of each verb, which inherits from them."""
+    """Tables that several verbs share, then those of each verb, which inherit from them."""
     sets = _by_verbs(imports)
     shared = {verbs: keys for verbs, keys in sets.items() if len(verbs) > 1}
     for verbs, keys in shared.items():
@@ -80,7 +80,10 @@ def _verb_tables(imports: set[str]) -> Iterable[str]:
     for verb in VERBS:
         bases = [_shared_name(verbs) for verbs in shared if verb in verbs]
         said = f"Options of :func:`packwork.{_name(verb)}`."
-        yield _table(f"{_name(verb).title()}Keywords", said, sets.get((verb,), []), bases)
+        name = _name(verb).title()
+        yield _table(f"{name}Keywords", said, sets.get((verb,), []), bases)
+        said = f"All parameters of :func:`packwork.{_name(verb)}` that are given by name."
+        yield _table(f"{name}Run", said, [], ["RunKeywords", f"{name}Keywords"])
 
 
 def _by_verbs(imports: set[str]) -> dict[tuple[Verbs, ...], list[Key]]:

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
     from packwork.api.batches import Batch, batch
     from packwork.api.history import History
+    from packwork.api.inputs import read_container, read_items
     from packwork.api.judging import finish, measure
     from packwork.api.layout import Layout
     from packwork.api.parts import Placement
     from packwork.api.series import Series, chart_series, series
     from packwork.api.session import Session
-    from packwork.api.inputs import read_container, read_items
     from packwork.api.verbs import chart, fill, photos, pile, run, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline

@@ -13,6 +13,7 @@ from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.readers.memory.shapes import Columns
 from packwork.readers.memory.values import Handed, Value
+from packwork.recipe.reading import ReadingOptions
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -135,7 +136,7 @@ def read_items(
     ('Como', 146.0, (-2.0, -0.5, 2.0, 0.5))
     """
     asked = {"keep_page": keep_page, "alpha_threshold": alpha_threshold}
-    how = validated(Interpreted, asked).read_options
+    how = validated(ReadingOptions, asked).read_options
     with handed_over(y_up, Columns(name_by, weight_by)) as handed:
         named = handed.names_of(sources, "sources")
         return list(item_reader.read_items(named, holes=holes, strict=strict, reading=how).items)
@@ -180,7 +181,7 @@ def read_container(
     (200, 100, 'mm')
     """
     asked = {"trim": trim, "close_gaps": close_gaps, "alpha_threshold": alpha_threshold}
-    how = validated(Interpreted, asked).read_options
+    how = validated(ReadingOptions, asked).read_options
     with handed_over(y_up) as handed:
         name = handed.name_of(source, "container")
         return _read_container(name, canvas, font, reading=how)

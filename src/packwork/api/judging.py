@@ -8,8 +8,8 @@ from typing import cast
 
 import numpy as np
 
-from packwork.api.parts import ReadOnly
 from packwork.api.layout import Layout, public
+from packwork.api.parts import ReadOnly
 from packwork.errors import RecipeError
 from packwork.finish.finish import finish as exact_finish
 from packwork.finish.options import FinishOptions

@@ -10,6 +10,7 @@ from collections.abc import Set as AbstractSet
 from pathlib import Path
 from typing import Any, Literal, Required, TypedDict
 
+from packwork.api.signatures import RunKeywords
 from packwork.readers.memory.values import Value
 from packwork.readers.words.options import Word
 from packwork.scene.layout import Layout
@@ -366,6 +367,10 @@ class FillKeywords(
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
 
+class FillRun(RunKeywords, FillKeywords, total=False):
+    """All parameters of :func:`packwork.fill` that are given by name."""
+
+
 class WordsKeywords(
     _FillWordsPhotosPile,
     _Every,
@@ -450,6 +455,10 @@ class WordsKeywords(
     3.0."""
 
 
+class WordsRun(RunKeywords, WordsKeywords, total=False):
+    """All parameters of :func:`packwork.words` that are given by name."""
+
+
 class PhotosKeywords(
     _FillWordsPhotosPile,
     _FillPhotosPile,
@@ -476,6 +485,10 @@ class PhotosKeywords(
     edge: Literal["inside", "crop"]
     """What becomes of photos at the container's edge: inside (all of each photo is seen) or crop
     (they cover the edge and are cut at its line, for a clean rim). Default: 'inside'."""
+
+
+class PhotosRun(RunKeywords, PhotosKeywords, total=False):
+    """All parameters of :func:`packwork.photos` that are given by name."""
 
 
 class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsChart, total=False):
@@ -519,6 +532,10 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
     """Keys to sizes, colours and marks under the chart. Default: True."""
 
 
+class ChartRun(RunKeywords, ChartKeywords, total=False):
+    """All parameters of :func:`packwork.chart` that are given by name."""
+
+
 class PileKeywords(
     _FillWordsPhotosPile,
     _FillPhotosPile,
@@ -554,6 +571,10 @@ class PileKeywords(
     compact: bool
     """Report how tight the pile is: shares of its hull, its smallest circle and its box. Default:
     False."""
+
+
+class PileRun(RunKeywords, PileKeywords, total=False):
+    """All parameters of :func:`packwork.pile` that are given by name."""
 
 
 class SaveKeywords(TypedDict, total=False):

@@ -13,10 +13,17 @@ from typing import IO, TYPE_CHECKING, Any, Unpack, cast
 from pydantic import ValidationError
 
 from packwork import writers
-from packwork.api.parts import ReadOnly, checked_poses, frozen, frozen_poses, manifest_of
 from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
-from packwork.api.parts import Placement, Pose
+from packwork.api.parts import (
+    Placement,
+    Pose,
+    ReadOnly,
+    checked_poses,
+    frozen,
+    frozen_poses,
+    manifest_of,
+)
 from packwork.api.signatures import of_model
 from packwork.display.bar import bar_for, shown
 from packwork.display.extras import data_frame, draw_on_axes

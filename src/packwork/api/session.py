@@ -7,9 +7,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from packwork.api.inputs import handed_over
+from packwork.api.inputs import handed_over, read_container, read_items
 from packwork.api.layout import Layout, public
-from packwork.api.inputs import read_container, read_items
 from packwork.errors import RecipeError, WriteError
 from packwork.live import edits
 from packwork.live.document import Document

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, TypedDict, TypeVar, get_type_hints
+from typing import Any, TypedDict, TypeVar
 
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
 from packwork.progress import Listener, Stop, never
 from packwork.recipe import Recipe
 from packwork.recipe.verbs import default_of, run_options
+from packwork.writers.options import DrawingOptions
 
 Signed = TypeVar("Signed", bound=Callable[..., Any])
+
+
+(BACKGROUND,) = (option for option in offered(DrawingOptions) if option.name == "background")
+"""Colours of words and charts are made to be read on it."""
 
 
 class RunKeywords(TypedDict, total=False):
@@ -43,8 +48,13 @@ _UNASKED: Mapping[str, Any] = {
 }  # fmt: skip
 
 RUN = [
-    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_UNASKED[name], annotation=kind)
-    for name, kind in get_type_hints(RunKeywords).items()
+    inspect.Parameter(
+        name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=_UNASKED[name],
+        annotation=kind.__forward_arg__,  # as it is written
+    )
+    for name, kind in RunKeywords.__annotations__.items()
 ]
 """Parameters for :class:`RunKeywords`."""
 

@@ -2,49 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import contextlib
+import os
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any, Literal, Unpack
+from typing import Any, Unpack
 
 from packwork import uses
-from packwork.api.frozen import ReadOnly
-from packwork.api.handing import handed_over, with_names
 from packwork.api.history import keeper
-from packwork.api.keywords import ChartKeywords, FillKeywords, PileKeywords, WordsKeywords
+from packwork.api.inputs import handed_over, with_names
+from packwork.api.keywords import (
+    ChartRun,
+    FillRun,
+    PhotosRun,
+    PileRun,
+    WordsRun,
+)
 from packwork.api.layout import Layout, public
-from packwork.api.signatures import of_verb
+from packwork.api.parts import ReadOnly
+from packwork.api.signatures import BACKGROUND, RunKeywords, of_verb
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
-from packwork.options import offered
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never, together
-from packwork.readers import items as item_reader
-from packwork.readers.container import read_container as _read_container
-from packwork.readers.memory.shapes import Columns
-from packwork.readers.memory.values import Value
+from packwork.readers.layouts.read import is_session
+from packwork.readers.memory.values import Handed, Value
+from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
-from packwork.recipe.reading import ReadingOptions
-from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
-from packwork.scene.item import Item
-from packwork.writers.options import DrawingOptions
-
-(BACKGROUND,) = (option for option in offered(DrawingOptions) if option.name == "background")
-"""Colours of words and charts are made to be read on it."""
+from packwork.uses.overriding import overridden
+from packwork.uses.photos.recipe import photos_recipe
 
 
 @of_verb(Verbs.FILL)
 def fill(
     container: Value,
     items: Value | Iterable[Value] = "builtin:icons",
-    *,
-    y_up: bool | None = None,
-    observer: Listener | None = None,
-    stop: Stop = never,
-    progress: bool | None = None,
-    record: bool = False,
-    history: bool | int = False,
-    **options: Unpack[FillKeywords],
+    **options: Unpack[FillRun],
 ) -> Layout:
     """Fill a container with items.
 
@@ -91,13 +85,13 @@ def fill(
     >>> layout.manifest["seed"]
     1
     """
-    with handed_over(y_up) as handed:
-        recipe = make_recipe(
-            container=handed.name_of(container, "container"),
-            items=handed.names_of(items, "items"),
-            **with_names(options, handed),
-        )
-        return run_recipe(recipe, container, observer, stop, progress, record, history)
+    return _run(
+        container,
+        options,
+        lambda name, handed, asked: make_recipe(
+            container=name, items=handed.names_of(items, "items"), **asked
+        ),
+    )
 
 
 @of_verb(Verbs.WORDS, BACKGROUND)
@@ -106,13 +100,7 @@ def words(
     source: str | Path | Mapping[str, float] | Any,
     *,
     add: Value | Iterable[Value] = (),
-    y_up: bool | None = None,
-    observer: Listener | None = None,
-    stop: Stop = never,
-    progress: bool | None = None,
-    record: bool = False,
-    history: bool | int = False,
-    **options: Unpack[WordsKeywords],
+    **options: Unpack[WordsRun],
 ) -> Layout:
     """Fill a container with words.
 
@@ -145,28 +133,72 @@ def words(
     >>> heights.round(6).tolist()
     [3.0, 2.0, 1.0]
     """
-    with handed_over(y_up) as handed:
-        recipe = uses.words_recipe(
-            handed.name_of(container, "container"),
-            source,
-            add=handed.names_of(add, "add"),
-            **with_names(options, handed),
-        )
-        return run_recipe(recipe, container, observer, stop, progress, record, history)
+    return _run(
+        container,
+        options,
+        lambda name, handed, asked: uses.words_recipe(
+            name, source, add=handed.names_of(add, "add"), **asked
+        ),
+    )
+
+
+@of_verb(Verbs.PHOTOS)
+def photos(
+    container: Value,
+    sources: Value | Iterable[Value],
+    *,
+    add: Value | Iterable[Value] = (),
+    **options: Unpack[PhotosRun],
+) -> Layout:
+    """Fill a container with photographs.
+
+    Parameters that :func:`packwork.fill` has too mean the same here.
+
+    Parameters
+    ----------
+    sources
+        Photos (JPEG, PNG, WebP), folders of them or patterns; pictures, arrays and bytes too.
+    add
+        Items that are placed among the photos, as for :func:`packwork.fill`.
+    options
+        As on the command line, by the names in the signature.
+
+    Raises
+    ------
+    ReadError
+        If a photo cannot be used.
+    RecipeError
+        If an option has no meaning.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from PIL import Image
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     for name in ("sea", "sky"):
+    ...         Image.new("RGB", (300, 200), "teal").save(f"{folder}/{name}.jpg")
+    ...     layout = photos("heart", folder, effort="draft", levels="50")
+    ...     layout.save(f"{folder}/heart.jpg", dpi=300)
+    >>> [item.name for item in layout.items]
+    ['sea', 'sky']
+    """
+    return _run(
+        container,
+        options,
+        lambda name, handed, asked: photos_recipe(
+            name,
+            handed.names_of(sources, "sources"),
+            add=handed.names_of(add, "items"),
+            **asked,
+        ),
+    )
 
 
 @of_verb(Verbs.PILE)
 def pile(
     container: Value,
     items: Value | Iterable[Value] = "builtin:icons",
-    *,
-    y_up: bool | None = None,
-    observer: Listener | None = None,
-    stop: Stop = never,
-    progress: bool | None = None,
-    record: bool = False,
-    history: bool | int = False,
-    **options: Unpack[PileKeywords],
+    **options: Unpack[PileRun],
 ) -> Layout:
     """Heap items of given sizes, under forces, until they are at rest.
 
@@ -193,27 +225,20 @@ def pile(
     >>> layout.metrics["exact"]["OO"], bool(layout.poses.y.mean() > 400)
     (0.0, True)
     """
-    with handed_over(y_up) as handed:
-        recipe = uses.pile_recipe(
-            handed.name_of(container, "container"),
-            handed.names_of(items, "items"),
-            **with_names(options, handed),
-        )
-        return run_recipe(recipe, container, observer, stop, progress, record, history)
+    return _run(
+        container,
+        options,
+        lambda name, handed, asked: uses.pile_recipe(
+            name, handed.names_of(items, "items"), **asked
+        ),
+    )
 
 
 @of_verb(Verbs.CHART, BACKGROUND)
 def chart(
     container: Value,
     data: Any,
-    *,
-    y_up: bool | None = None,
-    observer: Listener | None = None,
-    stop: Stop = never,
-    progress: bool | None = None,
-    record: bool = False,
-    history: bool | int = False,
-    **options: Unpack[ChartKeywords],
+    **options: Unpack[ChartRun],
 ) -> Layout:
     """Show a table's rows, a mark for each, sizes in proportion to numbers.
 
@@ -241,117 +266,96 @@ def chart(
     >>> round(float(layout.areas[0] / layout.areas[1]), 6)
     4.0
     """
-    with handed_over(y_up) as handed:
-        named = with_names(options, handed)
-        recipe = uses.chart_recipe(handed.name_of(container, "container"), data, **named)
-        return run_recipe(recipe, container, observer, stop, progress, record, history)
+    return _run(container, options, lambda name, _, asked: uses.chart_recipe(name, data, **asked))
 
 
-def read_items(
-    sources: Value | Iterable[Value],
+def run(
+    recipe: str | Path | Mapping[str, Any],
     *,
-    name_by: str | None = None,
-    weight_by: str | None = None,
-    y_up: bool | None = None,
-    holes: Literal["fill", "keep"] = "fill",
-    strict: bool = False,
-    keep_page: bool | None = None,
-    alpha_threshold: float = 0.5,
-) -> list[Item]:
-    """Items from SVGs, pictures, folders of them, globs, built-in names or values in memory.
+    allow_code: bool = False,
+    observer: Listener | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    history: bool | int = False,
+    **options: Any,
+) -> Layout:
+    """Run what a recipe asks for.
 
-    Parameters that :func:`fill` has too mean the same here.
-
-    Unusable files in a folder are left out with a warning in the log.
+    Parameters that :func:`packwork.fill` has too mean the same here.
 
     Parameters
     ----------
-    sources
-        One or several, or a dict of them by name; values in memory as for :func:`fill`.
-    name_by, weight_by
-        Columns of a frame, or properties of GeoJSON, that say what each item is called and what
-        share of area it asks for. None: those called name and weight, where there are such.
-    holes
-        ``"keep"`` lets small items sit in the holes of large ones.
-    strict
-        Refuse a folder with an unusable file.
+    recipe
+        A recipe file (TOML), its options as a dict, what ``layout.manifest["recipe"]`` holds, or
+        a session's file (.packwork), from which the run goes on.
+    allow_code
+        Run code that a recipe file names, as losses ``module:function``: only if you trust
+        whoever wrote both.
+    options
+        In place of the recipe's.
 
     Raises
     ------
     ReadError
-        If a file that is named cannot be used, or nothing usable is found.
-
-    Examples
-    --------
-    >>> [item.name for item in read_items(["circle", "star"])]
-    ['circle', 'star']
-    >>> import shapely
-    >>> lake = {"type": "Feature", "properties": {"lake": "Como", "km2": 146}}
-    >>> (item,) = read_items(
-    ...     {**lake, "geometry": shapely.box(0, 0, 4, 1)}, name_by="lake", weight_by="km2"
-    ... )
-    >>> item.name, item.weight, item.outline.bounds
-    ('Como', 146.0, (-2.0, -0.5, 2.0, 0.5))
-    """
-    asked = {"keep_page": keep_page, "alpha_threshold": alpha_threshold}
-    how = validated(ReadingOptions, asked).read_options
-    with handed_over(y_up, Columns(name_by, weight_by)) as handed:
-        named = handed.names_of(sources, "sources")
-        return list(item_reader.read_items(named, holes=holes, strict=strict, reading=how).items)
-
-
-def read_container(
-    source: Value,
-    *,
-    canvas: str | float | None = None,
-    font: str | Path | None = None,
-    y_up: bool | None = None,
-    trim: bool | None = None,
-    close_gaps: str = "auto",
-    alpha_threshold: float = 0.5,
-) -> Container:
-    """Container from a mask, an SVG, ``text:WORD``, a built-in name or a value in memory.
-
-    ``source`` is what :func:`fill` takes as ``container``; what both take means the same.
-
-    Parameters
-    ----------
-    canvas
-        Its longer side (``600``, ``"200mm"``, ``"8in"``) or a sheet (``"200x150mm"``,
-        ``"A4"``). None: an SVG in mm, cm, in or pt keeps its size, any other is 600 px.
-    font
-        Font file or installed family for ``text:WORD``; the bundled one if None.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be used.
+        If a file cannot be used.
     RecipeError
-        If the canvas has no meaning.
+        If an option has no meaning.
 
     Examples
     --------
-    >>> read_container("circle").width
-    600.0
-    >>> import shapely
-    >>> tile = read_container(shapely.box(7.1, 46.2, 7.5, 46.4), canvas="200mm", y_up=True)
-    >>> round(tile.width), round(tile.height), tile.unit
-    (200, 100, 'mm')
+    >>> asked = {"container": "circle", "items": ["star"], "epochs": 25, "levels": "50"}
+    >>> layout = run(asked, count=3)
+    >>> len(layout), run(layout.manifest["recipe"]).metrics == layout.metrics
+    (3, True)
     """
-    asked = {"trim": trim, "close_gaps": close_gaps, "alpha_threshold": alpha_threshold}
-    how = validated(ReadingOptions, asked).read_options
-    with handed_over(y_up) as handed:
-        name = handed.name_of(source, "container")
-        return _read_container(name, canvas, font, reading=how)
+    with handed_over() as handed, contextlib.ExitStack() as stack:
+        if not isinstance(recipe, Mapping | str | os.PathLike):
+            raise RecipeError(
+                "recipe", f"is {type(recipe).__name__}; give a recipe file, or options as a dict"
+            )
+        if isinstance(recipe, Mapping):
+            plain = with_names(_without_none(recipe), handed)
+        elif is_session(recipe):
+            from packwork.live.file.recipe import recipe_of_session
+
+            plain = read_recipe(stack.enter_context(recipe_of_session(recipe)))
+        else:
+            plain = read_recipe(recipe, allow_code=allow_code)
+        asked = make_recipe(**overridden(plain, with_names(options, handed)))
+        return run_recipe(asked, asked.container, observer, stop, progress, record, history)
+
+
+def _without_none(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options that are set, in tables too: a manifest lists all."""
+    return {
+        key: _without_none(value) if isinstance(value, Mapping) else value
+        for key, value in options.items()
+        if value is not None
+    }
+
+
+def _run(
+    container: Value,
+    options: Mapping[str, Any],
+    recipe_of: Callable[[str, Handed, dict[str, Any]], Recipe],
+) -> Layout:
+    """Run the recipe that a verb makes of its container's name, values in memory, and options."""
+    asked = dict(options)
+    run = {name: asked.pop(name) for name in RunKeywords.__annotations__ if name in asked}
+    with handed_over(run.pop("y_up", None)) as handed:
+        name = handed.name_of(container, "container")
+        recipe = recipe_of(name, handed, with_names(asked, handed))
+        return run_recipe(recipe, container, **run)
 
 
 def run_recipe(
     recipe: Recipe,
     container: Value,
-    observer: Listener | None,
-    stop: Stop,
-    progress: bool | None,
-    record: bool,
+    observer: Listener | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
     history: bool | int = False,
 ) -> Layout:
     """Run a recipe, with a bar if one is to be shown; a container that was given is used as is."""

@@ -29,24 +29,9 @@ def photos_recipe(
     >>> recipe.photos.sources, recipe.photos.border_share, recipe.rotate
     (('holidays/',), 0.04, '15')
     """
-    return make_recipe(container=container, items=list(add), **photo_choices(sources, **options))
-
-
-def photo_choices(sources: object, **options: Any) -> dict[str, Any]:
-    """The same as options of a recipe, those of photos apart; what is None is not asked.
-
-    Raises
-    ------
-    RecipeError
-        Naming the option, what was met and what would do.
-
-    Examples
-    --------
-    >>> sorted(photo_choices("holidays/", border="4%", seed=1, count=None))
-    ['photos', 'rotate', 'seed']
-    """
     said = with_defaults(Verbs.PHOTOS, options)
     own = {key: said.pop(key) for key in list(said) if key in PhotoOptions.model_fields}
     values = {"sources": sources, **own}
     check_names({"photos": values})
-    return {**said, "photos": validated(PhotoOptions, values)}
+    photos = validated(PhotoOptions, values)
+    return make_recipe(container=container, items=list(add), **said, photos=photos)
