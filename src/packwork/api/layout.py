@@ -191,9 +191,8 @@ class Layout(scene.Layout):
         if isinstance(path, str | Path):
             if format is None and is_session(path):
                 if options:
-                    names = ", ".join(options)
-                    line = f"{path}: a session's file is no drawing; leave out {names}"
-                    raise RecipeError("path", line)
+                    line = f"{path}: a session's file is no drawing; leave out "
+                    raise RecipeError("path", line + ", ".join(options))
                 self.edit().save(path)
             elif format is None:
                 writers.write(self, path, _drawing(options))
@@ -223,14 +222,7 @@ class Layout(scene.Layout):
 
     @of_model(DrawingOptions)
     def to_png(self, **options: Unpack[SaveKeywords]) -> bytes:
-        r"""Content of the PNG that :meth:`save` writes.
-
-        Examples
-        --------
-        >>> from packwork import fill
-        >>> fill("circle", "star", effort="draft", levels="50").to_png(pixels=64)[:4]
-        b'\x89PNG'
-        """
+        """Content of the PNG that :meth:`save` writes: :meth:`to_svg`, in ``pixels``."""
         return self._encoded("png", options)
 
     def to_geojson(self) -> dict[str, Any]:

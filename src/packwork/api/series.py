@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Unpack
@@ -24,7 +24,7 @@ from packwork.readers.words.options import check_weight
 from packwork.readers.words.table import read_word_steps, steps_of_rows
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
-from packwork.timeline.step import chart_steps, step_files, word_steps
+from packwork.timeline.step import SeriesStep, chart_steps, step_files, word_steps
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -139,14 +139,9 @@ def series(
     [1.5, 1.5]
     """
     weights = _weights(table, by)
-    with handed_over(None) as handed:
-        said = with_names(dict(options), handed)
-        steps = word_steps(handed.name_of(container, "container"), weights, **said)
-        with threads.using(steps[0].job.recipe.threads):
-            warm_up_once()
-        found = solved(steps, stop=stop)
-    layouts = tuple(public(run.layout) for run in found.runs)
-    return Series(by, tuple(weights), layouts, found)
+    return _run_series(
+        container, by, lambda name, asked: word_steps(name, weights, **asked), stop, options
+    )
 
 
 def chart_series(
@@ -188,9 +183,26 @@ def chart_series(
     >>> made, made.labels
     (<Series: 2 steps, 2 certified>, ('1', '2'))
     """
-    with handed_over(None) as handed:
-        said = with_names(dict(options), handed)
-        steps = chart_steps(handed.name_of(container, "container"), data, column, **said)
+    return _run_series(
+        container,
+        column,
+        lambda name, asked: chart_steps(name, data, column, **asked),
+        stop,
+        options,
+    )
+
+
+def _run_series(
+    container: Value,
+    column: str,
+    steps_of: Callable[[str, dict[str, Any]], Sequence[SeriesStep]],
+    stop: Stop,
+    options: Mapping[str, Any],
+) -> Series:
+    """Run the steps that are made of a container's name and options."""
+    with handed_over() as handed:
+        asked = with_names(options, handed)
+        steps = steps_of(handed.name_of(container, "container"), asked)
         with threads.using(steps[0].job.recipe.threads):
             warm_up_once()
         found = solved(steps, stop=stop)

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from packwork import precompile, threads
+from packwork.batches.pool import LOOK_SECONDS
 from packwork.batches.task import Drawn, RowOutcome, Task, draw, failed, make, write
 from packwork.display.extras import import_extra
 from packwork.errors import PackworkError
@@ -34,14 +35,9 @@ AHEAD = 2
 """Tasks for each thread of a worker that are there at a time. Fewer leave workers waiting, more are
 held by the scheduler for nothing. Chosen."""
 
-LOOK_SECONDS = 0.2
-"""Between two looks at whether to stop, and at how many workers there are. Chosen."""
-
 LOST_SECONDS = 10.0
-"""For which a scheduler may not be heard of before it counts as lost. Chosen."""
-
-CONNECT_SECONDS = 10.0
-"""For which a scheduler is waited for at first. Chosen."""
+"""For which a scheduler is waited for at first, and may not be heard of before it counts as lost.
+Chosen."""
 
 MOST_CARRIED = 256_000_000
 """Bytes of files that go with one task. Chosen."""
@@ -96,7 +92,7 @@ def _connected(address: str) -> Any:
         "distributed", "leave --scheduler out (or pip install packwork[cluster])"
     )
     try:
-        client = distributed.Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+        client = distributed.Client(address, timeout=LOST_SECONDS, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
         why = " ".join(str(error).split())[:200] or type(error).__name__
         raise PackworkError(f"there is no scheduler at {address[:80]}: {why}") from None

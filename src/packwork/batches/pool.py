@@ -27,7 +27,7 @@ AHEAD = 3
 and tried again when a worker dies; fewer leave workers waiting. Chosen."""
 
 LOOK_SECONDS = 0.2
-"""Between two looks at whether to stop. Chosen."""
+"""Between two looks at whether to stop, and at how many workers a cluster has. Chosen."""
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")

@@ -17,9 +17,6 @@ from packwork.pipeline import Run
 from packwork.progress import NOBODY, Stop, never
 from packwork.recipe import Recipe, make_recipe
 
-MOST = 10_000
-"""Runs of which the best is kept, at most. Chosen."""
-
 COVERAGE, EVENNESS = "coverage", "evenness"
 
 _MEANT = {COVERAGE: "exact_LC", EVENNESS: "-LnU"}

@@ -12,13 +12,13 @@ from PIL import Image, ImageDraw, ImageFont
 
 from packwork.errors import RecipeError
 from packwork.fonts import bundled_file
-from packwork.raster.drawing import drawn_png
+from packwork.raster.drawing import drawn_png, encoded_picture
 
 THUMB_PX = 240
 """Longer side of a small picture. Larger takes more room, smaller shows less. Chosen."""
 
-GAP_PX = 16
-"""Between pictures, and round all. Chosen."""
+GAP_PX = THUMB_PX // 15
+"""Between pictures, and round all."""
 
 CAPTION_PX, MOST_LETTERS, CAPTION = 18, 24, "#4a5568"
 """Height of what stands under pictures, its letters at most, its colour. Chosen by eye."""
@@ -67,9 +67,7 @@ def sheet_bytes(pictures: Sequence[Path | bytes], captions: Sequence[str] = ()) 
             middle = GAP_PX + k % across * wide + (wide - GAP_PX) // 2
             bottom = GAP_PX + k // across * high + room
             _write(sheet, captions[k], (middle, bottom))
-    stream = io.BytesIO()
-    sheet.save(stream, "PNG")
-    return stream.getvalue()
+    return encoded_picture(sheet, "PNG")
 
 
 def _write(sheet: Image.Image, text: str, place: tuple[int, int]) -> None:

@@ -13,7 +13,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
-from packwork.cli.terminal import printable, say
+from packwork.cli.terminal import MOST_LINES, printable, say
 from packwork.errors import RecipeError, WriteError
 from packwork.phrasing import enumerated, number_of
 
@@ -30,9 +30,6 @@ _STATUS_WORDS: Mapping[Status, str] = {
     "stopped": "not made",
 }  # fmt: skip
 """What is said of rows by their status."""
-
-MOST_NOTICES = 5
-"""Different notices that are told. Chosen."""
 
 
 @shared.by_name
@@ -94,14 +91,7 @@ def batch(
     index: Annotated[
         Path | None, typer.Option("--index", help="Page of all rows to look through (HTML).")
     ] = None,
-    allow_code: Annotated[
-        bool,
-        typer.Option(
-            "--allow-code",
-            help="Run code that the recipe names, as losses MODULE:FUNCTION: only if you trust "
-            "whoever wrote both.",
-        ),
-    ] = False,
+    allow_code: shared.AllowCode = False,
     *,
     pixels: int,
     dpi: float | None,
@@ -277,10 +267,10 @@ def _say_what_would_be(plan: BatchPlan, now: BatchProgress, quiet: bool) -> None
 def _say_what_came(found: Sequence[RowOutcome], written: Sequence[Path], quiet: bool) -> None:
     """Tell what has become of the rows, and name those that are not as asked."""
     notices = Counter(notice for one in found for notice in one.notices)
-    for notice, times in notices.most_common(MOST_NOTICES):
+    for notice, times in notices.most_common(MOST_LINES):
         say(f"{number_of(times, 'row')}: {notice}")
-    if len(notices) > MOST_NOTICES:
-        say(f"and {len(notices) - MOST_NOTICES} notices more")
+    if len(notices) > MOST_LINES:
+        say(f"and {len(notices) - MOST_LINES} notices more")
     _name_bad([one for one in found if one.status in {"failed", "short"}])
     if not quiet:
         counts = Counter(one.status for one in found)

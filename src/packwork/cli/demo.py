@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from io import BytesIO
 from pathlib import Path
 from typing import Annotated
 
@@ -149,6 +148,8 @@ def beside_each_other(pictures: Sequence[Path]) -> bytes:
     """PNG of pictures in a row, all of one height."""
     from PIL import Image
 
+    from packwork.raster.drawing import encoded_picture
+
     row = []
     for path in pictures:
         with Image.open(path) as drawn:
@@ -160,6 +161,4 @@ def beside_each_other(pictures: Sequence[Path]) -> bytes:
     for picture in row:
         sheet.paste(picture, (left, SPACE_PX))
         left += picture.width + SPACE_PX
-    written = BytesIO()
-    sheet.save(written, "PNG", optimize=True)
-    return written.getvalue()
+    return encoded_picture(sheet, "PNG", optimize=True)

@@ -20,6 +20,15 @@ from packwork.writers.film.options import FilmOptions
 
 Command = Callable[..., None]
 
+AllowCode = Annotated[
+    bool,
+    typer.Option(
+        "--allow-code",
+        help="Run code that the recipe names, as losses MODULE:FUNCTION: only if you trust "
+        "whoever wrote both.",
+    ),
+]
+
 FILES: tuple[type[Options], ...] = (
     LayoutFiles,
     Serial,

@@ -19,16 +19,13 @@ from packwork.cli.files import Choosing
 from packwork.cli.outputs import Outputs, check_room, outputs_asked, saving, with_room
 from packwork.cli.show import Paper, printing, show_results
 from packwork.cli.start_up import START_UP
-from packwork.cli.terminal import NOTICES, joined, printable, say
+from packwork.cli.terminal import MOST_LINES, NOTICES, joined, printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.progress import NOBODY
 from packwork.readers.layouts.read import is_session
 from packwork.recipe import Recipe
 from packwork.scene.layout import Layout
-
-MOST_NAMED = 5
-"""Lines about items without a place on the terminal; a report names all. Chosen."""
 
 DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
 """Endings of files that people look at."""
@@ -219,9 +216,9 @@ def _hard_to_see(run: pipeline.Run, outputs: Outputs) -> list[str]:
 
 def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
     lines = joined([(f"{u.item} (item {u.index + 1})", u.reason) for u in run.unplaced], "items")
-    for line in lines[:MOST_NAMED]:
+    for line in lines[:MOST_LINES]:
         say(f"not placed: {line}")
-    if len(lines) < len(run.unplaced) or len(lines) > MOST_NAMED:
+    if len(lines) < len(run.unplaced) or len(lines) > MOST_LINES:
         say(f"not placed: {len(run.unplaced)} items in all; --report names them")
     for sentence in run.complaints(was_cut_short):
         say(sentence)

@@ -77,11 +77,12 @@ def _plain(error: UnicodeError) -> tuple[str, int]:
     return "".join(PLAIN.get(letter, "?") for letter in lacking), error.end
 
 
-FEW = 2
-"""Notices of one kind up to which each has its own line. Chosen."""
-
 MOST_NAMED = 3
-"""Names in a line that stands for more. Chosen."""
+"""Names in a line that stands for several notices; fewer have a line each. Chosen."""
+
+MOST_LINES = 5
+"""Lines about items without a place, or different notices, on the terminal; a report names all.
+Chosen."""
 
 LEFT_OUT = "left out"
 """How a notice begins that says that a file was not used."""
@@ -134,7 +135,7 @@ def joined(notices: Sequence[tuple[str, str]], things: str = "files") -> list[st
     lines: list[str] = []
     for several in kinds.values():
         names = list(dict.fromkeys(name for name, _ in several if name))
-        if len(names) <= FEW:
+        if len(names) < MOST_NAMED:
             lines += dict.fromkeys(_line(*one) for one in several)
             continue
         text = several[0][1]

@@ -243,14 +243,7 @@ def run(
             help="Options as a file, count = 100 a line; or a session (.packwork), to go on from.",
         ),
     ],
-    allow_code: Annotated[
-        bool,
-        typer.Option(
-            "--allow-code",
-            help="Run code that the recipe names, as losses MODULE:FUNCTION: only if you trust "
-            "whoever wrote both.",
-        ),
-    ] = False,
+    allow_code: shared.AllowCode = False,
     **asked: Any,
 ) -> None:
     """Run a recipe file: the options of [bold]fill[/], kept.

@@ -6,14 +6,18 @@ is drawn by a process of its own, which can be waited for, and ended.
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import subprocess
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from packwork.fonts import FontChoice, fonts_of, with_stand_ins
 from packwork.offspring import END_WITH_PARENT
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 _DPI = 96
 _LONGEST_REASON = 160
@@ -37,6 +41,13 @@ except BaseException as error:
 else:
     sys.stdout.buffer.write(b"=" + bytes(picture))
 """
+
+
+def encoded_picture(picture: Image.Image, kind: str, **settings: Any) -> bytes:
+    """File of a picture, as Pillow writes that kind."""
+    file = io.BytesIO()
+    picture.save(file, kind, **settings)
+    return file.getvalue()
 
 
 def drawn_png(document: str) -> bytes:

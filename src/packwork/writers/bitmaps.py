@@ -10,7 +10,7 @@ from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Any
 
 from packwork.errors import RecipeError, WriteError
-from packwork.raster.drawing import drawn_png
+from packwork.raster.drawing import drawn_png, encoded_picture
 from packwork.scene.layout import Layout
 from packwork.writers.frame import dots_per_inch, picture_frame
 from packwork.writers.svg import SvgOptions, sheet_of, svg_document
@@ -59,7 +59,7 @@ def _with_density(png: bytes, dpi: float | None) -> bytes:
 
 
 JPEG_QUALITY = 95
-"""Of 95 at most. Smaller shows its blocks round edges of plain colour. Chosen."""
+"""The most that makes a difference. Smaller shows its blocks round edges of plain colour."""
 
 MOST_WEBP_PX = 16_383
 """Longer side of a WebP at most. Derived: its header has 14 bits."""
@@ -82,13 +82,15 @@ def jpeg_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None =
     paper = Image.new("RGB", picture.size, "white")
     paper.paste(picture, mask=picture.getchannel("A"))
     known = _density(layout, longer_side_px)
-    return _saved(paper, "JPEG", quality=JPEG_QUALITY, **known)
+    return encoded_picture(paper, "JPEG", quality=JPEG_QUALITY, **known)
 
 
 def webp_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
     """WebP file of a layout, without loss."""
     check_webp_side(longer_side_px)
-    return _saved(_drawn(layout, longer_side_px, options), "WEBP", lossless=True, quality=80)
+    return encoded_picture(
+        _drawn(layout, longer_side_px, options), "WEBP", lossless=True, quality=80
+    )
 
 
 def check_webp_side(longer_side_px: int) -> None:
@@ -128,9 +130,3 @@ def _drawn(layout: Layout, longer_side_px: int, options: SvgOptions | None) -> I
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         with Image.open(BytesIO(drawn)) as picture:
             return picture.convert("RGBA")
-
-
-def _saved(picture: Image.Image, kind: str, **settings: Any) -> bytes:
-    file = BytesIO()
-    picture.save(file, kind, **settings)
-    return file.getvalue()

@@ -6,7 +6,6 @@ white: the colours of Wang and Lu 2025.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
@@ -15,6 +14,7 @@ import numpy.typing as npt
 from PIL import Image
 
 from packwork.geometry.outline import Outline, joined
+from packwork.raster.drawing import encoded_picture
 from packwork.raster.membership import centre_count
 from packwork.scene.layout import Layout
 from packwork.writers.frame import PictureFrame, picture_frame
@@ -44,9 +44,7 @@ def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
     for top in range(0, frame.rows, _BAND_ROWS):
         bottom = min(top + _BAND_ROWS, frame.rows)
         picture[top:bottom] = _averaged(PALETTE, _classes(layout, frame, top, bottom))
-    target = io.BytesIO()
-    Image.fromarray(picture).save(target, format="PNG")
-    return target.getvalue()
+    return encoded_picture(Image.fromarray(picture), "PNG")
 
 
 def _classes(layout: Layout, frame: PictureFrame, top: int, bottom: int) -> _Pixels:

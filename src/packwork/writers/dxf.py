@@ -25,6 +25,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.notation import decimals, sound_text
 from packwork.units import convert
 from packwork.writers.cutting import CutOptions, cut_rings
+from packwork.writers.geojson import PRECISION
 from packwork.writers.promise import promised, stated_weights
 from packwork.writers.svg import NAME_LENGTH
 
@@ -45,9 +46,6 @@ ITEMS = {"items": 9}
 ROOM = {"room": 9}
 """Name and colour number (light grey) of the layer of what items may lie in, which is switched off,
 where the container has openings: on the layer ``container`` are then its walls, open lines."""
-
-PRECISION = 1e-9
-"""Last digit of a coordinate, as a share of the canvas's longer side. As in GeoJSON."""
 
 APPLICATION = "PACKWORK"
 """Name under which extended data are kept."""

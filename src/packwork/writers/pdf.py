@@ -21,11 +21,11 @@ from packwork.scene.layout import Layout
 from packwork.scene.notation import number, sound_text
 from packwork.units import convert, parse_length
 from packwork.writers.cutting import HAIRLINE_PT, SPOT, cut_rings
-from packwork.writers.pictures import pictured
+from packwork.writers.pictures import DPI, pictured
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
-PICTURE_DPI = 600
-"""Pixels to the inch of a drawing that becomes a picture. More: larger files. Chosen."""
+PICTURE_DPI = 2 * DPI
+"""Pixels to the inch of a drawing that becomes a picture: letters want more than photos."""
 
 _PAGE = """\
 #set document(title: sys.inputs.title, date: none)

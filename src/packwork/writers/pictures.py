@@ -13,10 +13,11 @@ from packwork.scene.item import Art, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.notation import decimals
 from packwork.units import convert
+from packwork.writers.film.options import MAX_SIDE_PX
 from packwork.writers.svg_symbols import element, paint
 
-MAX_PICTURE_PX = 4_096
-"""Longer side of such a picture at most. Chosen."""
+MAX_PICTURE_PX = MAX_SIDE_PX
+"""Longer side of a drawing's picture at most: that of a film."""
 
 _MARGIN_PX = 2
 """Free edge of such a picture: soft edges reach a pixel beyond the ink."""

@@ -14,6 +14,7 @@ import numpy as np
 from PIL import Image, UnidentifiedImageError
 
 from packwork.arrays import FloatArray
+from packwork.raster.drawing import encoded_picture
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
 from packwork.scene.contrast import LUMINANCE, channels_of, light_of, oklab, oklabs, shade
 from packwork.scene.item import Art, Item, PictureArt, VectorArt
@@ -210,9 +211,7 @@ def _picture(png: bytes, repaint: Repaint) -> bytes:
     known, which = np.unique(keys, return_inverse=True)
     middles = (np.stack([known // 256, known // 16 % 16, known % 16], axis=1) * 17) / 255
     pixels[..., :3] = np.rint(255 * repaint(middles))[which.reshape(keys.shape)]
-    out = io.BytesIO()
-    Image.fromarray(pixels).save(out, "PNG")
-    return out.getvalue()
+    return encoded_picture(Image.fromarray(pixels), "PNG")
 
 
 def _apart(light: FloatArray, own: float) -> FloatArray:

@@ -50,15 +50,15 @@ path and the place, 2.4 half steps in all. Derived."""
 NAME_LENGTH = 80
 """Characters of a name that are kept: it is repeated on every copy. Chosen."""
 
-HALO_SHARE = 0.004
-"""How far a halo reaches beyond its item, as a share of the canvas. Larger ones run into each
-other, smaller ones are lost on busy ground. Chosen by eye."""
-
 CONTAINER_STROKE = "#1a202c"
 """Colour of the container's drawn line. Chosen by eye."""
 
 CONTAINER_STROKE_SHARE = 1 / 500
 """Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
+
+HALO_SHARE = 2 * CONTAINER_STROKE_SHARE
+"""How far a halo reaches beyond its item, as a share of the canvas. Larger ones run into each
+other, smaller ones are lost on busy ground."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,9 +10,10 @@ from collections.abc import Iterator
 import numpy as np
 from PIL import Image
 
+from packwork.raster.drawing import encoded_picture
 from packwork.raster.overlay import Picture
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
-from packwork.writers.film.projector import Projector, Rectangle, changed_part
+from packwork.writers.film.projector import Projector, Rectangle, changes
 
 COMPRESSION = 4
 """Of zlib, 1 to 9. More: a twentieth smaller, twice the time. Tried."""
@@ -33,7 +34,11 @@ def apng_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     out.write(_chunk(b"acTL", struct.pack(">II", options.frames, 0 if options.loop else 1)))
     shown = delays(options, _MILLISECONDS)
     number = 0
-    for k, (part, pixels) in enumerate(_parts(projector.pictures(tell), film.is_opaque)):
+    for k, (picture, changed, part) in enumerate(changes(projector.pictures(tell))):
+        pixels = picture[part.rows, part.columns]
+        if film.is_opaque:
+            # Clear where nothing changed.
+            pixels = np.where(changed[part.rows, part.columns, None], pixels, np.uint8(0))
         blend = _OVER if film.is_opaque and k else _SOURCE
         out.write(_chunk(b"fcTL", struct.pack(">I", number) + _control(part, shown[k], blend)))
         number += 1
@@ -47,22 +52,6 @@ def apng_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     return out.getvalue()
 
 
-def _parts(frames: Iterator[Picture], is_opaque: bool) -> Iterator[tuple[Rectangle, Picture]]:
-    """Of each frame what is to be drawn over the one before, clear where nothing changed."""
-    before: Picture | None = None
-    for picture in frames:
-        if before is None:
-            part, pixels = Rectangle(0, 0, *picture.shape[:2]), picture
-        else:
-            changed = (picture != before).any(axis=2)
-            part = changed_part(changed)
-            pixels = picture[part.rows, part.columns]
-            if is_opaque:
-                pixels = np.where(changed[part.rows, part.columns, None], pixels, np.uint8(0))
-        before = picture
-        yield part, pixels
-
-
 def _control(part: Rectangle, delay: int, blend: int) -> bytes:
     size = part.right - part.left, part.bottom - part.top
     times = struct.pack(">HH", min(delay, 65_535), _MILLISECONDS)
@@ -71,11 +60,9 @@ def _control(part: Rectangle, delay: int, blend: int) -> bytes:
 
 def _compressed(pixels: Picture) -> Iterator[bytes]:
     """Data of the chunks in which Pillow puts a picture."""
-    target = io.BytesIO()
-    Image.fromarray(np.ascontiguousarray(pixels), "RGBA").save(
-        target, format="PNG", compress_level=COMPRESSION
-    )
-    png, place = target.getvalue(), len(_SIGNATURE)
+    drawn = Image.fromarray(np.ascontiguousarray(pixels), "RGBA")
+    png = encoded_picture(drawn, "PNG", compress_level=COMPRESSION)
+    place = len(_SIGNATURE)
     while place < len(png):
         (length,) = struct.unpack(">I", png[place : place + 4])
         if png[place + 4 : place + 8] == b"IDAT":

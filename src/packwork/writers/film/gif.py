@@ -9,15 +9,16 @@ from __future__ import annotations
 import io
 import logging
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from packwork.raster.drawing import encoded_picture
 from packwork.raster.overlay import Picture
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
-from packwork.writers.film.projector import Projector, Rectangle, changed_part
+from packwork.writers.film.projector import Projector, Rectangle, changes
 
 MAX_FPS = 50.0
 """GIF counts hundredths of a second, and browsers slow down what is shorter than two."""
@@ -52,9 +53,13 @@ def gif_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     out = io.BytesIO()
     out.write(_head(frame.columns, frame.rows, palette, options.loop))
     indexed = (_indices(picture, lookup) for picture in projector.pictures(tell))
-    for delay, (part, pixels) in zip(
-        delays(options, _HUNDREDTHS), _parts(indexed, film.is_opaque), strict=True
-    ):
+    shown = delays(options, _HUNDREDTHS)
+    for delay, (pixels, changed, part) in zip(shown, changes(indexed), strict=True):
+        if film.is_opaque:
+            pixels = np.where(changed, pixels, CLEAR)[part.rows, part.columns].astype(np.uint8)
+        else:
+            # What was shown is cleared before.
+            part = Rectangle(0, 0, *pixels.shape)
         out.write(_control(delay, disposal=1 if film.is_opaque else 2))
         out.write(_image(part, pixels))
     out.write(b";")
@@ -112,20 +117,6 @@ def _indices(picture: Picture, lookup: _Indices) -> _Indices:
     return indices
 
 
-def _parts(frames: Iterator[_Indices], is_opaque: bool) -> Iterator[tuple[Rectangle, _Indices]]:
-    """Of each frame what is to be drawn over the one before; all where that is cleared."""
-    before: _Indices | None = None
-    for indices in frames:
-        if before is None or not is_opaque:
-            part, pixels = Rectangle(0, 0, *indices.shape), indices
-        else:
-            changed = indices != before
-            part = changed_part(changed)
-            pixels = np.where(changed, indices, CLEAR)[part.rows, part.columns].astype(np.uint8)
-        before = indices
-        yield part, pixels
-
-
 def _head(width: int, height: int, palette: npt.NDArray[np.uint8], loop: bool) -> bytes:
     table = np.zeros((256, 3), np.uint8)
     table[:COLOURS] = palette
@@ -147,9 +138,7 @@ def _compressed(pixels: _Indices) -> bytes:
     """Smallest code and the blocks after it, cut out of a GIF that Pillow writes."""
     picture = Image.fromarray(pixels, "P")
     picture.putpalette(_GREYS)
-    target = io.BytesIO()
-    picture.save(target, format="GIF", optimize=False, interlace=0)
-    return _image_data(target.getvalue())
+    return _image_data(encoded_picture(picture, "GIF", optimize=False, interlace=0))
 
 
 _GREYS: Sequence[int] = [level for level in range(256) for _ in range(3)]

@@ -31,7 +31,7 @@ from packwork.writers.svg_symbols import shape_key
 Json = dict[str, Any]
 
 VERSION = "5.7.0"
-"""Of the format as players name it: all of what is used here is older. Chosen."""
+"""Of the format as players name it: all of what is used here is older."""
 
 _SOLID, _IMAGE, _SHAPE = 1, 2, 4
 _EVEN_ODD = 2

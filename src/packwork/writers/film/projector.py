@@ -5,12 +5,13 @@ from __future__ import annotations
 import io
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from packwork.arrays import FloatArray
+from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import PackworkError, WriteError
 from packwork.geometry import affine
 from packwork.raster.drawing import drawn_png
@@ -23,6 +24,9 @@ from packwork.writers.frame import PictureFrame, picture_frame
 from packwork.writers.pictures import pictured
 from packwork.writers.svg import sheet_of, svg_document
 from packwork.writers.svg_symbols import paint, shape_key
+
+Frame: TypeAlias = npt.NDArray[np.uint8]
+"""``(rows, columns)`` or ``(rows, columns, channels)``."""
 
 _SMALLEST_PX = 1.0
 """Longer side of a drawing that is shown smaller than that, when it is rendered."""
@@ -138,3 +142,19 @@ def changed_part(changed: npt.NDArray[np.bool_]) -> Rectangle:
     if len(rows) == 0:
         return Rectangle(0, 0, 1, 1)
     return Rectangle(int(rows[0]), int(columns[0]), int(rows[-1]) + 1, int(columns[-1]) + 1)
+
+
+def changes(frames: Iterator[Frame]) -> Iterator[tuple[Frame, BoolArray, Rectangle]]:
+    """Frames, pixels in which each differs from the one before, and the least rectangle of these.
+
+    All of the first are changed.
+    """
+    before: Frame | None = None
+    for frame in frames:
+        if before is None:
+            changed = np.ones(frame.shape[:2], dtype=bool)
+        else:
+            changed = frame != before
+            changed = changed.any(axis=2) if changed.ndim == 3 else changed
+        before = frame
+        yield frame, changed, changed_part(changed)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import io
 import struct
-from collections.abc import Iterator
 
 import numpy as np
 from PIL import Image
 
+from packwork.raster.drawing import encoded_picture
 from packwork.raster.overlay import Picture
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
-from packwork.writers.film.projector import Projector, Rectangle, changed_part
+from packwork.writers.film.projector import Projector, Rectangle, changes
 
 QUALITY = 85
 """Of WebP, 0 to 100. Larger: larger files; smaller: rings about edges. Chosen by eye."""
@@ -37,22 +36,14 @@ def webp_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
         _chunk(b"VP8X", bytes([flags, 0, 0, 0]) + size),
         _chunk(b"ANIM", bytes(4) + struct.pack("<H", 0 if options.loop else 1)),
     ]
-    for delay, (part, pixels) in zip(shown, _parts(projector.pictures(tell)), strict=True):
+    frames = changes(projector.pictures(tell))
+    for delay, (picture, _, changed) in zip(shown, frames, strict=True):
+        # Rectangles begin at even places.
+        part = Rectangle(changed.top & ~1, changed.left & ~1, changed.bottom, changed.right)
+        pixels = picture[part.rows, part.columns]
         chunks.append(_chunk(b"ANMF", _frame(part, pixels, delay, film.is_opaque)))
     body = b"WEBP" + b"".join(chunks)
     return b"RIFF" + struct.pack("<I", len(body)) + body
-
-
-def _parts(frames: Iterator[Picture]) -> Iterator[tuple[Rectangle, Picture]]:
-    """Of each frame the rectangle that changed, from even coordinates on."""
-    before: Picture | None = None
-    for picture in frames:
-        part = Rectangle(0, 0, *picture.shape[:2])
-        if before is not None:
-            found = changed_part((picture != before).any(axis=2))
-            part = Rectangle(found.top & ~1, found.left & ~1, found.bottom, found.right)
-        before = picture
-        yield part, picture[part.rows, part.columns]
 
 
 def _frame(part: Rectangle, pixels: Picture, delay: int, is_opaque: bool) -> bytes:
@@ -65,9 +56,8 @@ def _frame(part: Rectangle, pixels: Picture, delay: int, is_opaque: bool) -> byt
 def _compressed(pixels: Picture, is_opaque: bool) -> bytes:
     """Chunks of the picture itself, out of the file that Pillow makes of it."""
     seen = Image.fromarray(np.ascontiguousarray(pixels[:, :, :3] if is_opaque else pixels))
-    target = io.BytesIO()
-    seen.save(target, format="WEBP", quality=QUALITY, method=METHOD)
-    webp, place, found = target.getvalue(), 12, []
+    webp = encoded_picture(seen, "WEBP", quality=QUALITY, method=METHOD)
+    place, found = 12, []
     while place < len(webp):
         (length,) = struct.unpack("<I", webp[place + 4 : place + 8])
         after = place + 8 + length + length % 2
