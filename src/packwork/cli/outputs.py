@@ -62,6 +62,12 @@ class Outputs:
 
     def check(self) -> None:
         """Refuse, before anything is run, paths that cannot be written or that collide."""
+        self.check_paths()
+        check_choosing(self.choosing)
+        check_bleed(self.files, self.options.bleed)
+
+    def check_paths(self) -> None:
+        """The same without what is only of one layout."""
         for path in self.files:
             if is_session(path):
                 writers.check_writable(path)
@@ -72,8 +78,6 @@ class Outputs:
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
-        check_choosing(self.choosing)
-        check_bleed(self.files, self.options.bleed)
         if self.keeps_files:
             writers.check_new(self.every)
 

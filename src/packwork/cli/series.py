@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -14,8 +15,7 @@ from packwork import threads, writers
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.files import Choosing
-from packwork.cli.outputs import saving
-from packwork.cli.outputs import told as told_drawing
+from packwork.cli.outputs import Outputs, outputs_asked, saving
 from packwork.cli.running import compile_kernels
 from packwork.cli.terminal import printable, say
 from packwork.display.bar import TerminalBar
@@ -27,15 +27,11 @@ from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import EM_PX
 from packwork.readers.words.table import named_column, read_word_steps
 from packwork.recipe.refusals import validated
-from packwork.recipe.verbs import film_options
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
 from packwork.timeline.step import chart_steps, step_files, word_steps
-from packwork.writers.film.options import FilmOptions
-from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
-    from packwork.scene.layout import Layout
     from packwork.timeline.step import SeriesStep
 
 SECONDS_EACH = 1.5
@@ -59,9 +55,9 @@ def carry_out_words(
     read = read_word_steps(file, column)
     for notice in read.notices:
         say(f"{file}: {notice}")
-    outputs = _Files(asked, "words", column, list(read.weights))
+    outputs = _files(asked, "words", column, list(read.weights))
     steps = word_steps(container, read.weights, background=asked["background"], **said)
-    _carry_out(steps, outputs, asked, "word")
+    _carry_out(steps, *outputs, asked["quiet"], "word")
 
 
 def carry_out_chart(
@@ -70,18 +66,23 @@ def carry_out_chart(
     """Make and write all steps of a chart that a command line asks for, and leave."""
     _check(asked)
     steps = chart_steps(container, data, asked["series"], background=asked["background"], **said)
-    outputs = _Files(asked, "chart", asked["series"], [step.label for step in steps])
-    _carry_out(steps, outputs, asked, "mark")
+    outputs = _files(asked, "chart", asked["series"], [step.label for step in steps])
+    _carry_out(steps, *outputs, asked["quiet"], "mark")
 
 
 def _carry_out(
-    steps: Sequence[SeriesStep], outputs: _Files, asked: Mapping[str, Any], kind: str
+    steps: Sequence[SeriesStep],
+    outputs: Outputs,
+    files: Sequence[Sequence[Path]],
+    quiet: bool,
+    kind: str,
 ) -> NoReturn:
     """Make and write steps, and leave with the exit code."""
-    outputs.check_read()
-    series = _made(steps, asked["quiet"])
-    written = outputs.written(series)
-    if not asked["quiet"]:
+    for path in outputs.every:
+        check_no_input(path)
+    series = _made(steps, quiet)
+    written = _write(series, outputs, files)
+    if not quiet:
         typer.echo(printable(told(series, kind)))
         typer.echo(printable(f"wrote {number_of(len(written), 'file')}: {_named(written)}"))
     for step, run in zip(series.steps, series.runs, strict=True):
@@ -99,79 +100,44 @@ def _check(asked: Mapping[str, Any]) -> None:
         raise RecipeError("best_of", "is of one layout; leave it out of a series")
 
 
-class _Files:
-    """Output files of a series, checked before it is made; SVGs where none is named."""
+def _files(
+    asked: Mapping[str, Any], verb: str, column: str, labels: Sequence[str]
+) -> tuple[Outputs, list[list[Path]]]:
+    """Outputs of a series, checked before it is made, and those of each step among them."""
+    if asked.get("seconds") is None:
+        asked = {**asked, "seconds": SECONDS_EACH * len(labels)}
+    outputs = outputs_asked(asked, Path(f"{verb}-{{{column}}}.svg"))
+    steps = step_files(list(map(str, outputs.files)), column, labels)
+    outputs = replace(outputs, files=[path for files in steps for path in files])
+    outputs.check_paths()
+    return outputs, steps
 
-    def __init__(
-        self, asked: Mapping[str, Any], verb: str, column: str, labels: Sequence[str]
-    ) -> None:
-        self.films: list[Path] = list(asked["film"] or ())
-        self.sheet: Path | None = asked["contact_sheet"]
-        self.report: Path | None = asked["report"]
-        given = list(map(str, asked["output"] or ()))
-        if not (given or self.films or self._sides):
-            given = [f"{verb}-{{{column}}}.svg"]
-        self.steps = step_files(given, column, labels)
-        for path in self.films:
-            writers.check_film(path)
-        for path in self._sides:
-            writers.check_writable(path)
-        writers.check_outputs(self.every)
-        if asked["no_clobber"]:
-            writers.check_new(self.every)
-        drawing = {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
-        self._drawing = writers.write_options(**drawing)
-        self._asked = drawing
-        filming = {key: asked[key] for key in FilmOptions.model_fields if key in asked}
-        if filming.get("seconds") is None:
-            filming["seconds"] = SECONDS_EACH * len(labels)
-        self._filming = film_options(**filming)
 
-    @property
-    def _sides(self) -> list[Path]:
-        return [path for path in (self.sheet, self.report) if path is not None]
-
-    @property
-    def every(self) -> list[Path]:
-        """All files."""
-        return [*(path for files in self.steps for path in files), *self.films, *self._sides]
-
-    def _told(self, layout: Layout) -> Layout:
-        """The layout, its manifest saying how it is drawn."""
-        return told_drawing(layout, self._drawing.svg.background, self._asked)
-
-    def check_read(self) -> None:
-        """Refuse to write over what was read."""
-        for path in self.every:
-            check_no_input(path)
-
-    def written(self, series: Solved) -> list[Path]:
-        """Write all files; which they are."""
-        pairs: list[tuple[Path, bytes]] = []
-        for files, run in zip(self.steps, series.runs, strict=True):
-            pairs += [
-                (path, writers.encoded(run.layout, path, self._drawing))
-                for path in files
-                if not is_session(path)
-            ]
-        if self.films:
-            svg = self._drawing.svg
-            film = writers.Film(
-                filmed(series), self._filming, svg.background or "white", svg.show_container
-            )
-            pairs += [(path, writers.film_bytes(film, path)) for path in self.films]
-        if self.sheet is not None:
-            small = [writers.png_bytes(run.layout, THUMB_PX) for run in series.runs]
-            pairs.append((self.sheet, sheet_bytes(small, [step.label for step in series.steps])))
-        if self.report is not None:
-            pairs.append((self.report, writers.json_bytes(report(series))))
-        with contextlib.ExitStack() as saved:
-            for files, run in zip(self.steps, series.runs, strict=True):
-                pairs += saved.enter_context(saving(self._told(run.layout), files))
-            writers.write_all(pairs)
-        for run in series.runs:
-            tell_coarse(run.layout, self._drawing.dpi)
-        return [path for path, _ in pairs]
+def _write(series: Solved, outputs: Outputs, steps: Sequence[Sequence[Path]]) -> list[Path]:
+    """Write all files; which they are."""
+    options, sheet = outputs.options, outputs.choosing.contact_sheet
+    pairs = [
+        (path, writers.encoded(run.layout, path, options))
+        for files, run in zip(steps, series.runs, strict=True)
+        for path in files
+        if not is_session(path)
+    ]
+    if outputs.films:
+        background = options.svg.background or "white"
+        film = writers.Film(filmed(series), outputs.filming, background, options.svg.show_container)
+        pairs += [(path, writers.film_bytes(film, path)) for path in outputs.films]
+    if sheet is not None:
+        small = [writers.png_bytes(run.layout, THUMB_PX) for run in series.runs]
+        pairs.append((sheet, sheet_bytes(small, [step.label for step in series.steps])))
+    if outputs.report is not None:
+        pairs.append((outputs.report, writers.json_bytes(report(series))))
+    with contextlib.ExitStack() as saved:
+        for files, run in zip(steps, series.runs, strict=True):
+            pairs += saved.enter_context(saving(outputs.told(run.layout), files))
+        writers.write_all(pairs)
+    for run in series.runs:
+        tell_coarse(run.layout, options.dpi)
+    return [path for path, _ in pairs]
 
 
 def _made(steps: Sequence[SeriesStep], quiet: bool) -> Solved:

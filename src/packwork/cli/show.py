@@ -47,18 +47,23 @@ def show_results(
 ) -> None:
     """Print what came of a run: its measures, its seconds, its certificate, its files."""
     console.print(metrics_table(results["metrics"], unit))
+    seconds = ", ".join(f"{part} {value:.2f} s" for part, value in results["seconds"].items())
     console.print(
-        f"{results['placed']} of {number_of(results['items'], 'item')} placed; "
-        f"{seconds_line(results['seconds'])}",
+        f"{results['placed']} of {number_of(results['items'], 'item')} placed; {seconds}",
         style="dim",
         soft_wrap=True,
     )
-    if results["words"] is not None and results["words"]["found"] > results["words"]["asked"]:
-        console.print(words_line(results["words"]), style="dim")
+    words = results["words"]
+    if words is not None and words["found"] > words["asked"]:
+        line = (
+            f"the {words['asked']:,} largest of {words['found']:,} different words; -n takes more"
+        )
+        console.print(line, style="dim")
     for remark in results["remarks"]:
         console.print(remark, style="dim", soft_wrap=True)
     if results["beside"] is not None:
-        console.print(beside_line(results["beside"]), style="dim")
+        pairs = number_of(results["beside"], "pair of one kind lies", "pairs of one kind lie")
+        console.print(f"{pairs} side by side", style="dim")
     if results["filling"] is not None:
         console.print(filling_line(results["filling"]), style="dim")
     if results["pile"] is not None:
@@ -118,11 +123,6 @@ def certificate_line(
     return "certified: nothing overlaps, nothing sticks out"
 
 
-def seconds_line(seconds: Mapping[str, float]) -> str:
-    """Time per part on one line: ``read 0.10 s, levels 0.25 s, total 0.35 s``."""
-    return ", ".join(f"{part} {value:.2f} s" for part, value in seconds.items())
-
-
 def _percent(share: float | None) -> str:
     if share is None:
         return ""
@@ -145,16 +145,6 @@ def filling_line(filling: Mapping[str, Any]) -> str:
         f"{filling['added']} smaller items fill voids; "
         f"{100 * covered:.2f} % covered{short}: {filling['ending']}"
     )
-
-
-def words_line(words: Mapping[str, int]) -> str:
-    """Number of a source's words that were to be set."""
-    return f"the {words['asked']:,} largest of {words['found']:,} different words; -n takes more"
-
-
-def beside_line(pairs: int) -> str:
-    """Number of pairs of one kind that lie side by side."""
-    return f"{number_of(pairs, 'pair of one kind lies', 'pairs of one kind lie')} side by side"
 
 
 def pile_line(pile: Mapping[str, Any]) -> str:
