@@ -7,7 +7,7 @@ import pytest
 
 from packwork.compaction.objective import FreeSizes, SharedSize
 from packwork.finish.finish import finish
-from packwork.finish.objective import YIELDING, pulling_of
+from packwork.finish.objective import YIELDING, force_term_of
 from packwork.finish.options import FinishOptions
 from packwork.forces.bonds import Alignment
 from packwork.forces.forces import NO_FORCES, BondForce, Forces
@@ -41,11 +41,11 @@ def test_where_sizes_are_common_no_push_outweighs_growing() -> None:
     free = (np.full(2, -np.inf), np.full(2, np.inf))
     sizing = SharedSize(np.full(2, 4.0), free)
     strong = Forces([], [BondForce(Alignment(1), np.full(2, 900.0))], np.zeros(2, int), 100.0)
-    pulling = pulling_of(strong, sizing)
-    assert pulling is not None
+    force_term = force_term_of(strong, sizing)
+    assert force_term is not None
     arrangement = _two()
     objective = sizing.objective(arrangement.places[:, 3], 0.1)
-    push = pulling.pushed(objective, arrangement).push
+    push = force_term.with_push(objective, arrangement).push
     growth = objective.weights / arrangement.radii
     np.testing.assert_allclose(np.hypot(*push.T), YIELDING * growth)
     assert push[0, 1] > 0 > push[1, 1]
@@ -53,14 +53,14 @@ def test_where_sizes_are_common_no_push_outweighs_growing() -> None:
 
 def test_where_sizes_are_free_pushes_are_as_strong_as_they_are() -> None:
     sizing = FreeSizes(np.full(2, 4.0), (np.zeros(2), np.zeros(2)), -np.ones(2), np.ones(2))
-    pulling = pulling_of(ROW.subset(np.array([1, 3])), sizing)
-    assert pulling is not None
+    force_term = force_term_of(ROW.subset(np.array([1, 3])), sizing)
+    assert force_term is not None
     arrangement = _two()
-    push = pulling.pushed(sizing.objective(np.zeros(2), 0.1), arrangement).push
-    slopes = pulling.forces.cost(arrangement.places[:, :2], sizing.areas).slopes
+    push = force_term.with_push(sizing.objective(np.zeros(2), 0.1), arrangement).push
+    slopes = force_term.forces.cost(arrangement.places[:, :2], sizing.areas).slopes
     np.testing.assert_allclose(push, -slopes)
-    assert pulling.gains(arrangement.places, 0, np.array([1])).tolist() == [0.0]
-    assert pulling_of(NO_FORCES, sizing) is None
+    assert force_term.gains(arrangement.places, 0, np.array([1])).tolist() == [0.0]
+    assert force_term_of(NO_FORCES, sizing) is None
 
 
 def _two():

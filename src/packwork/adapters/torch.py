@@ -18,7 +18,7 @@ from packwork.arrays import Image, as_points, as_starts
 from packwork.errors import PackworkError, ShapeError
 from packwork.geometry.outline import Outline, joined
 from packwork.losses.term import Term
-from packwork.raster.colour import prepared
+from packwork.raster.colour import prepare_colour_image
 from packwork.raster.coverage import Rasteriser
 
 if TYPE_CHECKING:
@@ -373,7 +373,7 @@ def _colour_function() -> Any:
             kept = points.detach().numpy().copy()
             table, behind = (one.detach().double().numpy() for one in (colours, background))
             ctx.dtypes = points.dtype, colours.dtype, background.dtype
-            ctx.image, seen = prepared(kept, starts, table, shape, behind, kept.dtype)
+            ctx.image, seen = prepare_colour_image(kept, starts, table, shape, behind, kept.dtype)
             image: Tensor = torch.from_numpy(seen)
             return image
 

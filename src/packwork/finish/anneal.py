@@ -29,7 +29,7 @@ from packwork.compaction.kernels.trials import (
     choose_disjoint,
 )
 from packwork.compaction.objective import AREA_POWER
-from packwork.finish.objective import Pulling
+from packwork.finish.objective import ForceTerm
 from packwork.finish.proposals import (
     EXCHANGES,
     Proposal,
@@ -95,7 +95,7 @@ def anneal(
     rng: np.random.Generator,
     stop: Stop = never,
     tell: Callable[[int], None] | None = None,
-    pulling: Pulling | None = None,
+    force_term: ForceTerm | None = None,
     exchanges: float = EXCHANGES,
 ) -> int:
     """Anneal a compacted layout by turns and exchanges of items; how many trials were kept.
@@ -105,7 +105,7 @@ def anneal(
     objective and bounds at places ``(n, 4)``; ``tell``: called with the number of each trial;
     ``exchanges``: share of trials that exchange items, with 0 each stays about where it is.
     """
-    search = _Search(arrangement, objective_at, lengths, rng, pulling, exchanges)
+    search = _Search(arrangement, objective_at, lengths, rng, force_term, exchanges)
     if not search.has_choice:
         return 0
     done = kept = 0
@@ -113,7 +113,7 @@ def anneal(
     while done < trials and not stop():
         most = min(AT_ONCE, every - done % every, trials - done)
         heat = HEAT * lengths.spacing**2 * (1 - done / trials)
-        gained = search.made(most, heat)
+        gained = search.make_trials(most, heat)
         kept += sum(gained)
         for _ in gained:
             if tell is not None:
@@ -131,12 +131,12 @@ class _Search:
         objective_at: Callable[[FloatArray], Objective],
         lengths: Lengths,
         rng: np.random.Generator,
-        pulling: Pulling | None,
+        force_term: ForceTerm | None,
         exchanges: float,
     ) -> None:
         self._exchanges = exchanges
         self._arrangement, self._objective_at, self._lengths = arrangement, objective_at, lengths
-        self._rng, self._pulling = rng, pulling
+        self._rng, self._force_term = rng, force_term
         self._waiting: list[Proposal] = []
         self._objective = objective_at(arrangement.places)
         self._least = -np.inf
@@ -153,7 +153,7 @@ class _Search:
         """Whether there is anything to be tried."""
         return self._can_turn or (self._arrangement.count > 1 and self._exchanges > 0)
 
-    def made(self, most: int, heat: float) -> list[bool]:
+    def make_trials(self, most: int, heat: float) -> list[bool]:
         """Make some trials at once, ``most`` at most; whether each was kept.
 
         ``heat``: mean of what each may lose, squared canvas units, where all area is worth the
@@ -165,8 +165,8 @@ class _Search:
         if self._objective.power < 0:
             # Where the smallest counts, what all the others gain does not make up for it.
             self._least = self._arrangement.places[:, 3].min()
-        if self._pulling is not None:
-            return [self._pulled(heat, self._pulling)]
+        if self._force_term is not None:
+            return [self._is_kept_under_forces(heat, self._force_term)]
         self._waiting += islice(self._proposed(), 2 * AT_ONCE - len(self._waiting))
         trials = self._disjoint(most)
         gains = at_once(
@@ -185,10 +185,12 @@ class _Search:
 
     def _proposed(self) -> Iterator[Proposal]:
         """Trials without end, of the items as they are now."""
-        arrangement, pulling = self._arrangement, self._pulling
-        pools = pools_of(arrangement, self._objective.power < 0, pulling is not None)
+        arrangement, force_term = self._arrangement, self._force_term
+        pools = pools_of(arrangement, self._objective.power < 0, force_term is not None)
         while True:
-            yield propose(arrangement, pools, self._can_turn, self._rng, pulling, self._exchanges)
+            yield propose(
+                arrangement, pools, self._can_turn, self._rng, force_term, self._exchanges
+            )
 
     def _disjoint(self, most: int) -> list[tuple[Proposal, Trial]]:
         """The first trials that wait whose neighbourhoods do not meet; they wait no more."""
@@ -214,29 +216,29 @@ class _Search:
         return found
 
     def _gain(self, trial: Trial, allowed: float) -> float:
-        return made(
+        return make_trial(
             self._arrangement, self._objective, trial, self._rounds, self._lengths, allowed,
             self._least,
         )  # fmt: skip
 
-    def _pulled(self, heat: float, pulling: Pulling) -> bool:
+    def _is_kept_under_forces(self, heat: float, force_term: ForceTerm) -> bool:
         """Make one trial where forces count, which act on all items; whether it was kept."""
         arrangement = self._arrangement
         self._waiting = [next(self._proposed())]
         ((one, trial),) = self._disjoint(1)
         allowed = heat * one.heat * self._is_area
         there = arrangement.places.copy()
-        before, cost = there[trial.items], pulling.cost(there)
+        before, cost = there[trial.items], force_term.cost(there)
         there[one.moved] = destination(arrangement, one.moved)
-        gain = self._gain(trial, allowed - (pulling.cost(there) - cost))
-        if gain - (pulling.cost(arrangement.places) - cost) > -allowed:
+        gain = self._gain(trial, allowed - (force_term.cost(there) - cost))
+        if gain - (force_term.cost(arrangement.places) - cost) > -allowed:
             return True
         if gain > -np.inf:
             arrangement.put(trial.items, before)
         return False
 
 
-def made(
+def make_trial(
     arrangement: Arrangement,
     objective: Objective,
     trial: Trial,

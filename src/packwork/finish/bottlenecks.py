@@ -14,7 +14,7 @@ from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.kernels.trials import Rounds, Trial
 from packwork.compaction.separate import SMALLEST_VOID, free_room
 from packwork.fields.voids import largest_voids
-from packwork.finish.anneal import ANGLE_TRUST, Lengths, made
+from packwork.finish.anneal import ANGLE_TRUST, Lengths, make_trial
 from packwork.finish.proposals import ANGLES, at_angles
 
 LOWEST, MOST_SUSPECTS = 3, 10
@@ -85,7 +85,7 @@ def relocate_bottleneck(
     everywhere = np.arange(arrangement.count)
     trial = Trial(moved, np.concatenate(candidates), moved, everywhere, np.empty((0, 4)))
     rounds = Rounds(ANGLE_TRUST * lengths.spacing, np.empty(0), np.empty(0))
-    return made(arrangement, objective, trial, rounds, lengths) > -np.inf
+    return make_trial(arrangement, objective, trial, rounds, lengths) > -np.inf
 
 
 def _in_voids(arrangement: Arrangement, moved: IntArray) -> list[FloatArray]:

@@ -26,7 +26,7 @@ from packwork.compaction.options import HAIR
 from packwork.compaction.separate import relocate, relocate_stuck, separate, separate_evenly
 from packwork.finish import bottlenecks
 from packwork.finish.anneal import Lengths, anneal
-from packwork.finish.objective import pulling_of, sizing_of
+from packwork.finish.objective import force_term_of, sizing_of
 from packwork.finish.options import FinishOptions
 from packwork.finish.proposals import EXCHANGES
 from packwork.forces.forces import NO_FORCES, Forces
@@ -168,7 +168,7 @@ class _Finish:
         self._share = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
         self._sizing = sizing_of(poses, own * poses.scale**2, options)
-        self._pulling = pulling_of(forces, self._sizing)
+        self._force_term = force_term_of(forces, self._sizing)
         self._is_shared = isinstance(self._sizing, SharedSize)
         exact = Detail(outlines, container.outline, poses)
         tolerance = COARSE if options.sizes == "free" else COMMON_COARSE
@@ -271,7 +271,7 @@ class _Finish:
 
         anneal(
             self.arrangement, objective_at, trials, self._lengths, rng, self._is_enough, tell,
-            self._pulling, EXCHANGES if self._options.exchanging else 0.0,
+            self._force_term, EXCHANGES if self._options.exchanging else 0.0,
         )  # fmt: skip
 
     def fine(self) -> None:
@@ -297,9 +297,9 @@ class _Finish:
 
     def _objective(self, places: FloatArray, spread: float) -> Objective:
         objective = self._sizing.objective(places[:, 3], spread)
-        if self._pulling is None:
+        if self._force_term is None:
             return objective
-        return self._pulling.pushed(objective, self.arrangement)
+        return self._force_term.with_push(objective, self.arrangement)
 
     def _blocks(self, objective: Objective, trust: float) -> None:
         compact_all(self.arrangement, objective, self.rounds, trust, self.gap, self.hair)

@@ -36,7 +36,7 @@ item's rim. Larger makes all items smaller. Tried."""
 
 
 @dataclass(frozen=True, eq=False)
-class Pulling:
+class ForceTerm:
     """Forces on the items of a finish, in the unit of its objective.
 
     ``areas``: ``(n,)`` at the begin, so that none is shrunk for lying where it should not;
@@ -53,7 +53,7 @@ class Pulling:
         """Cost of items at places ``(n, 4)``, in the unit of the objective."""
         return self.unit * self.forces.cost(places[:, :2], self.areas).value
 
-    def pushed(self, objective: Objective, arrangement: Arrangement) -> Objective:
+    def with_push(self, objective: Objective, arrangement: Arrangement) -> Objective:
         """The objective, and where the forces push each item."""
         places = arrangement.places
         push = -self.unit * self.forces.cost(places[:, :2], self.areas).slopes
@@ -72,11 +72,11 @@ class Pulling:
         return np.asarray(-self.unit * np.where(differs, there + here, 0.0))
 
 
-def pulling_of(forces: Forces, sizing: Sizing) -> Pulling | None:
+def force_term_of(forces: Forces, sizing: Sizing) -> ForceTerm | None:
     """Forces in the unit of a size mode's objective; None if there are none."""
     if not forces.acts:
         return None
     # Growth is worth twice the area; where sizes are common, one for the typical item.
     is_free = isinstance(sizing, FreeSizes)
     unit = 1.0 if is_free else 1 / (2 * float(sizing.areas.mean()))
-    return Pulling(forces, sizing.areas, unit, not is_free)
+    return ForceTerm(forces, sizing.areas, unit, not is_free)

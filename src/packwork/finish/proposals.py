@@ -9,7 +9,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
-from packwork.finish.objective import Pulling
+from packwork.finish.objective import ForceTerm
 
 ANGLES = 5
 """Angles of which the best is tried, by how far the moved items grow alone. More find
@@ -82,12 +82,12 @@ def propose(
     pools: Pools,
     can_turn: bool,
     rng: np.random.Generator,
-    pulling: Pulling | None,
+    force_term: ForceTerm | None,
     exchanges: float = EXCHANGES,
 ) -> Proposal:
     """An exchange or a turn; ``can_turn``: whether any item may; ``exchanges``: their share."""
     if arrangement.count > 1 and (not can_turn or rng.random() < exchanges):
-        moved = _pick_exchange(arrangement, pools, rng, pulling)
+        moved = _pick_exchange(arrangement, pools, rng, force_term)
     else:
         moved = _pick_turn(arrangement.count, pools, rng)
     return Proposal(moved, rng.random((ANGLES, len(moved))), rng.exponential())
@@ -104,7 +104,7 @@ def _pick_turn(count: int, pools: Pools, rng: np.random.Generator) -> IntArray:
 
 
 def _pick_exchange(
-    arrangement: Arrangement, pools: Pools, rng: np.random.Generator, pulling: Pulling | None
+    arrangement: Arrangement, pools: Pools, rng: np.random.Generator, force_term: ForceTerm | None
 ) -> IntArray:
     """Two items of like size that change places."""
     radii = pools.radii
@@ -112,8 +112,8 @@ def _pick_exchange(
     alike = smallest(np.abs(np.log(radii / radii[i])), ALIKE + 1)
     alike = alike[alike != i]
     j = int(rng.choice(alike))
-    if pulling is not None and rng.random() < WITH_FORCES:
-        j = int(alike[np.argmax(pulling.gains(arrangement.places, i, alike))])
+    if force_term is not None and rng.random() < WITH_FORCES:
+        j = int(alike[np.argmax(force_term.gains(arrangement.places, i, alike))])
     return np.array([i, j])
 
 

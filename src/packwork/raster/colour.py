@@ -68,7 +68,7 @@ class ColourImage:
         ``colours``: ``(rings, channels)``, holes have their item's; ``background``:
         ``(channels,)``.
         """
-        self.take(colours, background)
+        self.set_colours(colours, background)
         rasteriser, records = self._rasteriser, self._rasteriser.swept.records
         rows, columns = rasteriser.shape
         image = np.empty((rows, columns, self.channels), rasteriser.dtype) if out is None else out
@@ -79,7 +79,7 @@ class ColourImage:
         kernels.accumulate(self._deposits, row, self._running, image.reshape(rows, -1))
         return image
 
-    def take(self, colours: FloatArray, background: FloatArray) -> None:
+    def set_colours(self, colours: FloatArray, background: FloatArray) -> None:
         """Let derivatives be those of colours as given to :meth:`render`, and render nothing."""
         self._excess = np.ascontiguousarray(colours - background, dtype=np.float64)
         # On a lattice of the colours' range, sums are as exact as those of the density.
@@ -176,10 +176,10 @@ def render_colour(
     >>> render_colour(tile, [0, 4], [[1, 0, 0]], (1, 3), background=1.0)[0].tolist()
     [[1.0, 0.5, 0.5], [1.0, 0.0, 0.0], [1.0, 1.0, 1.0]]
     """
-    return prepared(points_px, starts, colours, shape, background, dtype)[1]
+    return prepare_colour_image(points_px, starts, colours, shape, background, dtype)[1]
 
 
-def prepared(
+def prepare_colour_image(
     points_px: npt.ArrayLike,
     starts: npt.ArrayLike,
     colours: npt.ArrayLike,
@@ -190,7 +190,7 @@ def prepared(
     """Inputs of :func:`render_colour`, to be pulled back through, and its picture.
 
     >>> tile = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> image, seen = prepared(tile, [0, 4], [[0.5]], (1, 1), 1.0, np.float64)
+    >>> image, seen = prepare_colour_image(tile, [0, 4], [[0.5]], (1, 1), 1.0, np.float64)
     >>> seen.item(), image.by_colours(np.ones((1, 1, 1)))[0].item()
     (0.5, 1.0)
     """
@@ -244,7 +244,7 @@ def render_colour_pullback(
     rasteriser = Rasteriser((pulls.shape[0], pulls.shape[1]), dtype)
     image = ColourImage(rasteriser, table.shape[1])
     rasteriser.sweep(points, ring_starts)
-    image.take(table, _background(background, table.shape[1]))
+    image.set_colours(table, _background(background, table.shape[1]))
     return (image.by_points(pulls), *image.by_colours(pulls))
 
 
