@@ -9,13 +9,13 @@ import shapely
 from shapely import LinearRing
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.readers.reading import TooRichError, spend
-
-MAX_NESTED = 200_000
-"""Pairs of rings whose boxes meet, by estimate: two seconds' work. Chosen."""
+from packwork.readers.reading import SHAPES_NS, TooRichError, spend
 
 _PAIR_NS, _RING_NS = 1e4, 150.0
 """For a pair of rings whose boxes meet, and for any pair of rings. Measured."""
+
+MAX_NESTED = SHAPES_NS / _PAIR_NS
+"""Pairs of rings whose boxes meet, by estimate, where no budget is counted either."""
 
 _SAMPLED_RINGS = 60
 """Rings whose neighbours are counted. Fewer blur the estimate. Chosen."""
@@ -40,19 +40,18 @@ def check_nesting(rings: Sequence[LinearRing]) -> None:
     spend(_PAIR_NS * pairs + _RING_NS * len(rings) ** 2, f"has {len(rings):,} rings in one shape")
 
 
-MAX_CROSSINGS = 20_000
-"""Places where the shapes of a drawing may cross themselves, by estimate: some seconds'
-work. Chosen."""
+_ALL_NS = 2 * SHAPES_NS
+"""For all the crossings that one allowance lets pass, where no budget is counted either."""
 
-MAX_UNION_CROSSINGS = 200_000
-"""Places where shapes may cross each other, by estimate: as long. Chosen."""
+_CROSSING_NS, _UNION_NS = 2e5, 2e4
+"""For a place where a shape crosses itself, and one where united shapes cross. Measured."""
+
+MAX_CROSSINGS, MAX_UNION_CROSSINGS = int(_ALL_NS / _CROSSING_NS), int(_ALL_NS / _UNION_NS)
+"""Places where the shapes of a drawing may cross themselves, and each other, by estimate."""
 
 _SAMPLED, _COMPARED, _COMPARED_SHARE = 60, 5_000, 0.04
 """Edges whose crossings are counted for the estimate, and those they are met with: so many
 at least, and that share of many. Fewer blur the estimate, more cost as much as reading. Chosen."""
-
-_ALL_NS = 4e9
-"""For all the crossings that one allowance lets pass. Measured."""
 
 _FREE = 2_000
 """Crossings for which no estimate is worth its time. Chosen."""

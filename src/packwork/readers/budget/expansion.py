@@ -143,10 +143,8 @@ _PIXELS_PER_ELEMENT = 10_000
 _COUNTABLE = 10**15
 _PAINT_NAMES = frozenset({"fill", "stroke", "marker-start", "marker-mid", "marker-end"})
 _LAYER_COSTS = {"clip-path": 25, "mask": 100, "opacity": 10, "style": 10, "filter": 25}
-"""Elements that an off-screen layer counts for when the drawing is rendered. Chosen."""
-
-_STEP_COST = 10
-"""Elements that a step of a filter counts for. Chosen."""
+"""Elements that an off-screen layer counts for when the drawing is rendered, as a step of a filter
+does for that of an opacity. Chosen."""
 
 
 def check_size(raw: ET.Element) -> None:
@@ -286,7 +284,7 @@ def _own_layers(element: ET.Element) -> int:
 
 def _own_cost(element: ET.Element) -> int:
     cost = 1 + sum(cost for name, cost in _LAYER_COSTS.items() if name in element.attrib)
-    cost += _STEP_COST * (element.tag in FILTER_STEPS)
+    cost += _LAYER_COSTS["opacity"] * (element.tag in FILTER_STEPS)
     if element.tag == "image":
         width, height = embedded_size(element.get(HREF, "")) or (0, 0)
         cost += width * height // _PIXELS_PER_ELEMENT

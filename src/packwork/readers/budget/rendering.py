@@ -19,7 +19,7 @@ import numpy as np
 
 from packwork.geometry import affine
 from packwork.readers.budget.expansion import count_expanded
-from packwork.readers.reading import TooRichError, UnfitError, left, notice, spend
+from packwork.readers.reading import PICTURES_NS, TooRichError, UnfitError, left, notice, spend
 from packwork.readers.svg_syntax.coordinates import (
     Page,
     parse_length,
@@ -158,12 +158,9 @@ def _is_wide(element: ET.Element, side: float) -> bool:
     return any(unit > 0 and blur > LARGEST_BLUR * unit for blur in blurs)
 
 
-PICTURE_NS = 5e8
+PICTURE_NS = PICTURES_NS / 4
 """Nanoseconds that one picture may take. Larger makes hostile files slow, smaller makes
-the pictures of rich drawings coarse. Chosen."""
-
-MOST_NS = 2e9
-"""Nanoseconds that the smallest picture may take; beyond, there is none. Chosen."""
+the pictures of rich drawings coarse."""
 
 LEAST_PX = 40
 """Longer side of the smallest picture. Chosen."""
@@ -241,7 +238,7 @@ class Work:
         while side > LEAST_PX and self.nanoseconds(int(side), part) > most:
             side /= 1.1
         side = max(side, min(LEAST_PX, longest_px))
-        if self.nanoseconds(int(side), part) + _ELEMENT_NS * self.elements > MOST_NS:
+        if self.nanoseconds(int(side), part) + _ELEMENT_NS * self.elements > PICTURES_NS:
             raise TooRichError(_TOO_MANY)
         return int(side)
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -21,6 +21,7 @@ from packwork.arrays import FloatArray
 from packwork.fonts import bundled_file
 from packwork.readers.budget.crossings import Allowance
 from packwork.readers.reading import TooRichError, UnfitError
+from packwork.readers.regions import MAX_POINTS
 from packwork.scene.item import FontFile
 
 MAX_FONT_BYTES = 50_000_000
@@ -35,9 +36,6 @@ MAX_REACH = 32.0
 MAX_CROSSINGS = 2_000
 """Places where the contours of one glyph may cross themselves and each other, by estimate: larger
 lets a scribble of 100 letters take minutes. Letters put together of strokes have tens. Chosen."""
-
-MAX_POINTS = 400_000
-"""Points of one glyph's flattened contours. An ornament has a tenth of it. Chosen."""
 
 Face: TypeAlias = Any
 """A ``uharfbuzz.Face`` (which ships no types)."""
@@ -339,19 +337,15 @@ class _CurveRecorder:
         self.values.extend(turned)
 
 
-_functions: list[Any] = []
-
-
+@cache
 def _draw_functions() -> Any:
     """HarfBuzz' callbacks, made once."""
-    if not _functions:
-        import uharfbuzz as hb
+    import uharfbuzz as hb
 
-        made = hb.DrawFuncs()
-        made.set_move_to_func(lambda x, y, pen: pen.add("M", x, y))
-        made.set_line_to_func(lambda x, y, pen: pen.add("L", x, y))
-        made.set_quadratic_to_func(lambda a, b, x, y, pen: pen.add("Q", a, b, x, y))
-        made.set_cubic_to_func(lambda a, b, c, d, x, y, pen: pen.add("C", a, b, c, d, x, y))
-        made.set_close_path_func(lambda pen: pen.add("Z"))
-        _functions.append(made)
-    return _functions[0]
+    made = hb.DrawFuncs()
+    made.set_move_to_func(lambda x, y, pen: pen.add("M", x, y))
+    made.set_line_to_func(lambda x, y, pen: pen.add("L", x, y))
+    made.set_quadratic_to_func(lambda a, b, x, y, pen: pen.add("Q", a, b, x, y))
+    made.set_cubic_to_func(lambda a, b, c, d, x, y, pen: pen.add("C", a, b, c, d, x, y))
+    made.set_close_path_func(lambda pen: pen.add("Z"))
+    return made

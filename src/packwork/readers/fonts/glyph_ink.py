@@ -20,6 +20,7 @@ from packwork.geometry.outline import Outline, joined
 from packwork.geometry.polygon import region, silhouette
 from packwork.readers.cache import GlyphInk, cached_by_identity, kept_glyph
 from packwork.readers.fonts.face import Segment, Typeface, check_glyph
+from packwork.readers.fonts.itemise import MOST_KNOWN
 
 
 def points_of(segment: Segment) -> FloatArray:
@@ -63,9 +64,6 @@ def _cubic(start: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArra
 CLEAR = 1e-3
 """Clearance, as a share of a glyph's extent, that is enough: more is not looked for. Chosen: fifty
 times what readers follow curves to."""
-
-MOST_KNOWN = 4096
-"""Glyphs that are remembered: those of a long Chinese text. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

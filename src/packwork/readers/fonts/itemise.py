@@ -14,7 +14,7 @@ from functools import lru_cache
 from itertools import groupby
 
 MOST_KNOWN = 4096
-"""Clusters whose scripts are remembered: those of a long Chinese text. Chosen."""
+"""Clusters and glyphs that are remembered: those of a long Chinese text. Chosen."""
 
 _LEFTWARD, _RIGHTWARD = ("R", "AL"), ("L", "EN", "AN")
 _JOINER = "\u200d"

@@ -6,11 +6,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from io import BytesIO
 
 import numpy as np
 import shapely
-from PIL import Image
 from shapely import affinity
 
 from packwork.arrays import FloatArray
@@ -27,7 +25,7 @@ from packwork.readers.fonts.glyph_ink import (
     glyph_path,
 )
 from packwork.readers.fonts.itemise import Piece, visual_order
-from packwork.readers.pictures.decode import Pixels, decode_picture
+from packwork.readers.pictures.decode import decode_picture, png_of_pixels
 from packwork.readers.pictures.silhouette import outline_of_cut_out
 from packwork.readers.reading import UnfitError
 from packwork.scene.item import TextRun
@@ -64,18 +62,12 @@ def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> Gly
     matrix = np.array([[wide, 0.0, left], [0.0, high, top]])
     outline = outline_of_cut_out(pixels)
     return GlyphPicture(
-        _png(pixels),
+        png_of_pixels(pixels),
         width,
         height,
         matrix,
         shapely.transform(outline, lambda points: affine.apply(matrix, points)),
     )
-
-
-def _png(pixels: Pixels) -> bytes:
-    made = BytesIO()
-    Image.fromarray(pixels).save(made, format="png")
-    return made.getvalue()
 
 
 LINE_STEP = 1.0

@@ -8,7 +8,6 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 import zlib
 from functools import partial
-from typing import Any
 
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import XMLParser
@@ -31,15 +30,13 @@ from packwork.readers.svg_syntax.vocabulary import HREF
 MAX_ELEMENTS = 200_000
 """Elements of any kind in one file, metadata included. Chosen."""
 
-MAX_NAMESPACE = 500
-"""Letters of a namespace's address: the parser repeats it in every name. Chosen."""
-
 
 _REMEDY = "save it as plain SVG without them"
 _DECLARES = f"declares XML entities or a document type of its own; {_REMEDY}"
 
 MAX_ENTITY = 300
-"""Letters of an entity, as some programs declare for the addresses of namespaces. Chosen."""
+"""Letters of an entity, as some programs declare for the addresses of namespaces, and of such an
+address: the parser repeats it in every name. Chosen."""
 
 MAX_ATTRIBUTES = 100
 """Attributes that a document type declares. Chosen."""
@@ -54,11 +51,12 @@ def parse_xml(data: bytes) -> ET.Element:
     A ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. Its own entities pass if each
     is a short plain text, so that none can multiply; the defaults of attributes are not taken.
     """
-    parser = XMLParser(target=_BoundedBuilder(), forbid_entities=False)
+    builder = _BoundedBuilder()
+    parser = XMLParser(target=builder, forbid_entities=False)
     references = data.count(b"&")
     parser.parser.EntityDeclHandler = partial(_check_entity, references)
     parser.parser.UnparsedEntityDeclHandler = _refuse_declaration
-    parser.parser.AttlistDeclHandler = _AttributeLists().declare
+    parser.parser.AttlistDeclHandler = builder.declare_attribute
     # What they give by default is not taken.
     parser.parser.specified_attributes = True
     try:
@@ -84,53 +82,41 @@ def _check_entity(
         raise UnfitError(f"repeats the XML entity {name[:20]!r} too often; {_REMEDY}")
 
 
-class _AttributeLists:
-    """Counts the attributes that a document type declares: a parser goes over them per element."""
-
-    def __init__(self) -> None:
-        self._count = 0
-
-    def declare(self, element: str, name: str, kind: str, default: str | None, _: bool) -> None:
-        """Refuse one that is too much."""
-        self._count += 1
-        if self._count > MAX_ATTRIBUTES or len(default or "") > MAX_ENTITY:
-            raise UnfitError(_DECLARES)
-
-
 def _refuse_declaration(*_what: object) -> None:
     raise UnfitError(_DECLARES)
 
 
-class _BoundedBuilder:
+class _BoundedBuilder(ET.TreeBuilder):
     """Tree builder that stops as soon as a limit is passed."""
 
     def __init__(self) -> None:
-        self._builder = ET.TreeBuilder()
-        self._depth = 0
-        self._count = 0
+        super().__init__()
+        self._depth = self._count = self._attributes = 0
+
+    def declare_attribute(
+        self, element: str, name: str, kind: str, default: str | None, _: bool
+    ) -> None:
+        """Count what a document type declares: a parser goes over it for each element."""
+        self._attributes += 1
+        if self._attributes > MAX_ATTRIBUTES or len(default or "") > MAX_ENTITY:
+            raise UnfitError(_DECLARES)
 
     def start_ns(self, prefix: str, uri: str) -> None:
-        if len(uri) > MAX_NAMESPACE:
-            raise UnfitError(f"has a namespace of {len(uri)} letters; {MAX_NAMESPACE} is the most")
+        if len(uri) > MAX_ENTITY:
+            raise UnfitError(f"has a namespace of {len(uri)} letters; {MAX_ENTITY} is the most")
 
-    def start(self, tag: str, attrs: dict[str, str]) -> Any:
+    def start(self, tag: str, attrs: dict[str, str]) -> ET.Element:
         self._depth += 1
         self._count += 1
         if self._depth > MAX_DEPTH:
             raise UnfitError(f"nests its elements more than {MAX_DEPTH} deep; flatten its groups")
         if self._count > MAX_ELEMENTS:
             raise UnfitError(f"has more than {MAX_ELEMENTS:,} elements; simplify it")
-        return self._builder.start(tag, attrs)
+        return super().start(tag, attrs)
 
-    def end(self, tag: str) -> Any:
+    def end(self, tag: str) -> ET.Element:
         self._depth -= 1
-        return self._builder.end(tag)
-
-    def data(self, text: str) -> None:
-        self._builder.data(text)
-
-    def close(self) -> ET.Element:
-        return self._builder.close()
+        return super().end(tag)
 
 
 MAX_BYTES = 20_000_000

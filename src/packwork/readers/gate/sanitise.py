@@ -27,7 +27,7 @@ from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import filled_in, parse_declarations, with_variables
 from packwork.readers.gate.css.selectors import Node
 from packwork.readers.gate.css.sheets import Cascade, StyleSheet
-from packwork.readers.pictures.decode import eight_bit, opened
+from packwork.readers.pictures.decode import MAX_PIXELS, eight_bit, opened
 from packwork.readers.reading import UnfitError, notice, spend
 from packwork.readers.svg_syntax.coordinates import parse_length, parse_numbers
 from packwork.readers.svg_syntax.references import embedded_bytes, embedded_size
@@ -45,8 +45,8 @@ from packwork.readers.svg_syntax.vocabulary import (
     TEXTS,
 )
 
-MAX_EMBEDDED_PIXELS = 16_000_000
-"""Pixels of one embedded picture: four bytes each once decoded. Chosen."""
+MAX_EMBEDDED_PIXELS = MAX_PIXELS // 4
+"""Pixels of one embedded picture: four bytes each once decoded."""
 
 _PIXEL_NS = 150.0
 """For a pixel that is decoded and written anew. Measured."""
@@ -111,11 +111,9 @@ MAX_VALUE = 2_000
 """Letters of an attribute that is no list of coordinates: patterns are matched against
 them again and again. Longer ones are dropped. Chosen."""
 
-MAX_STYLE = 20_000
-"""Letters of one ``style`` attribute that are read. Chosen."""
-
-MAX_TEXT = 20_000
-"""Letters of visible text in one drawing: laying out text is slow. Chosen."""
+MAX_LETTERS = 20_000
+"""Of visible text in one drawing, as laying out text is slow, and of one ``style`` attribute that
+is read. Chosen."""
 
 LOST = {
     "animate": "its animation: it is drawn as it stands before that begins",
@@ -165,8 +163,8 @@ def sanitised(raw: ET.Element) -> ET.Element:
         named = sorted(found.lost)
         more = [f"{len(named) - MAX_SAID} more"] if len(named) > MAX_SAID else []
         notice(f"left out {', '.join([*named[:MAX_SAID], *more])}")
-    if sum(len(e.text or "") + len(e.tail or "") for e in root.iter()) > MAX_TEXT:
-        raise UnfitError(f"has more than {MAX_TEXT:,} letters of text; turn it into paths")
+    if sum(len(e.text or "") + len(e.tail or "") for e in root.iter()) > MAX_LETTERS:
+        raise UnfitError(f"has more than {MAX_LETTERS:,} letters of text; turn it into paths")
     return root
 
 
@@ -227,7 +225,7 @@ def _admitted(node: Node, found: _Context, outer: Mapping[str, str]) -> ET.Eleme
     """Copy with only known elements and attributes, its styles attributes."""
     spend(_ELEMENT_NS, "has too many elements")
     raw, name = node.element, node.tag
-    inline = parse_declarations(raw.get("style", "")[:MAX_STYLE])
+    inline = parse_declarations(raw.get("style", "")[:MAX_LETTERS])
     found.lost |= inline.lost
     variables, declared = with_variables(outer, found.cascade.declared(node, inline))
     element = ET.Element(RENAMED.get(name, name), _plain_attributes(node, found, variables))

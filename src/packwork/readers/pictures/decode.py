@@ -108,17 +108,16 @@ def as_it_lies(
 MAX_PIXELS = 64_000_000
 """Pixels of a picture: four bytes each once decoded, so a quarter gigabyte. Chosen."""
 
-MAX_HEAVY_PIXELS = 32_000_000
-"""The same of kinds whose decoders hold several copies of the whole picture. Chosen: as much
-memory as others take."""
+MAX_HEAVY_PIXELS = MAX_PIXELS // 2
+"""The same of kinds whose decoders hold several copies of the whole picture."""
 
 MAX_SIDE_PX = 100_000
 """Longest side of a picture: each row costs memory of its own, and what is a thousand times as
 long as wide is no picture. Chosen."""
 
-LARGE_PIXELS = 16_000_000
+LARGE_PIXELS = MAX_PIXELS // 4
 """Pixels of a picture from which only one is decoded at a time, however many threads read.
-Larger takes more memory at once, smaller waits more. Chosen."""
+Larger takes more memory at once, smaller waits more."""
 
 MAX_JPEG_PIXELS = 160_000_000
 """The same of a JPEG that is decoded at the size that is needed: a progressive one is still
@@ -273,6 +272,13 @@ def eight_bit(image: Image.Image, mode: str = "RGBA") -> Image.Image:
         deep = np.asarray(image.crop((0, top, image.width, top + len(rows))), dtype=np.float64)
         rows[:] = np.clip(np.nan_to_num(deep) * scale, 0, 255)
     return Image.fromarray(grey)
+
+
+def png_of_pixels(pixels: Pixels) -> bytes:
+    """PNG file of RGBA pixels."""
+    file = BytesIO()
+    Image.fromarray(pixels).save(file, "PNG")
+    return file.getvalue()
 
 
 def fitting(size: tuple[int, int], longest_px: int) -> tuple[int, int]:

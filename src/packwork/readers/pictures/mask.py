@@ -14,6 +14,7 @@ from packwork.readers.files import read_bytes
 from packwork.readers.options import HALF
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
 from packwork.readers.pictures.silhouette import (
+    ART_PX,
     LEAST_CLEAR_OF_MASK,
     SPECK,
     decides,
@@ -95,9 +96,6 @@ def _greys(values: FloatArray) -> float:
     return float(np.exp(-(shares * np.log(shares)).sum()))
 
 
-MASK_PX = 2_048
-"""Longer side at which a mask is traced; finer ones are shrunk first. Chosen."""
-
 SMALLEST_SIDE_PX = 8
 """Shorter side of a mask that is taken for one. Chosen."""
 
@@ -131,7 +129,7 @@ def trace_mask(path: str | Path, alpha_threshold: float = HALF) -> TracedMask:
     """
     data = read_bytes(path, MAX_PICTURE_BYTES)
     with reading_file(str(path)):
-        return mask_of_pixels(decode_picture(data, MASK_PX).pixels, alpha_threshold)
+        return mask_of_pixels(decode_picture(data, ART_PX).pixels, alpha_threshold)
 
 
 def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import shapely
-from PIL import Image
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
@@ -21,6 +19,7 @@ from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
     Pixels,
     decode_picture,
+    png_of_pixels,
 )
 from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
@@ -132,8 +131,8 @@ def tell_what_is_faint(solid: FloatArray, threshold: float) -> None:
 
 
 ART_PX = 2_048
-"""Longer side of a picture that is kept. Larger shows only in prints wider than a metre
-of a few items, and costs memory by its square. Chosen."""
+"""Longer side of a picture that is kept, and at which a mask is traced. Larger shows only in prints
+wider than a metre of a few items, and costs memory by its square. Chosen."""
 
 BACKGROUND_TOLERANCE = 24
 """Steps of 255 within which a colour counts as the background's: JPEG noise stays below.
@@ -290,7 +289,5 @@ def _cropped(pixels: Pixels) -> tuple[Pixels, tuple[int, int]]:
 
 
 def _art(pixels: Pixels, matrix: FloatArray, *, is_traced: bool) -> PictureArt:
-    file = BytesIO()
-    Image.fromarray(pixels).save(file, "PNG")
-    width, height = pixels.shape[1], pixels.shape[0]
-    return PictureArt(file.getvalue(), width, height, matrix, is_traced)
+    height, width = pixels.shape[:2]
+    return PictureArt(png_of_pixels(pixels), width, height, matrix, is_traced)

@@ -17,7 +17,7 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.reading import UnfitError, reading_file
-from packwork.readers.regions import canvas_box, clean_union
+from packwork.readers.regions import SPECK, canvas_box, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg_syntax.shapes import flattened_all
@@ -75,10 +75,6 @@ def read_curve(file: str, width: float, height: float) -> tuple[FloatArray, Floa
     return begins, ends
 
 
-LEAST_AREA = 1e-6
-"""Share of the page below which what a path surrounds is nothing. Chosen."""
-
-
 def walled_container(
     source: str, side: float | None, reading: ReadOptions = AS_DRAWN
 ) -> tuple[Container, FloatArray] | None:
@@ -99,7 +95,7 @@ def walled_container(
         if all(line.is_closed for line in lines):
             return None
         regions = [_inside(line) for line in lines]
-        solid = [region for region in regions if region.area > LEAST_AREA * width * height]
+        solid = [region for region in regions if region.area > SPECK * width * height]
         if not solid:
             raise UnfitError("its open paths surround nothing; draw walls with an opening")
         mouths = [line.points[[0, -1]] for line in lines if not line.is_closed]

@@ -19,7 +19,7 @@ from packwork.readers.gate.door import parse_untrusted
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
 from packwork.readers.pictures.silhouette import LEAST_WHITE
-from packwork.readers.reading import TooRichError, UnfitError, notice, one_budget
+from packwork.readers.reading import SHAPES_NS, TooRichError, UnfitError, notice, one_budget
 from packwork.readers.svg.ink import Ink, painted_ink
 from packwork.readers.svg.lettering import set_in_outlines
 from packwork.readers.svg.resvg import LEAST_AGREEMENT, Comparison, View, solid_twin
@@ -132,9 +132,11 @@ def _plain_parent(root: ET.Element, sheet: ET.Element) -> ET.Element | None:
     return parents[sheet]
 
 
-MAX_SHAPES = 8_000
-"""Shapes that are followed one by one, in about a quarter of a millisecond each; of
-strangers' drawings with more, the picture is traced. Chosen."""
+_SHAPE_NS = 2.5e5
+"""For following a shape. Measured."""
+
+MAX_SHAPES = int(SHAPES_NS / _SHAPE_NS)
+"""Shapes that are followed one by one; of strangers' drawings with more, the picture is traced."""
 
 
 _MARGIN = 0.01

@@ -101,9 +101,6 @@ MAX_TEXTS = 60
 """Texts, or differently painted parts of them, that become paths: each costs two
 pictures. Drawings of more keep their texts. Chosen."""
 
-MAX_LETTERS = 2_000
-"""Letters that become paths, spaces counted. Chosen."""
-
 LETTER_PX = 400
 """Side of the square of pixels that each letter gets: larger costs time by its square, smaller
 shows the renderer's rounding as a wobble. Tried."""
@@ -132,7 +129,7 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     """Replace the texts of a clean drawing by paths, in place; says which fonts it missed.
 
     Texts inside masks and patterns, those in ``defs``, and where there are more than
-    ``MAX_TEXTS`` or ``MAX_LETTERS`` all of them, stay as they are, which is said too.
+    ``MAX_TEXTS``, or too few pixels for each letter, all of them stay as they are, which is said.
 
     >>> from packwork.readers.svg_syntax.coordinates import read_page
     >>> root = ET.fromstring('<svg viewBox="0 0 9 9"><text y="8" fill="red">a</text></svg>')
@@ -147,8 +144,7 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     count = sum(len(paints_of(text.element)) for text in texts)
     most = min(MAX_PIXELS, LETTER_PX**2 * max(1, len(letters)))
     pixels = min(most, (_SHARE * left("shapes") - _TEXT_NS * count) / _PIXEL_NS)
-    is_small = count <= MAX_TEXTS and len(letters) <= MAX_LETTERS
-    if is_small and pixels >= LEAST_LETTER_PX**2 * len(letters):
+    if count <= MAX_TEXTS and pixels >= LEAST_LETTER_PX**2 * len(letters):
         spend(_TEXT_NS * count + _PIXEL_NS * pixels, "has too much text")
         _set(texts, letters, root, page, pixels)
     for hidden in _drawn_texts(root, {text.element for text in texts}):

@@ -23,17 +23,17 @@ from packwork.readers.gate.css.selectors import (
     parse_selector,
     split_outside,
 )
-from packwork.readers.reading import UnfitError, spend
+from packwork.readers.reading import SHAPES_NS, UnfitError, spend
 from packwork.readers.svg_syntax.coordinates import parse_length
-
-MAX_RULES = 20_000
-"""Style rules of one drawing. Chosen."""
 
 MAX_BLOCKS = 8
 """Blocks inside one another. Chosen."""
 
 _RULE_NS = 2e5
 """For reading a selector with its declarations. Measured."""
+
+MAX_RULES = int(2 * SHAPES_NS / _RULE_NS)
+"""Style rules of one drawing, however large its budget is."""
 
 _MARK = re.compile(r"[{};]")
 _FEATURE = re.compile(r"\(\s*([\w-]+)\s*(?::\s*([^()]+?)\s*)?\)")
