@@ -161,7 +161,8 @@ def builtin_item(name: str, holes: Holes = "fill") -> Item:
     if shape is None:
         raise unknown_name(name, item_names(), "item")
     outline, ink, _ = centred(shape, holes)
-    return Item(name, name, outline, ink, FlatArt(_colour(name)))
+    order = sorted(PATHS).index(name) if name in PATHS else len(PATHS)
+    return Item(name, name, outline, ink, FlatArt(COLOURS[order % len(COLOURS)]))
 
 
 def builtin_container(name: str, side: float = 600.0) -> Container:
@@ -203,11 +204,6 @@ def unknown_name(name: str, known: Iterable[str], kind: str) -> ReadError:
     close = difflib.get_close_matches(name, names, n=3, cutoff=0.6)
     hint = f"did you mean {' or '.join(close)}?" if close else f"built in are {', '.join(names)}"
     return ReadError(name, f"there is no such file and no built-in {kind} of that name; {hint}")
-
-
-def _colour(name: str) -> str:
-    order = sorted(PATHS).index(name) if name in PATHS else len(PATHS)
-    return COLOURS[order % len(COLOURS)]
 
 
 def _stems(folder: str) -> list[str]:

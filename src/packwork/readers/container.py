@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from packwork.errors import ReadError
@@ -74,7 +75,8 @@ def read_container(
     if isinstance(made, Container):
         return on_canvas(made, size)
     if str(source) in SHEETS and not exists(source):
-        return _sheet(str(source), size)
+        whole = CanvasSize(DEFAULT_SIDE, None, "px") if size is None else size
+        return sheet(str(source), whole.width, whole.height or whole.width, whole.unit)
     reading = reading or ReadOptions()
     side = None if size is None else size.side
     container = _container(str(source), side, font, quiet, reading)
@@ -97,11 +99,6 @@ def read_parts(container: Container) -> list[tuple[str, Region]]:
     if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):
         return []
     return parts_of_svg(read_bytes(path, MAX_BYTES), container)
-
-
-def _sheet(name: str, size: CanvasSize | None) -> Container:
-    whole = CanvasSize(DEFAULT_SIDE, None, "px") if size is None else size
-    return sheet(name, whole.width, whole.height or whole.width, whole.unit)
 
 
 def _container(
@@ -127,16 +124,13 @@ def _container(
 
         return container_of_words(text, side or DEFAULT_SIDE, font)
     if text.startswith(AROUND):
-        return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), _as_drawn)
+        as_drawn = partial(read_container, reading=AS_DRAWN)
+        return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), as_drawn)
     if path.suffix.lower() in {".svg", ".svgz", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
         raise ReadError(text, f"there is no such file{hint}")
     return builtin_container(text, side or DEFAULT_SIDE)
-
-
-def _as_drawn(source: str, size: CanvasSize) -> Container:
-    return read_container(source, size, reading=AS_DRAWN)
 
 
 def _container_of_file(

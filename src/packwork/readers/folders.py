@@ -15,71 +15,19 @@ from packwork.errors import ReadError
 from packwork.mirror import here_of, names_like
 from packwork.phrasing import enumerated
 
-LOOK_LIKE_PICTURES = frozenset(
-    f".{ending}"
-    for ending in [
-        "svg",
-        "svgz",
-        "png",
-        "jpg",
-        "jpeg",
-        "jfif",
-        "webp",
-        "gif",
-        "bmp",
-        "tif",
-        "tiff",
-        "avif",
-        "heic",
-        "heif",
-        "jxl",
-        "jp2",
-        "j2k",
-        "jpe",
-        "apng",
-        "ico",
-        "icns",
-        "psd",
-        "psb",
-        "xcf",
-        "kra",
-        "ai",
-        "eps",
-        "pdf",
-        "cdr",
-        "emf",
-        "wmf",
-        "sketch",
-        "tga",
-        "pcx",
-        "ppm",
-        "pgm",
-        "pbm",
-        "pnm",
-        "exr",
-        "hdr",
-        "dds",
-        "dxf",
-        "qoi",
-        "cr2",
-        "cr3",
-        "nef",
-        "arw",
-        "dng",
-        "raf",
-        "orf",
-        "rw2",
-    ]
-)
+LOOK_LIKE_PICTURES = frozenset(f".{ending}" for ending in (
+    "svg", "svgz", "png", "jpg", "jpeg", "jfif", "webp", "gif", "bmp", "tif", "tiff", "avif",
+    "heic", "heif", "jxl", "jp2", "j2k", "jpe", "apng", "ico", "icns", "psd", "psb", "xcf",
+    "kra", "ai", "eps", "pdf", "cdr", "emf", "wmf", "sketch", "tga", "pcx", "ppm", "pgm", "pbm",
+    "pnm", "exr", "hdr", "dds", "dxf", "qoi", "cr2", "cr3", "nef", "arw", "dng", "raf", "orf",
+    "rw2",
+))  # fmt: skip
 """Endings of drawings, pictures and photos of whatever kind, in lower case: what a folder holds
 of those and no reader opens is named. Readmes and the like are not."""
 
 MOST_FILES = 100_000
 """Files in the folders of a folder at most. Larger waits longer where a whole disk is named.
 Chosen."""
-
-MOST_NAMED = 3
-"""Files left out that are named one by one on the terminal; a report has all. Chosen."""
 
 _LOG = logging.getLogger("packwork")
 
@@ -100,14 +48,14 @@ class Listing:
         if self.inner:
             _LOG.warning(
                 "%s: the folders in it (%s) are not read; '%s' reads all",
-                source, enumerated(self.inner, MOST_NAMED), Path(source, "**", "*"),
+                source, enumerated(self.inner), Path(source, "**", "*"),
             )  # fmt: skip
         if not self.unread:
             return
         names = [f"{Path(one.file).name} ({one.problem})" for one in self.unread]
         _LOG.warning(
             "%s: left out %s; save such files as SVG, PNG or JPEG",
-            source, enumerated(names, MOST_NAMED),
+            source, enumerated(names),
         )  # fmt: skip
 
 
@@ -201,11 +149,14 @@ class Sample:
             first += hits if all(names[k] == pattern for k in hits) else hits[:1]
         return list(dict.fromkeys([*first, *drawn]))
 
+    def order_of_files(self, files: Sequence[str], alone: Sequence[int], most: int) -> list[int]:
+        """Indices of files: those named by themselves first, unless these are too many."""
+        drawn = self.order([Path(file).stem for file in files])
+        return list(dict.fromkeys([*(alone if len(alone) <= most else ()), *drawn]))
+
     def tell(self, sources: Sequence[str], of: int) -> None:
         """Notice that not all are taken."""
         how = "the first by name"
         if self.seed is not None:
             how = "drawn by the seed; --items-from first takes the first"
-        _LOG.warning(
-            "%s: %s", enumerated(sources, MOST_NAMED), f"{self.most:,} of {of:,} are taken, {how}"
-        )
+        _LOG.warning("%s: %s", enumerated(sources), f"{self.most:,} of {of:,} are taken, {how}")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
-from packwork.readers.files import exists, is_folder, stem
+from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import Listing, Sample, listed, matched
 from packwork.readers.memory.items import items_in_memory
 from packwork.readers.options import ReadOptions
@@ -172,7 +172,8 @@ def _read_all(
     order, most = list(range(len(files))), len(files)
     if sample is not None and at_once + len(files) > sample.most:
         most = max(sample.most - at_once, 0)
-        order = _taken_first(sources, files, sample, most)
+        alone = [k for k, (number, _) in enumerate(files) if sources[number].listing is None]
+        order = sample.order_of_files([file for _, file in files], alone, most)
     reads: dict[int, Read] = {}
     refused: dict[int, ReadError] = {}
     for k in order:
@@ -201,14 +202,6 @@ def _read_all(
         for read in (*source.reads, *(reads[k] for k in sorted(reads) if files[k][0] == number))
     ]
     return made, skipped
-
-
-def _taken_first(
-    sources: Sequence[_Source], files: Sequence[tuple[int, str]], sample: Sample, most: int
-) -> list[int]:
-    alone = [k for k, (number, _) in enumerate(files) if sources[number].listing is None]
-    drawn = sample.order([stem(file) for _, file in files])
-    return list(dict.fromkeys([*(alone if len(alone) <= most else ()), *drawn]))
 
 
 def _why_not(path: Path) -> str:

@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from packwork.phrasing import enumerated
+from packwork.phrasing import MOST_NAMED, enumerated
 from packwork.scene.item import Item
-
-MOST_NAMED = 3
-"""Files whose page was left out that are named one by one. Chosen."""
 
 _LOG = logging.getLogger("packwork")
 
@@ -97,5 +94,4 @@ def _tell(folder: Path, reads: Sequence[Read]) -> None:
 
 
 def _named(reads: Iterable[Read]) -> str:
-    names = [Path(one.file or "").name for one in reads]
-    return enumerated(names, MOST_NAMED)
+    return enumerated([Path(one.file or "").name for one in reads])

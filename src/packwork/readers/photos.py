@@ -6,7 +6,7 @@ import glob
 import hashlib
 import logging
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
 from dataclasses import dataclass
@@ -165,11 +165,13 @@ def read_photo(
         whole = clean_union(frame.whole, speck=SPECK)
         outline, ink, place = centred(whole, "fill")
     has_border = options.border_share > 0
+    # Then the photo's own opacity says what is seen, and no edge has to be cut.
+    is_soft = negative.has_alpha and options.shape is None
     photo = Photograph(
         file=file,
         key=f"photo-{number}-{hashlib.sha256(file.encode()).hexdigest()[:8]}",
         window=frame.window,
-        picture=_path(frame.picture) if frame.is_cut and not _is_soft(negative, options) else "",
+        picture=_path(frame.picture) if frame.is_cut and not is_soft else "",
         whole=_path(whole) if has_border else "",
         border_color=options.border_color,
         origin=(float(place[0, 2]), float(place[1, 2])),
@@ -178,11 +180,6 @@ def read_photo(
     longer = max(np.subtract(frame.window[2:], frame.window[:2]))
     preview = photo.drawn(photo.developed(data, PREVIEW_PX / float(longer)))
     return Item(stem(file), file, outline, ink, PhotoArt(preview, photo))
-
-
-def _is_soft(negative: Negative, options: PhotoOptions) -> bool:
-    """Whether the photo's own opacity says what is seen, so that no edge has to be cut."""
-    return negative.has_alpha and options.shape is None
 
 
 def _path(region: Region) -> str:
@@ -235,15 +232,19 @@ def read_photos(
     named = [one for source in options.sources for one in _files(source, unread)]
     if strict and unread:
         raise unread[0]
+    count = min(MOST_AT_ONCE, thread_count())
     # Pillow's own notices are of no use in a collage; and threads may
     # not set aside warnings each for itself.
-    with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
+    with warnings.catch_warnings(), ThreadPoolExecutor(count) as threads:
         warnings.simplefilter("ignore")
         read = _here(_reading(options, threshold, shape_of(options)))
         results: dict[int, Item | ReadError] = {}
-        order = list(range(len(named))) if sample is None else _taken_first(named, sample)
-        most = len(named) if sample is None else sample.most
-        while order and (missing := most - _well(results.values())) > 0:
+        order, most = list(range(len(named))), len(named)
+        if sample is not None:
+            most = sample.most
+            alone = [k for k, one in enumerate(named) if one.by_itself]
+            order = sample.order_of_files([one.file for one in named], alone, most)
+        while order and (missing := most - sum(isinstance(r, Item) for r in results.values())) > 0:
             now, order = order[:missing], order[missing:]
             made = threads.map(read, (named[k] for k in now), (k + 1 for k in now))
             results |= dict(zip(now, made, strict=True))
@@ -264,16 +265,6 @@ def read_photos(
     if sample is not None and len(results) < len(named):
         sample.tell(options.sources, len(named))
     return ItemsRead(tuple(items), (*skipped, *unread))
-
-
-def _well(results: Iterable[Item | ReadError]) -> int:
-    return sum(isinstance(result, Item) for result in results)
-
-
-def _taken_first(named: Sequence[_Named], sample: Sample) -> list[int]:
-    alone = [k for k, one in enumerate(named) if one.by_itself]
-    drawn = sample.order([stem(one.file) for one in named])
-    return list(dict.fromkeys([*(alone if len(alone) <= sample.most else ()), *drawn]))
 
 
 def shape_of(options: PhotoOptions) -> Region | None:
@@ -310,10 +301,6 @@ def _here(read: Callable[P, R]) -> Callable[P, R]:
         return context.copy().run(read, *args, **kwargs)
 
     return read_here
-
-
-def _threads() -> int:
-    return min(MOST_AT_ONCE, thread_count())
 
 
 def _files(source: str, unread: list[ReadError]) -> list[_Named]:

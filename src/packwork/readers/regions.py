@@ -15,9 +15,8 @@ from packwork.readers.reading import UnfitError, notice
 from packwork.units import Unit, convert
 
 SMALL = 1 / 3
-"""Share of its page, across or down, that a drawing takes at least where the page is kept. By
-extent, not by area: a banner on a square page is as large as can be. Larger leaves out margins
-that were meant, smaller keeps postage stamps. Chosen."""
+"""Share of its page, across or down, that a drawing takes at least where the page is kept. Larger
+leaves out margins that were meant, smaller keeps postage stamps. Chosen."""
 
 Box: TypeAlias = tuple[float, float, float, float]
 
@@ -92,14 +91,18 @@ def clean_union(*regions: Region, speck: float = SPECK) -> Region:
             f"paints only {right - left:.2g} x {bottom - top:.2g} px, too little to be placed; "
             "give a larger or thicker shape"
         )
-    smallest = speck * whole.area
-    parts = [
+    parts = large_parts(whole, speck * whole.area)
+    # What lies in a hole is smaller than it: dropped with it, so parts stay apart.
+    return parts[0] if len(parts) == 1 else MultiPolygon(parts)
+
+
+def large_parts(whole: Region, smallest: float) -> list[Polygon]:
+    """Parts of a region that have more than an area, without holes that have less."""
+    return [
         Polygon(part.exterior, [h for h in part.interiors if Polygon(h).area > smallest])
         for part in polygon_parts(whole)
         if part.area > smallest
     ]
-    # What lies in a hole is smaller than it: dropped with it, so parts stay apart.
-    return parts[0] if len(parts) == 1 else MultiPolygon(parts)
 
 
 def tell_if_full(share: float, why: str) -> None:

@@ -15,23 +15,25 @@ from packwork.geometry import affine
 from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import Negative, Photograph, developed, inspected
 from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.regions import large_parts
 from packwork.recipe_paths import AROUND
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import PhotoArt
-from packwork.units import CanvasSize, parse_length
+from packwork.units import DEFAULT_SIDE, CanvasSize, parse_length
 
 SALIENCY_PX = 64
 """Longer side of the picture whose saliency is found: as in the paper, which found that larger
 ones are all detail and no objects."""
 
-MAP_PX = 600
-"""Longer side of the image in which the quiet part is traced. Larger is no truer. Chosen."""
+MAP_PX = int(DEFAULT_SIDE)
+"""Longer side of the image in which the quiet part is traced, as of a usual canvas. Larger is no
+truer."""
 
 SMOOTH = 0.025
 """Spread of the smoothing of the map, as a share of the longer side. Larger gives plainer
@@ -60,7 +62,8 @@ def quiet_part(data: bytes, negative: Negative, share: float) -> Quiet:
     limit = float(np.quantile(saliency, share))
     # A soft step, so that the contour runs between pixels.
     inside = np.clip(0.5 + (limit - saliency) / _SOFTNESS, 0.0, 1.0)
-    traced = _main_parts(contour_region(inside, _SIMPLIFY_PX))
+    whole = contour_region(inside, _SIMPLIFY_PX)
+    traced = shapely.MultiPolygon(large_parts(whole, SMALLEST_PART * whole.area))
     scale = np.array([negative.width / saliency.shape[1], negative.height / saliency.shape[0]])
     return Quiet(saliency, shapely.transform(traced, lambda points: points * scale))
 
@@ -87,20 +90,6 @@ def saliency_map(data: bytes, negative: Negative) -> FloatArray:
 def _size(negative: Negative, longest: int) -> tuple[int, int]:
     scale = longest / max(negative.width, negative.height)
     return max(8, round(negative.width * scale)), max(8, round(negative.height * scale))
-
-
-def _main_parts(region: Region) -> Region:
-    smallest = SMALLEST_PART * region.area
-    parts = [
-        shapely.Polygon(part.exterior, [h for h in part.interiors if _area(h) > smallest])
-        for part in polygon_parts(region)
-        if part.area > smallest
-    ]
-    return shapely.MultiPolygon(parts)
-
-
-def _area(ring: shapely.LinearRing) -> float:
-    return float(shapely.Polygon(ring).area)
 
 
 QUIET_SHARE = 0.4
@@ -153,18 +142,13 @@ def container_around(
         raise ReadError(
             file, "has no quiet part outside of what is to be kept clear; raise the quiet share"
         ) from None
-    art = _art(file, data, negative)
-    return Container(
-        stem(file), source, outline, size.width, float(size.height or 0.0),
-        backdrop=Backdrop(art, to_canvas),
-    )  # fmt: skip
-
-
-def _art(file: str, data: bytes, negative: Negative) -> PhotoArt:
     full = (0.0, 0.0, float(negative.width), float(negative.height))
     photo = Photograph(file, "backdrop", full, "", "", "none", (0.0, 0.0))
-    scale = PREVIEW_PX / max(negative.width, negative.height)
-    return PhotoArt(photo.drawn(photo.developed(data, scale)), photo)
+    preview = photo.drawn(photo.developed(data, PREVIEW_PX / max(negative.width, negative.height)))
+    return Container(
+        stem(file), source, outline, size.width, float(size.height or 0.0),
+        backdrop=Backdrop(PhotoArt(preview, photo), to_canvas),
+    )  # fmt: skip
 
 
 def _kept_clear(text: str, size: CanvasSize, read_region: ReadRegion) -> Region:

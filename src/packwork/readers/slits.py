@@ -33,13 +33,12 @@ MOST_POINTS = 300_000
 
 MOST_DENSE = 0.5
 """Area within the slits' width of the edges, counted edge by edge, as a share of the bounds, up
-to which slits are looked for. Hairs and spirals have 2 to 20, and growing them takes minutes;
-maps have less than a tenth. Larger takes longer, smaller leaves slits of fine maps. Tried."""
+to which slits are looked for. Larger takes minutes on hairs and spirals, smaller leaves slits of
+fine maps. Tried."""
 
 MOST_FINE = 12.0
-"""Vertices within a slit's width of a vertex, on average, up to which slits are looked for. Stairs
-of far finer steps than that can take minutes to be grown; coasts have 2 to 4. Larger takes longer,
-smaller leaves slits of what is drawn finely. Tried."""
+"""Vertices within a slit's width of a vertex, on average, up to which slits are looked for. Larger
+takes minutes on fine stairs, smaller leaves slits of what is drawn finely. Tried."""
 
 _WELD = 1e-3
 _LEAST = 1e-3

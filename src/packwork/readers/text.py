@@ -20,7 +20,7 @@ from packwork.readers.fonts.face import Segment, Shaped, Typeface, check_glyph
 from packwork.readers.fonts.fallback import Fonts, is_font_file, open_fonts, typeface_of_file
 from packwork.readers.fonts.glyph_ink import rings_of
 from packwork.readers.fonts.itemise import clusters, script_of, visual_order
-from packwork.readers.fonts.lettering import TypeSetting, picture_of
+from packwork.readers.fonts.lettering import MOST_WORDS, TypeSetting, picture_of
 from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import clean_union
@@ -33,18 +33,22 @@ STAND_ALONE = frozenset({
 """Scripts whose letters do not depend on their neighbours: each is shaped by itself, so that
 neither ligatures nor kerning close the gaps between them. Words of all others are shaped whole."""
 
-JOINED = 0.005
+LETTER_GAP = 0.04
+"""Least distance between neighbouring letters, in ems. Larger wastes the canvas, smaller
+lets items of one letter crowd those of the next. Chosen."""
+
+LINE_GAP = 3 * LETTER_GAP
+"""Distance between the boxes of two lines, in ems."""
+
+JOINED = LETTER_GAP / 8
 """Distance in ems below which the letters of a word that is shaped whole are one. Larger joins
-what merely lies close, smaller cuts joins that a font leaves open by a hair. Chosen."""
+what merely lies close, smaller cuts joins that a font leaves open by a hair."""
 
 MOST_ADVANCE = 8.0
 """How far one character may move the next, in ems: more is damage. Chosen."""
 
 _BLANKS = "\u2800\u3164"
 """Signs that are meant to draw nothing."""
-
-MOST_KNOWN = 1024
-"""Glyphs whose regions are remembered. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +137,7 @@ def _is_seen(character: str) -> bool:
     return unicodedata.category(character)[0] in "LNPS" and character not in _BLANKS
 
 
-@cached_by_identity(MOST_KNOWN)
+@cached_by_identity(MOST_WORDS)
 def _glyph_region(face: Typeface, number: int) -> Region:
     """Region of a glyph about its origin, in ems."""
     drawn = list(_unclosed(face.drawing(number)))
@@ -194,13 +198,6 @@ def _fonts(font: str | None) -> Fonts:
 
 MOST_CHARACTERS = 500
 """Characters in one container; more could not be filled on any canvas. Chosen."""
-
-LETTER_GAP = 0.04
-"""Least distance between neighbouring letters, in ems. Larger wastes the canvas, smaller
-lets items of one letter crowd those of the next. Chosen."""
-
-LINE_GAP = 0.12
-"""Distance between the boxes of two lines, in ems. Chosen."""
 
 FEW_POINTS = 20_000
 """Points of two neighbours up to which distances are taken from the whole of them: a phrase of

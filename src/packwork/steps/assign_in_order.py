@@ -32,9 +32,6 @@ from packwork.start.first_fit.preferences import Homes
 from packwork.start.first_poses import container_image
 from packwork.steps.exchanges import even_points, shape_features, with_places_of
 
-MOST_BYTES = 5_000_000
-"""Size of a file of numbers. Chosen."""
-
 UNLIKE, UNLIKE_SIZE = 0.01, 0.03
 """What squared logarithms of a factor in shape, and where sizes are given in size, weigh beside
 squared shares of the way. Larger keeps the first places better, smaller the order. Tried."""
@@ -253,7 +250,7 @@ def _shares(values: FloatArray, areas: FloatArray) -> FloatArray:
 
 
 def _of_file(job: Job, file: str) -> dict[str, float]:
-    rows = read_pairs(file, MOST_BYTES, job.recipe).rows
+    rows = read_pairs(file, job.recipe).rows
     table: dict[str, float] = {}
     for row in rows:
         if not row.name or not math.isfinite(row.number):

@@ -218,7 +218,7 @@ class Arts:
         outline = seen if keeps_holes else Outline.from_region(silhouette(ink))
         stated = source.get("data-outline")
         if stated is not None:
-            written = outline_of_path(stated, _area_like(outline, matrix))
+            written = outline_of_path(stated, outline.mapped(affine.inverse(matrix)).region)
             outline = outline if written is None else written.mapped(matrix)
             seen = outline
         others = {k for k in source.attrib if not k.startswith("data-")}
@@ -322,10 +322,6 @@ def _fill(drawn: ET.Element, source: ET.Element) -> str:
     except ValueError:
         opacity = channels[3]
     return hex_colour((*channels[:3], opacity))
-
-
-def _area_like(outline: Outline, matrix: FloatArray) -> Region:
-    return outline.mapped(affine.inverse(matrix)).region
 
 
 def _whole(drawn: ET.Element, source: ET.Element) -> ET.Element:

@@ -129,7 +129,8 @@ def _line(tags: Sequence[Tag]) -> DxfLine:
     is_closed = flags == flags and bool(int(flags) & _CLOSED)
     if is_bent or not (is_closed or layer == OPEN_LAYER):
         raise UnfitError(f"holds a line on layer {layer[:20]!r} that is open or bent")
-    if len(x) != len(y) or len(x) < (3 if is_closed else 2) or not _is_sane([*x, *y]):
+    is_sane = all(abs(number) <= MAX_COORDINATE for number in (*x, *y))
+    if len(x) != len(y) or len(x) < (3 if is_closed else 2) or not is_sane:
         raise UnfitError(f"holds a line on layer {layer[:20]!r} whose points are none")
     return DxfLine(layer, np.column_stack([x, y]), tuple(_said(tags)), is_closed)
 
@@ -148,10 +149,6 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         return math.nan
-
-
-def _is_sane(numbers: Sequence[float]) -> bool:
-    return all(abs(number) <= MAX_COORDINATE for number in numbers)
 
 
 LINES_ALONE = "holds lines alone: its items are plain shapes of one colour, their angles unknown"
@@ -180,7 +177,9 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     if not walls:
         raise UnfitError(f"has no line on the layer container, {_NOT_OURS}")
     gap, shares = _promise(walls[0])
-    items = _items(_outlines(lines), height)
+    # Lines of items have a layer of their own where others are cut.
+    layer = "items" if any(line.layer == "items" for line in lines) else "cut"
+    items = _items([line for line in lines if line.layer == layer], height)
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -193,12 +192,6 @@ def layout_of_dxf(text: str, name: str) -> Layout:
         said={"not_kept": [LINES_ALONE], "changed": _lost(walls[0], items)},
     )
     return assembled(sheet, name)
-
-
-def _outlines(lines: Sequence[DxfLine]) -> list[DxfLine]:
-    """Lines of items: on a layer of their own where others are cut."""
-    layers = {line.layer for line in lines}
-    return [line for line in lines if line.layer == ("items" if "items" in layers else "cut")]
 
 
 def _canvas(header: dict[str, list[float]]) -> tuple[float, float, Unit]:

@@ -26,8 +26,8 @@ from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout, Note
 
 BESIDE = 0.02
-"""Largest distance of a halo's middle from that of its item, in sides of the canvas. Chosen: far
-more than rounding, less than items are apart."""
+"""Largest distance of a halo's middle from that of its item, in sides of the canvas: more than
+rounding, less than items are apart. Chosen."""
 
 _PATH = re.compile(r"[MmZzLlHhVvCcSsQqTtAaeE\d\s+.,-]*")
 _LIMITS = {"rotate": "data-rotate", "sizes": "data-sizes", "size_ratio": "data-size-ratio"}

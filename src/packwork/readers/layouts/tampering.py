@@ -120,7 +120,10 @@ def changes(
         found = met.setdefault(what, [])
         if where not in found:
             found.append(where)
-    lines = [_sentence(what, where) for what, where in met.items()]
+    lines = []
+    for what, places in met.items():
+        more = f" and {number_of(len(places) - 1, 'other')}" if len(places) > 1 else ""
+        lines.append(f"{places[0]}{more}: {what} changes what is drawn, and is not measured")
     items = group_named(root, "items")
     stated = None if items is None else items.get("data-count")
     if stated is not None and stated.strip() != str(len(drawn)):
@@ -163,11 +166,6 @@ def believed(root: ET.Element) -> list[str]:
     if "data-gap" in said and "data-count" not in said:
         found.append(_UNCOUNTED)
     return found
-
-
-def _sentence(what: str, where: list[str]) -> str:
-    more = f" and {number_of(len(where) - 1, 'other')}" if len(where) > 1 else ""
-    return f"{where[0]}{more}: {what} changes what is drawn, and is not measured"
 
 
 def _of_document(root: ET.Element, data: bytes) -> Iterator[Met]:

@@ -16,8 +16,11 @@ from packwork.readers.tables.format import TableFormat
 ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t"}
 """What parts the cells of a line, by the file's ending, where the lines do not show it."""
 
-DELIMITERS = (",", ";", "\t", "|")
-"""What is looked for."""
+NAMES = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
+"""Delimiters that are looked for, and what they are called."""
+
+TYPED = {"\t": "tab", ";": '";"', "|": '"|"'}
+"""Those that a command line needs written in another way."""
 
 MOST_ROWS = 1_000_000
 """Rows of one table. Chosen."""
@@ -29,8 +32,8 @@ Derived."""
 SAMPLE_LINES = 200
 """Lines by which the delimiter is told. More take longer and tell little more. Chosen."""
 
-SAMPLE_LETTERS = 200_000
-"""Letters of these at most: lines may be long. Chosen."""
+SAMPLE_LETTERS = 1_000 * SAMPLE_LINES
+"""Letters of these at most: a thousand a line."""
 
 _DECLARED = re.compile(r'"?sep=(.)"?[ \t]*\r?(?:\n|$)', re.IGNORECASE)
 
@@ -84,12 +87,13 @@ def delimiter_of(text: str, file: str, usual: str) -> str:
     ';'
     """
     sample = _sample(text)
-    parted = {mark: _parted(sample, mark) for mark in DELIMITERS}
+    parted = {mark: _parted(sample, mark) for mark in NAMES}
     alike = [mark for mark, rows in parted.items() if rows and _is_even(rows)]
     plain = [mark for mark in alike if _explains(parted[mark], mark)] or alike
     if len(plain) > 1:
-        named = " or ".join(f"--delimiter {_name(mark)}" for mark in plain)
-        raise ReadError(file, f"may be parted by {_list(plain)}; say which: {named}")
+        names = " or ".join(NAMES[mark] for mark in plain)
+        flags = " or ".join(f"--delimiter {TYPED.get(mark, mark)}" for mark in plain)
+        raise ReadError(file, f"may be parted by {names}; say which: {flags}")
     if plain:
         return plain[0]
     wide = [mark for mark, rows in parted.items() if rows and len(rows[0]) > 1]
@@ -131,22 +135,13 @@ def _trimmed(row: Sequence[str]) -> Sequence[str]:
 
 def _explains(rows: Sequence[Sequence[str]], delimiter: str) -> bool:
     """Whether other delimiters stand only in the first line and within numbers."""
-    others = [mark for mark in DELIMITERS if mark != delimiter]
+    others = [mark for mark in NAMES if mark != delimiter]
     return all(
         is_number_like(cell)
         for row in rows[1:] or rows
         for cell in row
         if any(mark in cell for mark in others)
     )
-
-
-def _name(delimiter: str) -> str:
-    return {"\t": "tab", ";": '";"', "|": '"|"'}.get(delimiter, delimiter)
-
-
-def _list(delimiters: Sequence[str]) -> str:
-    names = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
-    return " or ".join(names[mark] for mark in delimiters)
 
 
 def lines_of_cells(text: str, file: str, separator: str) -> Iterator[tuple[int, list[str]]]:

@@ -20,6 +20,9 @@ from packwork.readers.tables.format import TableFormat
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""
 
+MAX_TABLE_BYTES = 5_000_000
+"""Size of a table, unless it is of words. Chosen."""
+
 NAME_COLUMNS = ("word", "text", "name", "term", "label", "key")
 NUMBER_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
 """Names under which tables of others keep the two; else the first and second column."""
@@ -61,7 +64,7 @@ class Pairs:
     notices: tuple[str, ...] = ()
 
 
-def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
+def read_pairs(file: str, asked: TableFormat, most_bytes: int = MAX_TABLE_BYTES) -> Pairs:
     r"""Names and numbers of a file: lines of cells, or JSON.
 
     Its first line may name the columns, and then there may be more of them.
@@ -72,7 +75,7 @@ def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "t.csv")
     ...     _ = path.write_text("Tier;Zahl\nBär;1.200,5\n", encoding="cp1252")
-    ...     read = read_pairs(str(path), 1_000, TableFormat())
+    ...     read = read_pairs(str(path), TableFormat())
     >>> [(pair.name, pair.number, pair.where) for pair in read.rows]
     [('Bär', 1200.5, 'line 2')]
     """
@@ -142,7 +145,7 @@ def _pairs(
     return Pairs(
         tuple(
             Pair(
-                name=_name(row.get(first)),
+                name=" ".join(text.split()) if isinstance(text := row.get(first), str) else "",
                 number=number,
                 written=None if cell is None or not str(cell).strip() else cell,
                 where=where,
@@ -153,10 +156,6 @@ def _pairs(
             )
         )
     )
-
-
-def _name(cell: Any) -> str:
-    return " ".join(cell.split()) if isinstance(cell, str) else ""
 
 
 def _columns(row: Mapping[str, Any]) -> tuple[str, str]:
@@ -171,9 +170,6 @@ def _columns(row: Mapping[str, Any]) -> tuple[str, str]:
 def _first(names: Iterable[str], by_name: Mapping[str, str]) -> str | None:
     return next((by_name[name] for name in names if name in by_name), None)
 
-
-MAX_TABLE_BYTES = 5_000_000
-"""Size of a table. Chosen."""
 
 _LOG = logging.getLogger("packwork")
 
@@ -192,7 +188,7 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
     ...     read_weights(file)
     {'bear': 2.0, 'fox': 0.5}
     """
-    table = read_pairs(str(path), MAX_TABLE_BYTES, asked or TableFormat())
+    table = read_pairs(str(path), asked or TableFormat())
     weights: dict[str, float] = {}
     twice = []
     for pair in table.rows:

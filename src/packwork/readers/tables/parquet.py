@@ -211,8 +211,12 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
         check_size(file, metadata.num_rows)
         names = _columns(metadata, opened.schema_arrow.names, set(needed))
         pieces = [piece for piece in pieces_of(data) if piece.name in names]
-        _check_size(file, pieces)
-        table = _read(file, data, names, pieces, _texts(opened, arrow))
+        # Lists have more values than rows.
+        check_size(file, 0, sum(max(one.values, one.rows, one.found) for one in pieces))
+        _check_bytes(file, sum(max(one.size, one.stated) for one in pieces))
+        # Each different text is decoded once, however often it stands there.
+        texts = [field.name for field in opened.schema_arrow if _is_text(field.type, arrow)]
+        table = _read(file, data, names, pieces, texts)
         columns = {name: _values(table.column(name), arrow) for name in names}
     except ReadError:
         raise
@@ -229,12 +233,6 @@ def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]
     if metadata.num_rows * len(own) <= ALL_COLUMNS_CELLS:
         return own
     return [name for name in own if name in needed] or own
-
-
-def _check_size(file: str, pieces: Sequence[ColumnChunk]) -> None:
-    # Lists have more values than rows.
-    check_size(file, 0, sum(max(one.values, one.rows, one.found) for one in pieces))
-    _check_bytes(file, sum(max(one.size, one.stated) for one in pieces))
 
 
 def _check_bytes(file: str, size: int) -> None:
@@ -275,11 +273,6 @@ def _read(
         _check_bytes(file, size)
         batches.append(batch)
     return arrow.Table.from_batches(batches, opened.schema_arrow if not batches else None)
-
-
-def _texts(opened: Any, arrow: Any) -> list[str]:
-    """Columns of texts: each different one is decoded once, however often it stands there."""
-    return [field.name for field in opened.schema_arrow if _is_text(field.type, arrow)]
 
 
 def _is_text(kind: Any, arrow: Any) -> bool:

@@ -32,14 +32,10 @@ EM_PX = 100.0
 
 WORD_SPACE = (0.05 * EM_PX, 0.01 * EM_PX)
 """Room that a word keeps from larger ones beside and above itself, where words give way, beside the
-margin of all: with none words of one size side by side read as one. Larger draws less ink: .550 in
-place of .577 with .12 and .03. By eye."""
+margin of all. Larger draws less ink, smaller lets words of one size read as one. By eye."""
 
 LONGEST = 100
 """Characters of one word; no more could be read. Chosen."""
-
-MOST_SHOWN = 40
-"""Characters of a word that messages show. Chosen."""
 
 INK = "#2d3748"
 """Colour of words that are given no other."""
@@ -106,7 +102,7 @@ def read_word_items(
             undrawn[word.text] = str(error)
     if not items:
         first = next(iter(undrawn))
-        raise ReadError(first[:MOST_SHOWN], f"cannot be set, nor any other word: {undrawn[first]}")
+        raise ReadError(first[:40], f"cannot be set, nor any other word: {undrawn[first]}")
     weights = np.array([word.weight for word in words])
     return WordsRead(
         tuple(items),
@@ -117,7 +113,9 @@ def read_word_items(
         ranked.told,
         ranked.stopped,
         related(ranked.sentences, words, options.phrases) if is_related else None,
-        None if ranked.order is None else tuple(map(_named, ranked.order)),
+        None
+        if ranked.order is None
+        else tuple((" ".join(lines_of(text)), text) for text in ranked.order),
         _values(ranked.words),
     )
 
@@ -128,10 +126,6 @@ def _values(words: Sequence[Word]) -> dict[str, tuple[str, ...]]:
         column: tuple(sorted({word.columns.get(column, "") for word in words}))
         for column in columns
     }
-
-
-def _named(text: str) -> tuple[str, str]:
-    return " ".join(lines_of(text)), text
 
 
 def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:

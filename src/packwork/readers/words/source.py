@@ -108,7 +108,7 @@ def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[s
     kept = {
         phrase
         for phrase, count in together.items()
-        if count >= max(LEAST_TOGETHER, PHRASE_SHARE * _rarest(phrase, single))
+        if count >= max(LEAST_TOGETHER, PHRASE_SHARE * min(single[word] for word in phrase.split()))
     }
     return Counter({form: count for form, count in found.items() if form.casefold() in kept})
 
@@ -133,10 +133,6 @@ def _parts(sentence: Sequence[str], size: int) -> list[str]:
     spaced = [word for word in sentence if not is_unspaced(word[0])]
     starts = range(len(sentence) - size + 1) if len(spaced) == len(sentence) else ()
     return [" ".join(sentence[start : start + size]) for start in starts]
-
-
-def _rarest(phrase: str, single: Counter[str]) -> int:
-    return min(single[word] for word in phrase.split())
 
 
 def _singular(word: str, counts: Counter[str]) -> str | None:

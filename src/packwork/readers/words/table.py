@@ -47,7 +47,7 @@ def read_word_table(file: str, asked: TableFormat) -> TableRead:
     >>> read.notices
     ('left out 1 row of 2 without a weight: fox (line 3)',)
     """
-    return words_of(read_pairs(file, MAX_BYTES, asked), file)
+    return words_of(read_pairs(file, asked, MAX_BYTES), file)
 
 
 def words_of(table: Pairs, file: str) -> TableRead:

@@ -30,9 +30,8 @@ MAX_BYTES = 2_000_000
 ENGLISH = "en"
 
 LEAST_SHARE = 0.12
-"""Share of a text's words that must be function words of a language for it to be that
-one. Running text has 0.3 to 0.5; larger misses lists of headings, smaller finds languages
-in lists of names. Chosen."""
+"""Share of a text's words that must be function words of a language for it to be that one. Larger
+misses lists of headings, smaller finds languages in lists of names. Chosen."""
 
 
 def stop_words(language: str) -> frozenset[str]:
@@ -83,7 +82,7 @@ def guess_language(counts: Counter[str]) -> str | None:
     total = counts.total()
     if not total:
         return None
-    shares = {code: _share(counts, _list(code)) / total for code in languages()}
+    shares = {code: sum(counts[word] for word in _list(code)) / total for code in languages()}
     best = max(shares, key=lambda code: (shares[code], -len(_list(code))))
     return best if shares[best] >= LEAST_SHARE else None
 
@@ -111,10 +110,6 @@ def _list(code: str) -> frozenset[str]:
     import stopwordsiso
 
     return frozenset(word.casefold() for word in stopwordsiso.stopwords(code))
-
-
-def _share(counts: Counter[str], words: frozenset[str]) -> int:
-    return sum(counts[word] for word in words)
 
 
 _HAN = "\u3005\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\U00020000-\U0003ffff"
@@ -168,7 +163,11 @@ def segments(text: str) -> list[str]:
         for start in range(0, len(piece), MOST_AT_ONCE):
             words = _segmenter(language).parse(piece[start : start + MOST_AT_ONCE])
             found += [_bare(word) for word in words] if language == "ja" else words
-    return [word for word in found if _is_word(word)]
+    return [
+        word
+        for word in found
+        if len(word) > 1 and not (len(word) < 3 and _HIRAGANA.fullmatch(word))
+    ]
 
 
 def _language(piece: str) -> str:
@@ -201,13 +200,9 @@ def _bare(phrase: str) -> str:
         phrase = rest
 
 
-def _is_word(word: str) -> bool:
-    return len(word) > 1 and not (len(word) < 3 and _HIRAGANA.fullmatch(word))
-
-
 MOST_SECONDS = 20.0
-"""After which a match is given up. A plain pattern goes through a long novel in a tenth of one.
-Chosen: what a person waits for before they think that it hangs."""
+"""After which a match is given up: a plain pattern goes through a long novel in a tenth of one.
+Chosen."""
 
 _WORK = f"""{END_WITH_PARENT}
 import json, re

@@ -67,7 +67,7 @@ LEAST_ASPECT = 0.12
 
 COVER = 0.66
 """Share of a bar that marks are thought to cover before that is known. Larger lets marks come out
-smaller than the width allows, smaller leaves paper over bars. Chosen: heaps of beans have 0.74."""
+smaller than the width allows, smaller leaves paper over bars. Chosen."""
 
 ROUND = 0.98
 """Share of the disc that holds it which a round mark covers at least. Chosen."""
@@ -76,8 +76,7 @@ HOLLOW = 3**0.5 / 2
 """Height of a row of discs that lies in the hollows of the one below, over their distance."""
 
 UNEVEN = 1.06
-"""Height of heaps of such rows over that of perfect ones. Measured on bars of 21 to 52 laureates,
-in docs' example: 1.01 to 1.16, the middle one 1.06."""
+"""Height of heaps of such rows over that of perfect ones. Measured."""
 
 
 @dataclass(frozen=True, eq=False)

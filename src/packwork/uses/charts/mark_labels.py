@@ -30,17 +30,14 @@ without a glass. Chosen."""
 LARGEST_EM = 1.1
 """Height of an em over that of the legend at most. Larger outshouts the title. Chosen by eye."""
 
-SIZES = 9
-"""Heights that are tried from the largest to the smallest. Fewer waste room. Chosen."""
-
 LINE_EM = 1.1
 """From line to line. Chosen by eye."""
 
 MOST_LINES = 3
 """Lines of a label at most. Chosen."""
 
-MOST_LETTERS = 60
-"""Letters of a label that is tried; longer ones fit on no mark. Chosen."""
+MOST_LETTERS = 20 * MOST_LINES
+"""Letters of a label that is tried; longer ones fit on no mark."""
 
 SPACE_EM = 0.25
 """Between words, where lines are broken. Chosen."""
@@ -48,8 +45,9 @@ SPACE_EM = 0.25
 FREE_EM = 0.3
 """Room about a label. Chosen by eye."""
 
-PLACES = 9
-"""Places each way that are tried for a label. More find a little more room. Chosen."""
+TRIED = 9
+"""Heights that are tried from the largest to the smallest, and places of a label each way. Fewer
+waste room. Chosen."""
 
 LEAST_CONTRAST = 4.5
 """Of letters and their mark, as WCAG 2.2 asks for, 1.4.3, level AA."""
@@ -75,7 +73,7 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
     """
     if chart.options.label_by is None:
         return ()
-    ems = np.geomspace(LARGEST_EM * chart.frame.em, SMALLEST_SHARE * layout.container.side, SIZES)
+    ems = np.geomspace(LARGEST_EM * chart.frame.em, SMALLEST_SHARE * layout.container.side, TRIED)
     notes: list[Note] = []
     rows: dict[int, bool] = {}
     for k in np.argsort(-layout.areas, kind="stable"):
@@ -165,8 +163,8 @@ def _place(block: _Block, em: float, ink: Outline) -> FloatArray | None:
     if 2 * wide > right - left or 2 * high > bottom - top:
         return None
     x, y = np.meshgrid(
-        np.linspace(left + wide, right - wide, PLACES),
-        np.linspace(top + high, bottom - high, PLACES),
+        np.linspace(left + wide, right - wide, TRIED),
+        np.linspace(top + high, bottom - high, TRIED),
     )
     points = np.vstack([ink.centroid, np.column_stack([x.ravel(), y.ravel()])])
     boxes = shapely.box(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -129,6 +129,8 @@ def read_chart(
     for notice in notices:
         _LOG.warning("%s", f"{table.name}: {notice}" if notice in table.notices else notice)
     values = amounts[owner] if options.unit is None else options.unit * shares
+    columns = {column for key in NUMBERS if (column := getattr(options, key)) is not None}
+    number_cells = (row.get(column) for row in table.rows for column in columns)
     names, group_of = _groups_of_marks(groups, shown_rows.groups[owner])
     in_group = [names[k] for k in group_of] if names else [""] * len(items)
     data = zip(owner, values.tolist(), colour_of or [""] * len(items), in_group, strict=True)
@@ -152,13 +154,8 @@ def read_chart(
         notices=tuple(notices),
         lost=tuple(notice for notice, is_lost in notices.items() if is_lost),
         ends=(float(values.min()), float(values.max())),
-        decimal=(asked and asked.decimal) or shown_decimal(_number_cells(table, options)),
+        decimal=(asked and asked.decimal) or shown_decimal(number_cells),
     )
-
-
-def _number_cells(table: Table, options: ChartOptions) -> Iterator[object]:
-    columns = {getattr(options, key) for key in NUMBERS}
-    return (row.get(column) for row in table.rows for column in columns if column is not None)
 
 
 def _groups_of_marks(groups: Groups | None, member: IntArray) -> tuple[tuple[str, ...], IntArray]:

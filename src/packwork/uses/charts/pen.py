@@ -10,7 +10,7 @@ import numpy as np
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts, open_fonts
-from packwork.readers.fonts.lettering import Lettering
+from packwork.readers.fonts.lettering import MOST_WORDS, Lettering
 from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Note
 from packwork.scene.notation import path_data
@@ -20,10 +20,6 @@ _LOG = logging.getLogger("packwork")
 MOST_LETTERS = 400
 """Of one note; an ellipsis stands for the rest. Larger sets text too long to be read,
 slowly, and at last more glyphs than one word may have; smaller cuts long titles. Chosen."""
-
-MOST_KNOWN = 1024
-"""Texts that are remembered as they are drawn: the labels of a large chart. Each takes about 40 kB
-(measured), so that a program that makes chart after chart keeps 40 MB at most. Chosen."""
 
 WEIGHT = 500
 DIGITS = 6
@@ -101,7 +97,7 @@ def _ends(text: str) -> tuple[float, float]:
     return float(left), float(right)
 
 
-@lru_cache(maxsize=MOST_KNOWN)
+@lru_cache(maxsize=MOST_WORDS)
 def lettering(text: str) -> Lettering:
     """Text as it is drawn; what no font has is a question mark, and told; very long ones are cut.
 

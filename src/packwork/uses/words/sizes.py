@@ -18,7 +18,7 @@ from packwork.pipeline.plan.copies import RuleSource, shared_out
 from packwork.pipeline.read import read_regions
 from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
 from packwork.pipeline.state import RunState
-from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
+from packwork.readers.words.items import EM_PX, WordsRead
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Sizes
 from packwork.recipe.refusals import length_asked
@@ -174,7 +174,7 @@ def heaviest(
     if count == 0:
         raise RecipeError(
             "smallest",
-            f"not even {words.items[0].name[:MOST_SHOWN]!r} can be so large in this container; "
+            f"not even {words.items[0].name[:40]!r} can be so large in this container; "
             "use a smaller length, a larger canvas or another container",
         )
     reasons = {

@@ -21,7 +21,7 @@ from packwork.pipeline.result import Run
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.readers.vectors import Vectors
-from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
+from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
@@ -303,7 +303,7 @@ class ReportWords(RunStep):
         """State with these among what is unplaced, numbered after the items."""
         use, (layout, _) = words_of(state.job), state.measured
         undrawn = tuple(
-            Unplaced(word[:MOST_SHOWN], index, reason)
+            Unplaced(word[:40], index, reason)
             for index, (word, reason) in enumerate(use.read.undrawn.items(), start=state.placed)
         )
         asked = len(use.read.items) + len(use.read.undrawn)
