@@ -12,7 +12,8 @@ from packwork.live.certificate import Certificate, Settlement
 from packwork.live.document import PROPERTIES, Change, Document, Invalidation, differing
 from packwork.live.history import Frames, Marks, SessionState
 from packwork.live.neighbourhood.caches import LevelCache, ShapeCache
-from packwork.live.neighbourhood.flow import Flow
+from packwork.live.neighbourhood.contacts import RINGS
+from packwork.live.neighbourhood.flow import LINGER, Flow
 from packwork.live.neighbourhood.places import brought_inside
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
 from packwork.live.refilling import is_other_cloud, refilled, taken_back
@@ -24,13 +25,6 @@ from packwork.scene.track import Track
 NEAR = 2
 """Rings about what was touched that stay where they have flowed; all others go back to where they
 were. More lose more coverage, fewer leave less room for what was dropped. Tried."""
-
-LEFT = 3
-"""The same about where something was taken from: these grow into the room. Tried."""
-
-RELAX = 60
-"""Epochs before a settle: what lies under what was dropped has to get out of its way first. More
-take longer, fewer leave more to be shrunk. Tried."""
 
 ENOUGH = 6
 """Turns for each item that gestures have touched after which no more are tried. Chosen."""
@@ -156,7 +150,7 @@ class LocalSolver:
         marks.by_hand |= by_hand
         new = np.flatnonzero(changed & ~np.isin(numbers, list(marks.touched)))
         if len(new):
-            marks.vacated |= set(numbers[flow.contacts.rings(new, LEFT) >= 0].tolist())
+            marks.vacated |= set(numbers[flow.contacts.rings(new, RINGS) >= 0].tolist())
         marks.touched |= set(numbers[changed].tolist())
         flow.set_rules(after, self._strict(after))
         kept = marks.placed_by_user | set(numbers[changed].tolist()) | set(self.grabbed)
@@ -301,7 +295,7 @@ class LocalSolver:
         held = self._strict(self.document)
         flow.set_rules(self.document, held)
         flow.hold(self._rows(marks.placed_by_user))
-        flow.raise_overlap_weight(RELAX, self._rows(near | marks.touched))
+        flow.raise_overlap_weight(LINGER, self._rows(near | marks.touched))
         self.film()
         return replace(self.document, held=held)
 

@@ -47,7 +47,8 @@ class Refilled:
 
 def is_other_cloud(before: Document, now: Document) -> bool:
     """Whether most words of a cloud are others than before."""
-    if not _is_cloud(now):
+    has_words = any(is_word(now, k) for k in range(len(now)))
+    if not has_words or now.options.sizes != "shared":
         return False
     known = {item.outline for item in before.items}
     return sum(item.outline not in known for item in now.items) > MOST_NEW * len(now)
@@ -65,7 +66,11 @@ def refilled(
     by_hand
         ``(m,)`` rows of what the hand has put where it is in ``asked``, turned or sized: it stays.
     """
-    is_other = _is_reweighed(before, asked) or before.container is not asked.container
+    is_other = (
+        before.container is not asked.container
+        or _has_other_outlines(before, asked)
+        or not np.array_equal(asked.weights, before.weights)
+    )
     if asked.options.sizes != "shared" or is_chart(asked) or not (len(by_hand) or is_other):
         return None
     was_wrong = bool(Certificate().violations(settled))
@@ -107,8 +112,7 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
     if now.options.sizes != "shared" or before.container is not now.container:
         return None
     # Other letters do not lie where those before did.
-    outlines = [[item.outline for item in one.items] for one in (before, now)]
-    if outlines[0] != outlines[1] or not np.array_equal(before.ids, now.ids):
+    if _has_other_outlines(before, now) or not np.array_equal(before.ids, now.ids):
         return None
     share = [100 * covered(one) for one in (before, now)]
     least = 1 - ROUNDING if is_chart(now) else (share[0] - 100 * MOST_RUINED) / share[0]
@@ -142,12 +146,6 @@ def covered(document: Document) -> float:
     return float(areas.sum()) / document.container.outline.area
 
 
-def _is_cloud(document: Document) -> bool:
-    """Whether there are words, in proportion to each other."""
-    has_words = any(is_word(document, k) for k in range(len(document)))
-    return has_words and document.options.sizes == "shared"
-
-
-def _is_reweighed(before: Document, now: Document) -> bool:
+def _has_other_outlines(before: Document, now: Document) -> bool:
     outlines = [[item.outline for item in one.items] for one in (before, now)]
-    return outlines[0] != outlines[1] or not np.array_equal(now.weights, before.weights)
+    return outlines[0] != outlines[1]

@@ -71,9 +71,16 @@ def poured_again(
 
 
 def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
-    """A run of the items of a document in its container."""
-    recipe = _recipe(document, seed, asked)
-    return uses.read(recipe, _weighed(document), document.container)
+    """A run of the items of a document in its container, with the weights that they have there.
+
+    Fillers, which ask for nothing, have the smallest weight of any other.
+    """
+    weights = document.weights
+    least = float(weights[weights > 0].min(initial=math.inf))
+    positive = np.where(weights > 0, weights, least if math.isfinite(least) else 1.0)
+    pairs = zip(document.items, positive.tolist(), strict=True)
+    items = [replace(item, weight=weight) for item, weight in pairs]
+    return uses.read(_recipe(document, seed, asked), items, document.container)
 
 
 def _asked(document: Document) -> tuple[ItemRules, ...]:
@@ -142,18 +149,6 @@ def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
         force=options.force,
         **asked,
     )
-
-
-def _weighed(document: Document) -> list[Item]:
-    pairs = zip(document.items, _positive(document.weights), strict=True)
-    return [replace(item, weight=weight) for item, weight in pairs]
-
-
-def _positive(weights: FloatArray) -> list[float]:
-    """Weights, those of fillers, which ask for nothing, as small as the smallest other."""
-    least = float(weights[weights > 0].min(initial=math.inf))
-    positive = np.where(weights > 0, weights, least if math.isfinite(least) else 1.0)
-    return [float(weight) for weight in positive]
 
 
 EPOCHS_BETWEEN = 3

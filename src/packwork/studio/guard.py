@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Awaitable, Callable, Iterable, MutableMapping
+from collections.abc import Awaitable, Callable, MutableMapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -84,7 +84,8 @@ class Guard:
         if (origins or is_socket) and _only(headers, "origin") != f"http://{self.host}":
             return "this is for the studio's own page"
         if is_socket:
-            return None if self._has_token(_offered(headers)) else "the token is missing"
+            has_token = any(map(self.secret.is_token, _offered(headers)))
+            return None if has_token else "the token is missing"
         if scope["type"] != "http":
             return "the studio does not speak this"
         is_read = scope["method"] in {"GET", "HEAD"}
@@ -95,9 +96,6 @@ class Guard:
         told = _only(headers, TOKEN_HEADER) or ""
         is_known = self.secret.is_page_before if scope["path"] == AGAIN else self.secret.is_token
         return None if is_known(told) else "the token is missing"
-
-    def _has_token(self, told: Iterable[str]) -> bool:
-        return any(map(self.secret.is_token, told))
 
     def _with_policy(self, send: Send) -> Send:
         """Have answers carry what browsers are to keep to."""

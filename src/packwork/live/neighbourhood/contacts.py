@@ -16,6 +16,11 @@ REACH = 0.6
 one. Larger stirs more items, smaller does not see across the gap that a gesture has left.
 Chosen."""
 
+RINGS = 3
+"""Neighbours of neighbours that a gesture reaches: that make room, that grow into room which it has
+left, and that a settle takes in where it fails. More share out what it takes and stir more items.
+Tried."""
+
 
 class ContactGraph:
     """Neighbours of items in their present places, found at a cost that follows what is asked."""

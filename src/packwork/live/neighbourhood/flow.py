@@ -17,7 +17,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.document import Document
 from packwork.live.neighbourhood.caches import LevelCache
-from packwork.live.neighbourhood.contacts import ContactGraph
+from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -27,17 +27,14 @@ from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
 from packwork.solve.outlines import Ensemble
 
-RINGS = 3
-"""Neighbours of neighbours that a gesture reaches. More share out what it takes and stir more
-items. Chosen."""
-
 FADE = 0.6
 """Factor on the steps of an item for each ring that it is away. Larger moves far items more,
 smaller leaves all to the nearest. Chosen."""
 
 LINGER = 60
-"""Epochs that an item goes on after the last gesture was near. Fewer leave gaps where an item was
-dragged past, more stir long trails. Chosen."""
+"""Epochs that an item goes on after the last gesture was near, and before a settle: what lies under
+what was dropped has to get out of its way. Fewer leave gaps and more to be shrunk, more stir long
+trails. Tried."""
 
 REVIEW = 5
 """Epochs after which it is looked anew which items are reached. More are faster and react later.

@@ -28,14 +28,11 @@ from packwork.geometry.overlay import (
 )
 from packwork.live.document import Document
 from packwork.live.neighbourhood.caches import ShapeCache
-from packwork.live.neighbourhood.contacts import ContactGraph
+from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.options import SizeMode
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-
-MOST_RINGS = 3
-"""Rings by which a neighbourhood is widened at most. More move what is far away. Chosen."""
 
 ROUNDS = 12
 """Linear programmes of each item of a neighbourhood. Over 160 gestures with 20 of them as much was
@@ -75,10 +72,10 @@ def settle(
     is_still = document.held[:, 0].copy()
     first = touched
     found = document.poses, False
-    for ring in range(MOST_RINGS + 1):
+    for ring in range(RINGS + 1):
         # What the hand has left stays for as long as that may be; it gives way in the end.
         still = is_still.copy()
-        if ring < MOST_RINGS:
+        if ring < RINGS:
             still[given] = True
         movable = first[~still[first]]
         found = _finished(document, movable, shapes, stop)
