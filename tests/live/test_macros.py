@@ -29,7 +29,7 @@ def cloud() -> pw.Layout:
 
 def covered(session: pw.Session) -> float:
     document = session.document
-    areas = document.own_areas * document.poses.scale**2
+    areas = document.areas
     return float(areas.sum() / document.container.outline.area)
 
 

@@ -23,7 +23,7 @@ def test_the_largest_word_is_where_it_was_put_and_the_cloud_is_full(
 ) -> None:
     session = cloud(container, seed).edit()
     before = session.document
-    k = int(np.argmax(before.own_areas * before.poses.scale**2))
+    k = int(np.argmax(before.areas))
     x, y = 300.0, 360.0 if before.poses.y[k] < 300 else 230.0
     session.move(int(before.ids[k]), x, y)
     assert session.finish().certified
@@ -40,7 +40,7 @@ def test_the_largest_word_is_where_it_was_put_and_the_cloud_is_full(
 def test_a_word_that_would_stick_out_comes_to_the_nearest_place_and_none_is_dwarfed() -> None:
     session = cloud("circle", 0).edit()
     before = session.document
-    k = int(np.argmax(before.own_areas * before.poses.scale**2))
+    k = int(np.argmax(before.areas))
     session.move(int(before.ids[k]), 300, 20)
     assert session.finish().certified
     after = session.document
@@ -54,7 +54,7 @@ def test_a_word_that_would_stick_out_comes_to_the_nearest_place_and_none_is_dwar
 def test_a_word_that_is_to_be_larger_than_the_cloud_is_as_large_as_there_is_room() -> None:
     session = cloud("circle", 1).edit()
     before = session.document
-    k = int(np.argmax(before.own_areas * before.poses.scale**2))
+    k = int(np.argmax(before.areas))
     session.scale(int(before.ids[k]), 9)
     assert session.finish().certified
     (said,) = session.unmet

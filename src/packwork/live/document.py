@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
 from typing import Any, Literal, TypeAlias, get_args
@@ -114,6 +114,11 @@ class Document:
         """``(n,)`` areas of the outlines, squared item units."""
         return np.array([item.outline.area for item in self.items])
 
+    @property
+    def areas(self) -> FloatArray:
+        """``(n,)`` areas of the items as large as they lie, squared canvas units."""
+        return self.own_areas * self.poses.scale**2
+
     def forces(self, rows: IntArray) -> Forces:
         """Forces on some items."""
         texts = self.options.force
@@ -135,6 +140,14 @@ class Document:
             smallest = np.minimum(typical / options.size_ratio, scale)
             largest = np.maximum(typical * options.size_ratio, scale)
         return replace(self, options=options, smallest=smallest, largest=largest)
+
+    def scaled(self, rows: int | Sequence[int], factor: float | FloatArray) -> Document:
+        """The same with some items so many times as large, ranges of their sizes too."""
+        columns = {name: getattr(self, name).copy() for name in ("smallest", "largest")}
+        scale = self.poses.scale.copy()
+        for values in (scale, *columns.values()):
+            values[rows] *= factor
+        return replace(self, poses=replace(self.poses, scale=scale), **columns)
 
     def with_poses(self, poses: Poses) -> Document:
         """The same with the items elsewhere."""

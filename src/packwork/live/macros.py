@@ -75,7 +75,7 @@ def first_area(document: Document, radius: float, weight: float) -> float:
         Of the item, in the document's unit: where sizes are in shares, or weights differ, that is
         what it gets.
     """
-    areas = document.own_areas * document.poses.scale**2
+    areas = document.areas
     usual = float(np.mean(areas)) if len(areas) else np.pi * radius**2
     if document.options.sizes != "free" or np.ptp(document.weights) > 0:
         mean = float(np.mean(document.weights)) if len(areas) else 1.0

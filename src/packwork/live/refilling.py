@@ -81,7 +81,7 @@ def refilled(
     # Where sizes are promised to be in shares, those of the hand stay so beside all others.
     held[by_hand] |= [True, True, not promise_of(asked).areas_in_shares]
     # In proportion as they are: where sizes gave way, weights ask for others.
-    areas = asked.own_areas * asked.poses.scale**2
+    areas = asked.areas
     pinned = replace(asked, held=held, weights=areas)
     for seed in range(SEEDS):
         try:
@@ -142,8 +142,7 @@ def advice_of(document: Document) -> tuple[str, ...]:
 
 def covered(document: Document) -> float:
     """Share of the container that items cover."""
-    areas = document.own_areas * document.poses.scale**2
-    return float(areas.sum()) / document.container.outline.area
+    return float(document.areas.sum()) / document.container.outline.area
 
 
 def _has_other_outlines(before: Document, now: Document) -> bool:

@@ -111,15 +111,7 @@ class Replace(Command):
         k = index_of(document, self.item, "replace")
         new = cast(Item, known(library.items, self.asset, "replace"))
         factor = math.sqrt(document.items[k].outline.area / new.outline.area)
-        columns = {name: getattr(document, name).copy() for name in ("smallest", "largest")}
-        for values in columns.values():
-            values[k] *= factor
-        scale = document.poses.scale.copy()
-        scale[k] *= factor
-        changed = _with_item(document, k, new)
-        return sized(
-            replace(changed, poses=replace(document.poses, scale=scale), **columns), "replace"
-        )
+        return sized(_with_item(document.scaled(k, factor), k, new), "replace")
 
 
 class Weigh(Command):
@@ -133,16 +125,11 @@ class Weigh(Command):
         """The document with other weights and sizes."""
         check_no_chart(document, "weigh")
         rows = [index_of(document, number, "weigh") for number in self.items]
-        weights, scale = document.weights.copy(), document.poses.scale.copy()
+        weights = document.weights.copy()
         before = np.where(weights[rows] > 0, weights[rows], 1.0)
         factor = np.sqrt(self.weight / before)
         weights[rows] = self.weight
-        scale[rows] *= factor
-        columns = {name: getattr(document, name).copy() for name in ("smallest", "largest")}
-        for values in columns.values():
-            values[rows] *= factor
-        poses = replace(document.poses, scale=scale)
-        return sized(replace(document, weights=weights, poses=poses, **columns), "weigh")
+        return sized(replace(document.scaled(rows, factor), weights=weights), "weigh")
 
 
 class Rename(Command):

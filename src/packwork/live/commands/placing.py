@@ -96,7 +96,7 @@ class Cover(Command):
     def applied(self, document: Document, library: Library) -> Document:
         """The document with all items of other sizes but those whose size is held."""
         free = ~document.held[:, PROPERTIES.index("size")]
-        areas = document.own_areas * document.poses.scale**2
+        areas = document.areas
         left = self.share * document.container.outline.area - areas[~free].sum()
         if not free.any() or left <= 0:
             raise RecipeError("cover", "items whose size is held cover more already; release some")

@@ -77,7 +77,7 @@ class ContactGraph:
 
 
 def _reach_of(document: Document) -> float:
-    areas = document.own_areas * document.poses.scale**2
+    areas = document.areas
     return REACH * float(np.sqrt(np.median(areas) / np.pi)) if len(areas) else 0.0
 
 

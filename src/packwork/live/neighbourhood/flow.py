@@ -140,7 +140,7 @@ class Flow:
         self._hardness = 1.0
         self._may: IntArray | None = None
         self._ring: IntArray = np.zeros(count, dtype=np.int64)
-        areas = document.own_areas * document.poses.scale**2
+        areas = document.areas
         self._share = float(np.sqrt(np.median(areas))) if count else document.container.side
         self.moved: BoolArray = np.zeros(count, dtype=bool)
         """``(n,)`` which items were given other places, or have flowed, since the last turn."""

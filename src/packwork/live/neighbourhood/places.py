@@ -108,15 +108,12 @@ def _brought(document: Document, k: int, room: Region) -> Document:
         factor = (low + high) / 2
     if place is None:
         return document
-    columns = {name: getattr(document, name).copy() for name in ("smallest", "largest", "weights")}
-    columns["smallest"][k] *= low
-    columns["largest"][k] *= low
-    # Sizes stay in the shares that are asked for, so another one is asked for.
-    columns["weights"][k] *= low**2 if document.options.sizes == "shared" else 1.0
-    x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()
+    made = document.scaled(k, low)
+    x, y, weights = poses.x.copy(), poses.y.copy(), document.weights.copy()
     x[k], y[k] = place
-    scale[k] *= low
-    return replace(document, poses=replace(poses, x=x, y=y, scale=scale), **columns)
+    # Sizes stay in the shares that are asked for, so another one is asked for.
+    weights[k] *= low**2 if document.options.sizes == "shared" else 1.0
+    return replace(made, poses=replace(made.poses, x=x, y=y), weights=weights)
 
 
 def _nearest(room: Region, shape: FloatArray, at: FloatArray, margin: float) -> FloatArray | None:

@@ -142,7 +142,7 @@ def _finished(
 def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Container | None:
     """The container about some items, less all that stands there; None where that is nothing."""
     boxes = np.array([outline.bounds for outline in _placed(document, movable, shapes)])
-    areas = document.own_areas * document.poses.scale**2
+    areas = document.areas
     reach = ABOUT * float(np.sqrt(np.median(areas))) + 2 * gap_of(document, movable)
     region = valid(document.container.outline.region)
     wide = boxes + reach * np.array([-1.0, -1.0, 1.0, 1.0])
