@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, fields
-from typing import Any
 
 import numpy as np
 
@@ -98,7 +98,7 @@ class Marks:
     polished
         How many times polish was called: the seed of what it tries.
     tried
-        Turns that were tried since anything became rough.
+        Turns that were tried since anything was unpolished.
     """
 
     touched: set[int] = field(default_factory=set)
@@ -113,9 +113,7 @@ class Marks:
 
     def copy(self) -> Marks:
         """The same, to be gone back to."""
-        columns: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
-        columns |= {k: set(v) for k, v in columns.items() if isinstance(v, set)}
-        return Marks(**columns)
+        return deepcopy(self)
 
     def settled(self) -> None:
         """Forget what was to be settled."""
@@ -124,10 +122,7 @@ class Marks:
 
     def leapt(self) -> None:
         """Forget all items: the document is another one."""
-        for column in fields(self):
-            value = getattr(self, column.name)
-            if isinstance(value, set):
-                value.clear()
+        self.keep(set())
 
     def keep(self, present: set[int]) -> None:
         """Forget items that are no more."""

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from packwork import threads
 from packwork.errors import PackworkError
@@ -19,7 +19,6 @@ from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.session import Session
 
-AnySession = TypeVar("AnySession", bound=Session)
 Answer = TypeVar("Answer")
 
 MOST_WAITING = 256
@@ -104,7 +103,7 @@ class Frame:
     advice: tuple[str, ...] = ()
 
 
-class Owner(Generic[AnySession]):
+class Owner:
     """Runs a session in a thread of its own.
 
     Commands are done in their order. A move of an item that waits behind another move of the same
@@ -132,7 +131,7 @@ class Owner(Generic[AnySession]):
 
     def __init__(
         self,
-        session: AnySession,
+        session: Session,
         told: Callable[[], object] = lambda: None,
         *,
         polishes: bool = False,
@@ -154,7 +153,7 @@ class Owner(Generic[AnySession]):
         """The newest; replaced as a whole, so that it may be read at any time."""
         self._thread = threading.Thread(target=self._run, name="session", daemon=True)
 
-    def __enter__(self) -> Owner[AnySession]:
+    def __enter__(self) -> Owner:
         self._thread.start()
         return self
 
@@ -170,7 +169,7 @@ class Owner(Generic[AnySession]):
         """Have a command or a leap done; False if too many wait already, or it is over."""
         return self._take(command)
 
-    def call(self, function: Callable[[AnySession], Answer]) -> Future[Answer]:
+    def call(self, function: Callable[[Session], Answer]) -> Future[Answer]:
         """Have a function of the session called in the thread, in its turn; what it answers.
 
         What it raises is raised by the future, also where too many wait or it is over.

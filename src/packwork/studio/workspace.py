@@ -78,7 +78,7 @@ class Workspace:
         self._unheard: deque[News] = deque(maxlen=MOST_LINES)
         self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[News | None], object]] = {}
-        self.owner: Owner[Session] | None = None
+        self.owner: Owner | None = None
         """The thread that owns the session; None until there is one."""
 
     async def begin(self) -> None:
@@ -229,7 +229,7 @@ class Workspace:
         else:
             self.work("Trying others", partial(self._try_more, self.owner, seed))
 
-    def _try_more(self, owner: Owner[Session], seed: int) -> None:
+    def _try_more(self, owner: Owner, seed: int) -> None:
         document = owner.frame.document
         for number in range(seed, seed + VARIANTS):
             if self._stop.is_set():
@@ -287,7 +287,7 @@ class Workspace:
 
     def _pour(
         self,
-        owner: Owner[Session],
+        owner: Owner,
         seed: int,
         make: Callable[[Session], Sequence[Command]],
         asked: Mapping[str, str] = MappingProxyType({}),
