@@ -165,7 +165,7 @@ def _written(
     faults = faults_in(files, made, drawing) if done.certified else []
     certified = done.certified and not faults
     metrics = measure(made).as_dict()
-    said = {
+    summary = {
         "metrics": metrics,
         "items": len(made.items),
         "certified": certified,
@@ -175,7 +175,7 @@ def _written(
         "moved": done.moved,
     }
     if report is not None:
-        files.append((report, writers.json_bytes(said)))
+        files.append((report, writers.json_bytes(summary)))
     with contextlib.ExitStack() as saved:
         for path in filter(is_session, outputs):
             own = disk if disk and disk.is_at(path) else Disk(path, is_journaled=False)

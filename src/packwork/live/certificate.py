@@ -55,13 +55,13 @@ class Certificate:
     def in_the_way(self, document: Document) -> tuple[str, ...]:
         """Reasons that keep a document from its certificate, a sentence each."""
         place = {number: k for k, number in enumerate(document.ids.tolist())}
-        said = []
+        reasons = []
         for one in self._brought_to(document).violations:
             other = None if one.other is None else place[one.other]
             placed = replace(one, item=place[one.item], other=other)
             name = document.items[placed.item].name
-            said.append(f"{name} {reason(placed, document.items, document.container.unit)}")
-        return (*said, *off_shares(promise_of(document), document.layout))
+            reasons.append(f"{name} {reason(placed, document.items, document.container.unit)}")
+        return (*reasons, *off_shares(promise_of(document), document.layout))
 
     def _brought_to(self, now: Document) -> ViolationSet:
         """Look at what has changed since it was last looked at."""
@@ -144,14 +144,14 @@ class Requests:
 
     def unmet(self, document: Document) -> tuple[str, ...]:
         """Sentences about what items of a document have not got."""
-        poses, told = document.poses, []
+        poses, sentences = document.poses, []
         for number, (x, y) in self._places.items():
             k = document.index(number)
             if k is None or math.dist((x, y), (poses.x[k], poses.y[k])) <= (
                 NEAR * document.container.side
             ):
                 continue
-            told.append(
+            sentences.append(
                 f"{called(document, k)} is at {poses.x[k]:.4g}, {poses.y[k]:.4g}, not at "
                 f"{x:.4g}, {y:.4g}: there is no room for it"
             )
@@ -161,11 +161,11 @@ class Requests:
             if k is None or _size(document, k) * spare >= asked * (1 - ROUNDING):
                 continue
             factor = _size(document, k) / first
-            told.append(
+            sentences.append(
                 f"{called(document, k)} is {factor:.3g} times as large as it was, "
                 f"not {asked / first:.3g} times: there is no room for more"
             )
-        return tuple(told)
+        return tuple(sentences)
 
 
 def _size(document: Document, k: int) -> float:

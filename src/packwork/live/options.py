@@ -57,11 +57,11 @@ class LiveOptions(Options):
         '30'
         """
         recipe = manifest.get("recipe")
-        said = recipe if isinstance(recipe, Mapping) else {}
+        options = recipe if isinstance(recipe, Mapping) else {}
         promise = Promise.of(manifest) or Promise()
-        found = {name: said[name] for name in ("size_ratio", "rotate") if name in said}
-        found["force"] = _without_files(said.get("force"))
-        sizes = MODES.get(str(said.get("sizes")), "free")
+        found = {name: options[name] for name in ("size_ratio", "rotate") if name in options}
+        found["force"] = _without_files(options.get("force"))
+        sizes = MODES.get(str(options.get("sizes")), "free")
         found["sizes"] = "shared" if promise.areas_in_shares else sizes
         edited = manifest.get("edited")
         if isinstance(edited, Mapping):

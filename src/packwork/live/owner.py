@@ -114,7 +114,7 @@ class Owner:
     ----------
     session
         Nobody else may touch it meanwhile.
-    told
+    on_frame
         Called in the thread after each frame; must not take long.
     polishes
         Whether coverage is won back, turn by turn, while nobody touches anything.
@@ -132,12 +132,12 @@ class Owner:
     def __init__(
         self,
         session: Session,
-        told: Callable[[], object] = lambda: None,
+        on_frame: Callable[[], object] = lambda: None,
         *,
         polishes: bool = False,
     ) -> None:
         self._session = session
-        self._told, self._polishes = told, polishes
+        self._on_frame, self._polishes = on_frame, polishes
         self._waiting: deque[tuple[int, Posted]] = deque()
         self._changed = threading.Condition()
         self._is_over = False
@@ -213,7 +213,7 @@ class Owner:
             for _, posted in self._waiting:
                 if isinstance(posted, _Call):
                     posted.answer.set_exception(error)
-            self._told()
+            self._on_frame()
 
     def _turn(self) -> bool:
         """Do what waits, flow, show; False when all is done and no more comes."""
@@ -294,7 +294,7 @@ class Owner:
 
     def _show(self, in_the_way: tuple[str, ...] | None) -> None:
         self.frame = self._framed(self.frame.number + 1, in_the_way)
-        self._told()
+        self._on_frame()
 
     def _framed(self, number: int, in_the_way: tuple[str, ...] | None) -> Frame:
         """The session as it is now, and what was refused since the frame before."""

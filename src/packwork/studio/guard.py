@@ -93,9 +93,9 @@ class Guard:
             return "this is for the studio's own page"
         if is_read and _is_open(scope["path"]):
             return None
-        told = _only(headers, TOKEN_HEADER) or ""
+        token = _only(headers, TOKEN_HEADER) or ""
         is_known = self.secret.is_page_before if scope["path"] == AGAIN else self.secret.is_token
-        return None if is_known(told) else "the token is missing"
+        return None if is_known(token) else "the token is missing"
 
     def _with_policy(self, send: Send) -> Send:
         """Have answers carry what browsers are to keep to."""
@@ -117,8 +117,8 @@ def _only(headers: list[tuple[str, bytes]], name: str) -> str | None:
 
 def _offered(headers: list[tuple[str, bytes]]) -> list[str]:
     """Tokens among the subprotocols that a socket offers."""
-    told = (_only(headers, "sec-websocket-protocol") or "").split(",")
-    names = [one.strip() for one in told]
+    tokens = (_only(headers, "sec-websocket-protocol") or "").split(",")
+    names = [one.strip() for one in tokens]
     return [one.removeprefix(TOKEN_PREFIX) for one in names if one.startswith(TOKEN_PREFIX)]
 
 

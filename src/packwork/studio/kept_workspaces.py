@@ -49,8 +49,8 @@ class KeptWorkspace:
         if self.place is None:
             return 0, ""
         try:
-            said = json.loads(self.place.read_text(encoding="utf-8"))
-            port, key = said["port"], said["key"]
+            stored = json.loads(self.place.read_text(encoding="utf-8"))
+            port, key = stored["port"], stored["key"]
         except (OSError, ValueError, TypeError, KeyError):
             return 0, ""
         is_sound = isinstance(port, int) and 0 < port < 65_536 and isinstance(key, str)

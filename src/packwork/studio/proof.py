@@ -73,19 +73,19 @@ class Secret:
         """Key of proofs, kept for the next start."""
         return mac(self.text, "key")
 
-    def is_token(self, told: str) -> bool:
+    def is_token(self, text: str) -> bool:
         """True for what a page of ours knows."""
-        known = secrets.compare_digest(told.encode(), self.token.encode())
-        is_text = secrets.compare_digest(told.encode(), self.text.encode())
+        known = secrets.compare_digest(text.encode(), self.token.encode())
+        is_text = secrets.compare_digest(text.encode(), self.text.encode())
         return known or (self.is_plain and is_text)
 
-    def is_page_before(self, told: str) -> bool:
+    def is_page_before(self, text: str) -> bool:
         """True for the proof of a page that the studio before had opened."""
         expected = mac(self.key_before, f"page {self.host} {self.nonce}")
-        return bool(self.key_before) and secrets.compare_digest(told.encode(), expected.encode())
+        return bool(self.key_before) and secrets.compare_digest(text.encode(), expected.encode())
 
     def proofs(self, nonce: str) -> dict[str, str]:
         """Proofs for a page that the studio knows the secret, or that of the studio before."""
-        said = f"studio {self.host} {nonce}"
-        before = mac(self.key_before, said) if self.key_before else ""
-        return {"nonce": self.nonce, "now": mac(self.key, said), "before": before}
+        signed = f"studio {self.host} {nonce}"
+        before = mac(self.key_before, signed) if self.key_before else ""
+        return {"nonce": self.nonce, "now": mac(self.key, signed), "before": before}

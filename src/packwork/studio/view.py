@@ -155,8 +155,8 @@ class Scenes:
         if item not in self._drawings:
             drawing = drawing_of(item)
             self._drawings[item] = drawing
-            said = {name: getattr(drawing, name) for name in Shape.model_fields}
-            self.shapes[drawing.key] = Shape(**said)
+            fields = {name: getattr(drawing, name) for name in Shape.model_fields}
+            self.shapes[drawing.key] = Shape(**fields)
         return self._drawings[item]
 
     def _path(self, container: Container) -> str:

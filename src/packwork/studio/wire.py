@@ -145,9 +145,9 @@ def frame_bytes(number: int, version: int, done: int, moving: bool, poses: np.nd
 def page_types(schema: Mapping[str, Any]) -> str:
     """The page's list of messages by their schema, ``static/wire.js``: types for its checker."""
     named: dict[str, str] = {}
-    for side, said in schema.items():
-        names = [one.rpartition("/")[2] for one in said["discriminator"]["mapping"].values()]
-        defined = said["$defs"]
+    for side, side_schema in schema.items():
+        names = [one.rpartition("/")[2] for one in side_schema["discriminator"]["mapping"].values()]
+        defined = side_schema["$defs"]
         named |= {name: _written(one) for name, one in defined.items()}
         named[side.capitalize()] = " | ".join(names)
     lines = [f" * @typedef {{{written}}} {name}" for name, written in sorted(named.items())]
@@ -156,25 +156,25 @@ def page_types(schema: Mapping[str, Any]) -> str:
     return "\n".join((head, foot, *lines, " */", "export {};", ""))
 
 
-def _written(said: dict[str, Any]) -> str:
-    if "$ref" in said:
-        return str(said["$ref"]).rpartition("/")[2]
-    if "const" in said or "enum" in said:
-        values = [json.dumps(one) for one in said.get("enum", [said.get("const")])]
+def _written(schema: dict[str, Any]) -> str:
+    if "$ref" in schema:
+        return str(schema["$ref"]).rpartition("/")[2]
+    if "const" in schema or "enum" in schema:
+        values = [json.dumps(one) for one in schema.get("enum", [schema.get("const")])]
         return values[0] if len(values) == 1 else f"({' | '.join(values)})"
     for key in ("anyOf", "oneOf"):
-        if key in said:
-            return "(" + " | ".join(_written(one) for one in said[key]) + ")"
-    if "prefixItems" in said:
-        return "[" + ", ".join(_written(one) for one in said["prefixItems"]) + "]"
-    if said.get("type") == "array":
-        return f"{_written(said.get('items', {}))}[]"
-    if "properties" in said:
-        needed = said.get("required", [])
+        if key in schema:
+            return "(" + " | ".join(_written(one) for one in schema[key]) + ")"
+    if "prefixItems" in schema:
+        return "[" + ", ".join(_written(one) for one in schema["prefixItems"]) + "]"
+    if schema.get("type") == "array":
+        return f"{_written(schema.get('items', {}))}[]"
+    if "properties" in schema:
+        needed = schema.get("required", [])
         parts = [
             f"{name}{'' if name in needed or 'const' in one else '?'}: {_written(one)}"
-            for name, one in said["properties"].items()
+            for name, one in schema["properties"].items()
         ]
         return "{" + ", ".join(parts) + "}"
     plain = {"integer": "number", "number": "number", "string": "string", "boolean": "boolean"}
-    return plain.get(str(said.get("type")), "any" if said.get("type") != "null" else "null")
+    return plain.get(str(schema.get("type")), "any" if schema.get("type") != "null" else "null")

@@ -100,11 +100,11 @@ class Workspace:
                 owner.call(keeper.end)
             owner.__exit__(None, None, None)
 
-    def listen(self, who: object, told: Callable[[News | None], object]) -> None:
+    def listen(self, who: object, on_news: Callable[[News | None], object]) -> None:
         """Have somebody told, in the event loop, that something has changed, or a line."""
-        self._listeners[who] = told
+        self._listeners[who] = on_news
         for line in self._unheard:
-            told(line)
+            on_news(line)
         self._unheard.clear()
 
     def forget(self, who: object) -> None:
@@ -346,8 +346,8 @@ class Workspace:
     def _tell(self, line: News | None) -> None:
         if line is not None and not self._listeners:
             self._unheard.append(line)
-        for told in tuple(self._listeners.values()):
-            told(line)
+        for on_news in tuple(self._listeners.values()):
+            on_news(line)
 
 
 def _prepared(

@@ -135,9 +135,9 @@ def named_item(library: Library, item: Item) -> str:
     >>> named_item(library, star) == named_item(library, again), len(library.items)
     (True, 1)
     """
-    said = (item.name, item.source, item.label, item.weight, item.halo, item.datum, item.row)
+    properties = (item.name, item.source, item.label, item.weight, item.halo, item.datum, item.row)
     drawn = _of_art(item.art)
-    parts = (repr(said).encode(), _points(item.outline), _points(item.ink), drawn)
+    parts = (repr(properties).encode(), _points(item.outline), _points(item.ink), drawn)
     name = hashlib.sha256(b"\0".join(parts)).hexdigest()
     library.items.setdefault(name, item)
     return name

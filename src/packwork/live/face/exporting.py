@@ -89,8 +89,8 @@ def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
     drawn = {"background": "white", "show_container": False}
     drawn |= {name: options[name] for name in drawn if name in options}
     _drawing(drawn)
-    said = film_options(**{name: value for name, value in options.items() if name not in drawn})
-    film = Film(layout, said, str(drawn["background"]), bool(drawn["show_container"]))
+    settings = film_options(**{name: value for name, value in options.items() if name not in drawn})
+    film = Film(layout, settings, str(drawn["background"]), bool(drawn["show_container"]))
     return film_bytes(film, f"layout.{kind.removeprefix(FILM)}")
 
 

@@ -199,8 +199,8 @@ def drawing_of(item: Item) -> Drawing:
         fill, ink = _seen(art.fill), path_of(item.ink, INK_FINENESS)
     else:
         svg = _document(f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g>', box)
-    said = "\0".join((outline, fill, ink, svg)).encode()
-    key = hashlib.sha256(said).hexdigest()[:24]
+    parts = "\0".join((outline, fill, ink, svg)).encode()
+    key = hashlib.sha256(parts).hexdigest()[:24]
     return Drawing(key=key, outline=outline, box=box, fill=fill, ink=ink, svg=svg)
 
 

@@ -182,8 +182,8 @@ class Disk:
         except RecipeError as error:
             raise ReadError(self.journal, f"asks for what has no meaning: {error}") from None
         if gestures:
-            said = number_of(gestures, "gesture")
-            _LOG.warning("%s: %s done again that had not been saved", self.path, said)
+            count = number_of(gestures, "gesture")
+            _LOG.warning("%s: %s done again that had not been saved", self.path, count)
         if self.is_journaled:
             # What was recovered is written before anything new is done to it.
             (self.save if gestures else self._begin)(session)
@@ -239,10 +239,10 @@ class Disk:
 def _follows(line: str) -> str:
     """Digest of the file that a journal goes on from; empty if it says none."""
     try:
-        said = json.loads(line)
+        first = json.loads(line)
     except (ValueError, RecursionError):
         return ""
-    return str(said.get("follows", "")) if isinstance(said, dict) else ""
+    return str(first.get("follows", "")) if isinstance(first, dict) else ""
 
 
 def _whole_gestures(entries: Iterator[Entry], journal: Path) -> Iterator[Entry]:
