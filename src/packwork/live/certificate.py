@@ -22,10 +22,7 @@ from packwork.steps.measure import reason
 class Settlement:
     """Result of a settle.
 
-    Parameters
-    ----------
-    certified
-        Whether exact geometry finds nothing wrong with the layout now.
+    ``certified``: whether exact geometry finds nothing wrong with the layout now.
     """
 
     certified: bool

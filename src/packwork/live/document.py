@@ -187,10 +187,7 @@ class Invalidation(IntEnum):
 class Change:
     """Difference of two documents.
 
-    Parameters
-    ----------
-    items
-        Numbers of the items that changed, came or went.
+    ``items``: numbers of the items that changed, came or went.
     """
 
     stale: Invalidation

@@ -136,10 +136,7 @@ class Marks:
 class SessionState:
     """All that a session goes on from.
 
-    Parameters
-    ----------
-    base
-        Document in which all had been settled last: what has flowed in vain goes back to it.
+    ``base``: document in which all had been settled last: what has flowed in vain goes back to it.
     """
 
     document: Document
@@ -156,10 +153,7 @@ MOST, MOST_PLACES = 2_000, 400_000
 class Frames:
     """Poses from time to time, of the items that there are now.
 
-    Parameters
-    ----------
-    document
-        Where the film begins. It begins anew when items come or go.
+    ``document``: where the film begins. It begins anew when items come or go.
 
     Examples
     --------

@@ -52,10 +52,7 @@ MOST_TRIALS = 10_000
 class Log:
     """Entries, and the stream that they are written to, if there is one.
 
-    Parameters
-    ----------
-    stream
-        Open for text; flushed at the end of each gesture. Without one nothing is kept.
+    ``stream``: open for text; flushed at the end of each gesture. Without one nothing is kept.
     """
 
     def __init__(self, stream: IO[str] | None = None) -> None:

@@ -119,10 +119,8 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
 
     Words that stay are the same items; new ones come in the colours of the others, in turn.
 
-    Parameters
-    ----------
-    is_lettered
-        Whether how words are set was asked for: those that stay then take on the new letters.
+    ``is_lettered``: whether how words are set was asked for: those that stay then take on the new
+    letters.
     """
     document = session.document
     now = {item.name: share for item, share in zip(read.items, read.areas, strict=True)}

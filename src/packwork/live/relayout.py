@@ -51,11 +51,8 @@ def poured_again(
     What is held stays where it is, and the others lie about it; where it has no room there, it
     is in nobody's way until they settle.
 
-    Parameters
-    ----------
-    asked
-        Where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
-        ``anchors``.
+    ``asked``: where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
+    ``anchors``.
     """
     is_by_text = asked.get("embeddings") == BY_TEXT
     job = job_again(document, seed, {} if is_by_text else asked)

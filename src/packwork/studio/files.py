@@ -122,10 +122,7 @@ class Exporter:
     async def file(self, asked: Any) -> tuple[bytes, str]:
         """Bytes of a file, and what browsers call its format.
 
-        Parameters
-        ----------
-        asked
-            ``format``, and ``options`` of drawings by name.
+        ``asked``: ``format``, and ``options`` of drawings by name.
         """
         if not isinstance(asked, dict) or set(asked) - {"format", "options"}:
             raise RecipeError("export", "takes a format and options")

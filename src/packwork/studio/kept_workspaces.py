@@ -34,10 +34,7 @@ _KEY = re.compile("[0-9a-f]{64}")
 class KeptWorkspace:
     """A desk on disk.
 
-    Parameters
-    ----------
-    place
-        Where its port and key stand; None if nothing may be kept.
+    ``place``: where its port and key stand; None if nothing may be kept.
     """
 
     file: Path

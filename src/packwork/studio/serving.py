@@ -42,10 +42,7 @@ shorter costs the session time. Tried."""
 class Address:
     """Address at which the studio listens.
 
-    Parameters
-    ----------
-    port
-        0 for any that is free.
+    ``port``: 0 for any that is free.
     """
 
     host: str = HERE

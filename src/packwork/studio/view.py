@@ -28,10 +28,7 @@ MOST_TOLD = 200
 class View:
     """All that is drawn.
 
-    Parameters
-    ----------
-    poses
-        As many as items; None before they have a place.
+    ``poses``: as many as items; None before they have a place.
     """
 
     container: Container

@@ -128,10 +128,7 @@ SAID: TypeAdapter[Said] = TypeAdapter(Said)
 def frame_bytes(number: int, version: int, done: int, moving: bool, poses: np.ndarray) -> bytes:
     """A frame: its head, then four numbers an item.
 
-    Parameters
-    ----------
-    poses
-        ``(n, 4)`` x, y, angle in radians, scale.
+    ``poses``: ``(n, 4)`` x, y, angle in radians, scale.
 
     Examples
     --------

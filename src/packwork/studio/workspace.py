@@ -50,10 +50,7 @@ NOT_YET = "the desk is still being laid; try it again in a moment"
 class Shown:
     """View of a desk at a moment.
 
-    Parameters
-    ----------
-    done
-        How many commands it knows, in the count of the session's owner.
+    ``done``: how many commands it knows, in the count of the session's owner.
     """
 
     view: View
@@ -195,10 +192,7 @@ class Workspace:
     def pour_now(self, asked: Mapping[str, str]) -> None:
         """Fill the container anew, in the worker that calls this.
 
-        Parameters
-        ----------
-        asked
-            Where items are to lie, as :func:`packwork.live.relayout.poured_again` has it.
+        ``asked``: where items are to lie, as :func:`packwork.live.relayout.poured_again` has it.
         """
         if self.owner is None:
             raise PackworkError(NOT_YET)

@@ -37,10 +37,7 @@ ItemIds: TypeAlias = Annotated[tuple[ItemId, ...], Field(min_length=1)]
 class Library:
     """Things that commands bring into a document, by the names that they call them.
 
-    Parameters
-    ----------
-    items, containers
-        Values that were read, by a name of their content.
+    ``items``, ``containers``: values that were read, by a name of their content.
     """
 
     items: dict[str, Item] = field(default_factory=dict)

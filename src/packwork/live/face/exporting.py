@@ -64,10 +64,7 @@ LINES = (
 def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
     """A layout in a format.
 
-    Parameters
-    ----------
-    kind
-        One of :data:`FORMATS`.
+    ``kind``: one of :data:`FORMATS`.
     """
     if kind not in FORMATS:
         raise WriteError(kind[:20], f"is no format; use one of {', '.join(FORMATS)}")

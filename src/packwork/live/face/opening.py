@@ -29,10 +29,7 @@ LAYOUTS = frozenset({".geojson", ".json", ".dxf"})
 class Opening:
     """Opening of a studio: a recipe, a document or a session's file.
 
-    Parameters
-    ----------
-    kept_in
-        File in which the session is kept, with a journal; None to keep it nowhere.
+    ``kept_in``: file in which the session is kept, with a journal; None to keep it nowhere.
     """
 
     recipe: Recipe | None = None
@@ -44,11 +41,8 @@ class Opening:
 def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) -> Opening:
     """Opening that inputs stand for, as people type them.
 
-    Parameters
-    ----------
-    inputs
-        None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
-        ending, an SVG that this program wrote too. Else the container, then the items.
+    ``inputs``: None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
+    ending, an SVG that this program wrote too. Else the container, then the items.
 
     Examples
     --------

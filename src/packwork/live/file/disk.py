@@ -110,10 +110,7 @@ class Disk:
     def save(self, session: Session, journal: bool | None = None) -> None:
         """Write the file, and begin its journal anew.
 
-        Parameters
-        ----------
-        journal
-            Whether one is kept from now on; None for as before.
+        ``journal``: whether one is kept from now on; None for as before.
         """
         with self.replacing(session, journal) as data:
             write_atomic(self.path, data)

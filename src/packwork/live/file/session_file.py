@@ -81,10 +81,7 @@ class SessionRecord(Options):
 def session_bytes(kept: SessionState, things: Things, follows: str = "") -> bytes:
     """File of a session.
 
-    Parameters
-    ----------
-    follows
-        SHA-256 of the file that it is to replace; empty for none.
+    ``follows``: SHA-256 of the file that it is to replace; empty for none.
     """
     past, future = kept.history.past, kept.history.future
     while True:

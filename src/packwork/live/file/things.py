@@ -48,10 +48,7 @@ _Model = TypeVar("_Model", bound=BaseModel)
 class Shared:
     """Fonts and outlines of a file, each checked and made once, so that items share them.
 
-    Parameters
-    ----------
-    read
-        A font's bytes by the hash of its content.
+    ``read``: a font's bytes by the hash of its content.
     """
 
     def __init__(self, read: Callable[[str], bytes]) -> None:

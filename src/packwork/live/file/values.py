@@ -107,10 +107,7 @@ HALVES = 4
 def art_record(art: Art, extent: float) -> ArtRecord:
     """An art as plain values.
 
-    Parameters
-    ----------
-    extent
-        Longer side of the item, in its own units.
+    ``extent``: longer side of the item, in its own units.
     """
     if isinstance(art, FlatArt):
         return FlatRecord(fill=art.fill)

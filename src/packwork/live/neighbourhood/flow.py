@@ -117,10 +117,7 @@ class Flow:
     def turn_to(self, document: Document, held: BoolArray) -> None:
         """Go on with another document; nothing moves until something is activated.
 
-        Parameters
-        ----------
-        held
-            ``(n, 3)`` what of each item no epoch changes, as :attr:`Document.held`.
+        ``held``: ``(n, 3)`` what of each item no epoch changes, as :attr:`Document.held`.
         """
         self.document = document
         if self._contacts is not None:
