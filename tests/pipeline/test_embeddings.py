@@ -14,10 +14,10 @@ import packwork as pw
 from packwork.arrays import IntArray
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.words.cooccurrence import (
+    cooccurrence_vectors,
     information,
     pairs_within,
     places_of,
-    related,
     vectors_of,
 )
 from packwork.readers.words.options import Word
@@ -204,7 +204,7 @@ def test_phrases_and_plurals_are_found() -> None:
         -1,
         1,
     ]
-    assert related(text * 2, words, 2).shape[0] == 2
+    assert cooccurrence_vectors(text * 2, words, 2).shape[0] == 2
 
 
 WEIGHTS = {"fox": 1, "bear": 5, "owl": 2, "Moose": 4, "hare": 3, "moose": 1}

@@ -14,7 +14,7 @@ from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import Listing, Sample, listed, matched
 from packwork.readers.memory.items import items_in_memory
 from packwork.readers.options import ReadOptions
-from packwork.readers.pages import Read, agreed
+from packwork.readers.pages import Read, with_pages_alike
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
 from packwork.readers.regions import Holes
@@ -116,7 +116,7 @@ def read_items(
         listing.tell(source)
     if not reads:
         raise ReadError("items", "none were given; give a file, a folder or a built-in name")
-    return ItemsRead(tuple(agreed(reads)), (*skipped, *unread))
+    return ItemsRead(tuple(with_pages_alike(reads)), (*skipped, *unread))
 
 
 def is_several(source: str) -> bool:

@@ -43,7 +43,7 @@ class Read:
     again: Callable[[], Item] | None = None
 
 
-def agreed(reads: Sequence[Read]) -> list[Item]:
+def with_pages_alike(reads: Sequence[Read]) -> list[Item]:
     """Items of files, those of one folder treated alike, which is said.
 
     Where most files fill their pages, as flags do, those that look like drawings on a white
@@ -55,8 +55,10 @@ def agreed(reads: Sequence[Read]) -> list[Item]:
     >>> star, page = builtin_item("star"), builtin_item("square")
     >>> flags = [Read(page, f"flags/{k}.svg", PageFate.FILLED) for k in range(3)]
     >>> japan = Read(star, "flags/jp.svg", PageFate.LEFT_OUT, lambda: page)
-    >>> [item.name for item in agreed([*flags, japan])], [i.name for i in agreed([japan])]
-    (['square', 'square', 'square', 'square'], ['star'])
+    >>> [item.name for item in with_pages_alike([*flags, japan])]
+    ['square', 'square', 'square', 'square']
+    >>> [item.name for item in with_pages_alike([japan])]
+    ['star']
     """
     items = [one.item for one in reads]
     folders: dict[Path, list[int]] = defaultdict(list)

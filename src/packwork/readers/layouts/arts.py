@@ -33,7 +33,7 @@ _START = re.compile(rb"""<[^<>"']*(?:"[^"]*"[^<>"']*|'[^']*'[^<>"']*)*>""")
 _ENCODED = re.compile(rb"""^\s*<\?xml[^>]*encoding\s*=\s*["'](?!utf-8["'])""", re.IGNORECASE)
 
 
-def insides(data: bytes, wanted: Set[int]) -> dict[int, str]:
+def inner_texts(data: bytes, wanted: Set[int]) -> dict[int, str]:
     """Text between the tags of elements, by their number in the document's order, the root 0.
 
     Nothing for a document that is not in UTF-8, or declares entities. It has to have been
@@ -41,7 +41,7 @@ def insides(data: bytes, wanted: Set[int]) -> dict[int, str]:
 
     Examples
     --------
-    >>> insides(b'<svg><g a="1>0"> <path/></g><g/></svg>', {1, 3})
+    >>> inner_texts(b'<svg><g a="1>0"> <path/></g><g/></svg>', {1, 3})
     {1: ' <path/>', 3: ''}
     """
     if _ENCODED.match(data) or b"<!ENTITY" in data or data.startswith((b"\xff", b"\xfe", b"\xef")):
@@ -164,7 +164,7 @@ class Arts:
     def __init__(self, root: ET.Element, data: bytes, sources: list[ET.Element]) -> None:
         wanted = set(sources)
         numbers = {n: one for n, one in enumerate(root.iter()) if one in wanted}
-        texts = insides(data, numbers.keys())
+        texts = inner_texts(data, numbers.keys())
         self._inside = {numbers[n]: text for n, text in texts.items()}
         self._drawings: dict[tuple[object, ...], _Drawing] = {}
         self._items: dict[tuple[object, ...], Item] = {}

@@ -23,7 +23,7 @@ from packwork.readers.cache import read_once
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
-from packwork.readers.pages import PageFate, Read, agreed
+from packwork.readers.pages import PageFate, Read, with_pages_alike
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import FILTERED, vector_art, whole_reach, within_outline
@@ -185,7 +185,7 @@ def item_of_svg(
     (1, 2)
     """
     options = reading or ReadOptions()
-    return agreed([_read(data, name, source, holes, options, is_compared=is_compared)])[0]
+    return with_pages_alike([_read(data, name, source, holes, options, is_compared=is_compared)])[0]
 
 
 def _read(

@@ -324,12 +324,12 @@ def is_numeric(rows: Sequence[Mapping[str, Any]], column: str) -> bool:
     return bool(held) and not any(math.isnan(as_number(cell)) for cell in held)
 
 
-def shown(cell: Any) -> str:
+def cell_text(cell: Any) -> str:
     """Text of a cell, in one line.
 
     Examples
     --------
-    >>> shown("a  b"), shown(2.0), shown(None)
+    >>> cell_text("a  b"), cell_text(2.0), cell_text(None)
     ('a b', '2', 'no value')
     """
     if is_missing(cell):
@@ -352,7 +352,7 @@ def categories(rows: Sequence[Mapping[str, Any]], column: str) -> tuple[list[str
     >>> categories([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], "k")
     (['Red', 'Red', 'Red'], ["k: 'red' (1 row) counts as 'Red'"])
     """
-    written = Counter(shown(row.get(column)) for row in rows)
+    written = Counter(cell_text(row.get(column)) for row in rows)
     common: dict[str, str] = {}
     told = []
     for text, count in written.most_common():
@@ -360,10 +360,10 @@ def categories(rows: Sequence[Mapping[str, Any]], column: str) -> tuple[list[str
         if first != text:
             rows_said = number_of(count, "row")
             told.append(f"{column}: {text[:40]!r} ({rows_said}) counts as {first[:40]!r}")
-    return [common[shown(row.get(column)).casefold()] for row in rows], told
+    return [common[cell_text(row.get(column)).casefold()] for row in rows], told
 
 
-def names_of_all(
+def all_categories(
     rows: Sequence[Mapping[str, Any]], column: str, shown_names: Iterable[str]
 ) -> tuple[str, ...]:
     """Categories of a column by the alphabet, of rows that are not shown too.
@@ -371,11 +371,11 @@ def names_of_all(
     Examples
     --------
     >>> rows = ({"k": "pear"}, {"k": "fig"}, {"k": None}, {"k": "Fig"})
-    >>> names_of_all(rows, "k", ["Fig"])
+    >>> all_categories(rows, "k", ["Fig"])
     ('Fig', 'pear')
     """
     known = {name.casefold(): name for name in shown_names}
-    for text in map(shown, (row.get(column) for row in rows)):
+    for text in map(cell_text, (row.get(column) for row in rows)):
         known.setdefault(text.casefold(), text)
     known.pop(MISSING, None)
     return tuple(known[key] for key in sorted(known))

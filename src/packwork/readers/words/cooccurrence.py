@@ -33,7 +33,9 @@ MOST_RELATED = 4_000
 """Words that are related at most: more take gigabytes. Chosen."""
 
 
-def related(sentences: Sequence[Sequence[str]], words: Sequence[Word], most: int = 1) -> FloatArray:
+def cooccurrence_vectors(
+    sentences: Sequence[Sequence[str]], words: Sequence[Word], most: int = 1
+) -> FloatArray:
     """``(n, d)`` vectors of the words of a text, by which of them stand near each other."""
     if not sentences:
         raise RecipeError(

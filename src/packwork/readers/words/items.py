@@ -22,7 +22,7 @@ from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.words.cooccurrence import related
+from packwork.readers.words.cooccurrence import cooccurrence_vectors
 from packwork.readers.words.options import WeightIs, Word, WordOptions, lines_of
 from packwork.readers.words.source import ranked_words
 from packwork.scene.item import Item, Label, LiveText, VectorArt
@@ -112,7 +112,7 @@ def read_word_items(
         len(ranked.words),
         ranked.told,
         ranked.stopped,
-        related(ranked.sentences, words, options.phrases) if is_related else None,
+        cooccurrence_vectors(ranked.sentences, words, options.phrases) if is_related else None,
         None
         if ranked.order is None
         else tuple((" ".join(lines_of(text)), text) for text in ranked.order),

@@ -10,7 +10,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.phrasing import number_of
-from packwork.readers.tables.cells import MISSING, as_number, is_missing, names_of_all
+from packwork.readers.tables.cells import MISSING, all_categories, as_number, is_missing
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.palette import check_named, own_colours, palette_colours
@@ -54,7 +54,7 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
     if column is not None and chart.is_ramp:
         colours = _ramp(recipe, chart, column)
     elif column is not None and chart.colour_of is not None:
-        known = names_of_all(chart.table.rows, column, chart.colour_of)
+        known = all_categories(chart.table.rows, column, chart.colour_of)
         colours = _by_category(recipe, chart.colour_of, known, chart.options.paper)
     else:
         first = None if recipe.palette is None else palette_colours(recipe.palette)[0]

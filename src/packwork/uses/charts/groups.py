@@ -13,9 +13,9 @@ from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.cells import (
     as_number,
     categories,
+    cell_text,
     is_missing,
     is_numeric,
-    shown,
 )
 from packwork.readers.tables.pairs import MOST_NAMED
 from packwork.readers.tables.table import Table
@@ -104,7 +104,7 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
         texts = [row.get(column) for row in table.rows if not is_missing(row.get(column))]
         if not texts:
             raise RecipeError("by", f"column {column!r} holds nothing; group by another")
-        met = shown(texts[0])[:30]
+        met = cell_text(texts[0])[:30]
         raise RecipeError(
             "by_step", f"needs numbers; column {column!r} holds {met!r}: leave the step out"
         )
@@ -177,7 +177,7 @@ def left_out(
     'left out 1 row of 2 whose land is missing: row 2'
     """
     names = [
-        f"row {k + 1}" if label_by is None else shown(table.rows[k].get(label_by))[:40]
+        f"row {k + 1}" if label_by is None else cell_text(table.rows[k].get(label_by))[:40]
         for k in which
     ]
     count = f"{number_of(len(which), 'row')} of {len(table.rows)}"

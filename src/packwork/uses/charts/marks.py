@@ -17,10 +17,10 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.regions import Holes
 from packwork.readers.tables.cells import (
     MISSING,
+    all_categories,
     categories,
+    cell_text,
     is_numeric,
-    names_of_all,
-    shown,
     shown_decimal,
 )
 from packwork.readers.tables.format import TableFormat
@@ -190,7 +190,7 @@ def _drawings(
             raise RecipeError("mark", f"gives {len(given)} marks; say which row has which: mark_by")
         return {"": given[0] if given else read_items("circle").items[0]}
     there = dict.fromkeys(kinds)
-    names = list(names_of_all(table.rows, options.mark_by, there))
+    names = list(all_categories(table.rows, options.mark_by, there))
     if len(names) + (MISSING in there) > len(given):
         names = [name for name in names if name in there]
     names += [name for name in there if name == MISSING]
@@ -234,8 +234,8 @@ def _items(
 
 def _said(row: Row, drawn: Item, options: ChartOptions) -> tuple[str, Label]:
     """Name and label of a row's mark; its tooltip holds the row."""
-    name = drawn.name if options.label_by is None else shown(row.get(options.label_by))
-    title = "; ".join(f"{column}: {shown(cell)}" for column, cell in row.items())
+    name = drawn.name if options.label_by is None else cell_text(row.get(options.label_by))
+    title = "; ".join(f"{column}: {cell_text(cell)}" for column, cell in row.items())
     own = name[:MAX_LENGTH] if options.label_by is not None else ""
     return name[:MAX_LENGTH], Label(name=own, title=title[:MAX_LENGTH])
 

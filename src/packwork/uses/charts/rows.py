@@ -18,10 +18,10 @@ from packwork.readers.tables.cells import (
     FARTHEST,
     any_number,
     as_number,
+    cell_text,
     is_date,
     is_missing,
     is_numeric,
-    shown,
 )
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import MOST_NAMED
@@ -78,7 +78,7 @@ def oddities(table: Table, options: ChartOptions) -> list[str]:
     """
     if options.size_by is None or options.label_by is None or len(table.rows) > MOST_COMPARED:
         return []
-    names = [shown(row.get(options.label_by)) for row in table.rows]
+    names = [cell_text(row.get(options.label_by)) for row in table.rows]
     seen: Counter[tuple[str, ...]] = Counter()
     twice = []
     for row, name in zip(table.rows, names, strict=True):
@@ -149,7 +149,7 @@ def _size(cell: Any) -> tuple[str, float]:
 
 def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> str:
     if set(odd) <= {"is no number", "is missing", "is a date"} and "is no number" in odd:
-        met = shown(table.rows[odd["is no number"][0]].get(column))[:30]
+        met = cell_text(table.rows[odd["is no number"][0]].get(column))[:30]
         numeric = [name for name in table.columns if is_numeric(table.rows, name)]
         hint = f"those of numbers are {', '.join(numeric[:12])}" if numeric else "none has numbers"
         return f"column {column!r} holds text such as {met!r}, no numbers; {hint}"
@@ -201,7 +201,7 @@ def _counted(
     counts = Counter(
         (
             0 if groups is None else groups.of_row[k],
-            tuple(shown(table.rows[k].get(column)) for column in columns),
+            tuple(cell_text(table.rows[k].get(column)) for column in columns),
         )
         for k in which
     )
