@@ -24,9 +24,6 @@ CHECKS = 30
 """Checks of one step before it is halved for all. As of the finish, but here those behind an
 item that goes back follow one by one. Chosen."""
 
-HALVINGS = 4
-"""Halvings before the whole step is given up. Chosen."""
-
 
 @kernel
 def gains_and_bounds(board, slope, backmost, foremost, items, trust):
@@ -151,7 +148,7 @@ def move(board, items, step, pairs, gap):
     for k in range(n):
         for c in range(4):
             before[k, c] = board.places[items[k], c]
-    for halving in range(HALVINGS):
+    for halving in range(steps.HALVINGS):
         if _move_share(board, items, before, step, 0.5**halving, pairs, gap):
             return True
     distances.put(board, items, before)
