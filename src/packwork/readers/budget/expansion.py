@@ -59,12 +59,6 @@ def bound_dashes(root: ET.Element) -> bool:
     return True
 
 
-def draw_solid(root: ET.Element) -> None:
-    """Take all dashes away, in place."""
-    for element in root.iter():
-        element.attrib.pop(DASHES, None)
-
-
 def dashes_per_unit(element: ET.Element) -> float:
     """Dashes that the element's own style puts on a unit of line, gaps counted too.
 
@@ -182,7 +176,8 @@ def bound_expansion(root: ET.Element) -> None:
             f"{MAX_LAYERS} are the most, so flatten it"
         )
     if size.dashes > MAX_DASHES:
-        draw_solid(root)
+        for element in root.iter():
+            element.attrib.pop(DASHES, None)
         notice(f"dashed lines are drawn solid, for they have more than {MAX_DASHES:,} dashes")
 
 

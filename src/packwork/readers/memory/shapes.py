@@ -141,7 +141,8 @@ def shapes_of(
             weight = _weight(said, columns, number)
             found.append(GivenShape(called, region, weight, _fill(said), row))
     if not found:
-        raise UnfitError(f"has no area{_kind(value)}; give polygons, or lines with a buffer round")
+        kind = f", as a {value.geom_type}" if isinstance(value, BaseGeometry) else ""
+        raise UnfitError(f"has no area{kind}; give polygons, or lines with a buffer round")
     if bare:
         notice(f"{len(bare)} of {len(bare) + len(found)} geometries have no area and are left out")
     return GivenShapes(tuple(_fitted(_numbered(found))), name)
@@ -267,10 +268,6 @@ def _weight(said: Mapping[str, Any], columns: Columns | None, number: int) -> fl
 def _fill(said: Mapping[str, Any]) -> str:
     value = _said(said, None, _COLOURS)
     return value if isinstance(value, str) else ""
-
-
-def _kind(value: object) -> str:
-    return f", as a {value.geom_type}" if isinstance(value, BaseGeometry) else ""
 
 
 def _numbered(shapes: list[GivenShape]) -> list[GivenShape]:

@@ -222,7 +222,9 @@ def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
     try:
         with Image.open(BytesIO(data), formats=FORMATS) as image:
             is_reduced = shrinking and image.format == "JPEG"
-            most = MAX_JPEG_PIXELS if is_reduced else _most_pixels(image)
+            most = MAX_HEAVY_PIXELS if image.format in _HEAVY else MAX_PIXELS
+            if is_reduced:
+                most = MAX_JPEG_PIXELS
             _check_size(image.size, most)
             is_large = image.width * image.height > (MAX_PIXELS if is_reduced else LARGE_PIXELS)
             with _ONE_AT_A_TIME if is_large else nullcontext():
@@ -236,10 +238,6 @@ def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
     except _FAILURES as error:
         reason = " ".join(str(error).split())[:120] or type(error).__name__
         raise UnfitError(f"is a broken picture ({reason}); save it again") from None
-
-
-def _most_pixels(image: Image.Image) -> int:
-    return MAX_HEAVY_PIXELS if image.format in _HEAVY else MAX_PIXELS
 
 
 def _check_size(size: tuple[int, int], most_pixels: int) -> None:

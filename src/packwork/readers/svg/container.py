@@ -55,14 +55,9 @@ def without_whites(drawing: PaintedDrawing, region: Region) -> Region:
     return difference(region, union(holes)) if holes else region
 
 
-def has_whites(drawing: PaintedDrawing) -> bool:
-    """Whether any shape is painted white."""
-    return any(is_near_white(_fill(s)) or is_near_white(_stroke(s)) for s in drawing.shapes)
-
-
 def _holes(drawing: PaintedDrawing) -> Iterator[Region]:
     shapes, box = drawing.shapes, drawing_box(drawing.shapes)
-    whites = sum(is_near_white(_fill(s)) or is_near_white(_stroke(s)) for s in shapes)
+    whites = sum(map(_is_white, shapes))
     if box is None or not 0 < whites <= MOST_WHITES:
         return
     follower = Follower(max(box[2] - box[0], box[3] - box[1]), FLATTENING)
@@ -105,6 +100,11 @@ def _opacity(element: ET.Element, parents: dict[ET.Element, ET.Element]) -> floa
         if one not in parents:
             return product
         one = parents[one]
+
+
+def _is_white(shape: Painted) -> bool:
+    """Whether its fill or its line is painted white."""
+    return is_near_white(_fill(shape)) or is_near_white(_stroke(shape))
 
 
 def _fill(shape: Painted) -> str:
@@ -220,7 +220,7 @@ def _inside(ink: Ink) -> Region:
 
 
 def _without_whites(drawing: PaintedDrawing, region: Region) -> Region:
-    if not has_whites(drawing):
+    if not any(map(_is_white, drawing.shapes)):
         return region
     if isinstance(drawing.ink, TracedInk) and drawing.page is not None:
         return _dark_part(drawing.root, drawing.page)

@@ -94,7 +94,7 @@ def _linear(text: str) -> Linear:
     call = _CALL.fullmatch(text)
     name = call[1].lower() if call is not None else ""
     if call is None or name in {"rgb", "rgba", "hsl", "hsla"}:
-        *known, clear = css_colour(_without_units(text))
+        *known, clear = css_colour(re.sub(r"\bnone\b", "0", text) if "(" in text else text)
         return _expanded(np.array(known) / 255), clear / 255
     if name == "color-mix":
         return _mixed(split_outside(call[2], ","))
@@ -108,10 +108,6 @@ def _linear(text: str) -> Linear:
     if not np.isfinite(channels).all():
         raise ValueError("not finite")
     return channels, opacity
-
-
-def _without_units(text: str) -> str:
-    return re.sub(r"\bnone\b", "0", text) if "(" in text else text
 
 
 def _number(word: str, whole: float) -> float:

@@ -96,7 +96,7 @@ class StyleSheet:
         name, _, words = prelude[1:].partition(" ")
         name = re.split(r"[\s(]", name.lower().removeprefix("-webkit-"))[0]
         if name == "media":
-            if self._is_met(words):
+            if any(map(self._is_met, words.lower().split(","))):
                 self._add_inside(block, above, depth)
         elif name in _OPEN:
             if not words.strip().lower().startswith("not"):
@@ -130,9 +130,6 @@ class StyleSheet:
             self._add(inner, prelude, depth + 1)
 
     def _is_met(self, query: str) -> bool:
-        return any(self._is_met_once(part) for part in query.lower().split(","))
-
-    def _is_met_once(self, query: str) -> bool:
         words = query.split("(")[0].split()
         is_negated = "not" in words
         kinds = [w for w in words if w not in {"not", "only", "and"}]
