@@ -108,6 +108,11 @@ def test_what_has_no_meaning_is_one_line_and_nothing_is_written(
     assert list(Path.cwd().iterdir()) == []
 
 
+def test_a_number_for_all_that_is_empty_is_left_as_it_is(saved: Path, tmp_path: Path) -> None:
+    code, said = run(saved, "--padding", "", "--rotate", "", "-o", tmp_path / "new.svg")
+    assert code == 0, said
+
+
 def test_the_layout_that_is_read_is_not_written_over(saved: Path) -> None:
     before = saved.read_bytes()
     code, said = run(saved, "-o", saved)
