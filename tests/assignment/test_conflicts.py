@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
@@ -49,3 +51,15 @@ def test_one_label_alone_is_left_as_it_is(rng: np.random.Generator) -> None:
     same = np.zeros(3, dtype=np.int64)
     assert min_conflicts_order(same, pairs, same, rng).tolist() == [0, 1, 2]
     assert min_conflicts_order(same, pairs[:0], same, rng).tolist() == [0, 1, 2]
+
+
+def test_memory_grows_with_places_and_not_with_pairs_of_labels(rng: np.random.Generator) -> None:
+    count = 3_000
+    labels = np.repeat(np.arange(count // 2), 2)
+    pairs = np.column_stack([np.arange(count - 1), np.arange(1, count)])
+    tracemalloc.start()
+    order = min_conflicts_order(labels, pairs, np.zeros(count, dtype=np.int64), rng)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert conflicts(labels[order], pairs) < conflicts(labels, pairs)
+    assert most < 8 * (count // 2) ** 2

@@ -19,7 +19,10 @@ class FlowPrices(NamedTuple):
 
 
 class DistancePrices(NamedTuple):
-    """Distance of two columns: ``between`` their kinds, and Euclidean of their ``points``."""
+    """Distance of two columns: ``between`` their kinds, and Euclidean of their ``points``.
+
+    An empty ``between`` is 1 of two of one kind, 0 of all else and of kinds below 0.
+    """
 
     kinds: np.ndarray
     between: np.ndarray
@@ -66,7 +69,11 @@ def _pair_price(row, other, column, at, flow, distance):
             for axis in range(distance.points.shape[1]):
                 off = distance.points[column, axis] - distance.points[there, axis]
                 square += off * off
-            apart = distance.between[distance.kinds[column], distance.kinds[there]]
+            one, two = distance.kinds[column], distance.kinds[there]
+            if len(distance.between) > 0:
+                apart = distance.between[one, two]
+            else:
+                apart = 1.0 if one == two and one >= 0 else 0.0
             total += flow.weights[k] * (apart + math.sqrt(square))
     return total
 

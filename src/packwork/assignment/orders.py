@@ -14,7 +14,7 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment._kernels import Blend
-from packwork.assignment.quadratic import Assignment, improved, kind_distance, neighbour_flow
+from packwork.assignment.quadratic import Assignment, improved, neighbour_flow, same_kind
 from packwork.geometry.outline import Outline
 from packwork.scene.contrast import CONES_OF_LIGHT, LAB_OF_CONES, oklabs_of_light
 
@@ -67,17 +67,15 @@ def min_conflicts_order(
         return np.arange(count)
     known, kinds, counts = np.unique(labels, return_inverse=True, return_counts=True)
     several = np.flatnonzero(counts > 1)
-    # Those of which there is one alone are one kind, which is in conflict with none.
-    numbers = np.full(len(known), len(several))
+    # Those of which there is one alone are in conflict with none.
+    numbers = np.full(len(known), -1)
     numbers[several] = np.arange(len(several))
-    same = np.eye(len(several) + 1)
-    same[-1, -1] = 0.0
     problem = Assignment(
         groups,
         np.zeros(0) if sizes is None else sizes,
         CONFLICT_STAYING,
         flow=neighbour_flow(count, pairs),
-        distance=kind_distance(numbers[kinds.ravel()], same),
+        distance=same_kind(numbers[kinds.ravel()]),
     )
     return improved(problem, rng, CONFLICT_HEATS, CONFLICT_TRIES)
 

@@ -46,6 +46,11 @@ def kind_distance(kinds: IntArray, between: FloatArray) -> DistancePrices:
     return DistancePrices(kinds, between, np.zeros((len(kinds), 0)))
 
 
+def same_kind(kinds: IntArray) -> DistancePrices:
+    """Distance 1 between columns of one of ``(n,)`` kinds, however many; of negative ones 0."""
+    return kind_distance(kinds, NOTHING)
+
+
 def point_distance(points: FloatArray) -> DistancePrices:
     """Euclidean distance of columns at ``(n, 2)`` points."""
     return DistancePrices(np.zeros(len(points), np.int64), np.zeros((1, 1)), points)

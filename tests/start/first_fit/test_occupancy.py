@@ -11,7 +11,7 @@ from packwork.arrays import BoolArray
 from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.occupancy import TALLEST, Occupancy, Stencil, cut, stencil_of
+from packwork.start.first_fit.occupancy import TALLEST, Occupancy, Stencil, covered, cut, stencil_of
 
 REACH = 2
 
@@ -147,39 +147,42 @@ def test_smeared_rows_tell_of_any_pixel_within_their_box(seed: int, width: int) 
 def test_boxes_cover_a_mask_and_nothing_else(seed: int) -> None:
     rng = np.random.default_rng(seed)
     mask = rng.random(rng.integers(1, 40, size=2)) < rng.choice([0.5, 0.95, 1.0])
-    covered = np.zeros_like(mask)
+    found = np.zeros_like(mask)
     for row, first, tall, wide, j, k in _kernels.boxes_of(mask, TALLEST):
-        covered[row : row + tall, first : first + wide] = True
+        found[row : row + tall, first : first + wide] = True
         # Two of these heights and widths cover the box.
         assert 2**j <= tall <= 2 ** (j + 1)
         assert j <= TALLEST
         assert 2**k <= wide < 2 ** (k + 1)
-    assert (covered == mask).all()
+    assert (found == mask).all()
 
 
-@pytest.mark.parametrize("margin", [0.3, 1.0, 2.0, 3.0])
-def test_a_margin_takes_what_is_near_the_outline(margin: float) -> None:
+@pytest.mark.parametrize("is_quick", [False, True])
+@pytest.mark.parametrize("margin", [0.3, 1.0, 2.0, 3.0, 5.5])
+def test_a_margin_takes_what_is_near_the_outline(margin: float, is_quick: bool) -> None:
     """All that a buffer covers, and not much more; holes get smaller."""
     tall = np.array([[0.0, 0], [20, 0], [20, 30], [12, 30], [12, 8], [8, 8], [8, 30], [0, 30]])
     hole = np.array([[2.0, 2], [2, 6], [6, 6], [6, 2]])
     outline = Outline.from_rings([tall + 0.25, hole + 0.25])
-    mask = cut(outline, 1, margin)
+    mask, origin = covered(outline, margin, is_quick)
     want = cut(Outline.from_region(outline.region.buffer(margin)), 1)
-    down, along = np.subtract(mask.origin, want.origin)
-    grown = np.zeros_like(mask.mask)
+    down, along = np.subtract(origin, want.origin)
+    grown = np.zeros_like(mask)
     height, width = want.mask.shape
     grown[down : down + height, along : along + width] = want.mask
-    assert not (grown & ~mask.mask).any()
-    assert np.count_nonzero(mask.mask) <= 1.1 * np.count_nonzero(grown)
+    assert not (grown & ~mask).any()
+    assert np.count_nonzero(mask) <= 1.1 * np.count_nonzero(grown)
 
 
 def test_clearance_is_kept_up() -> None:
     free, mask = _random(3, 70)
     occupancy = Occupancy(free, REACH)
-    assert occupancy.clearance.shape == free.shape
+    assert occupancy.clearance.distances.shape == free.shape
     for _ in range(8):
-        place = occupancy.best_place(_stencil(mask), occupancy.clearance, is_everywhere=True)
+        place = occupancy.best_place(
+            _stencil(mask), occupancy.clearance.distances, is_everywhere=True
+        )
         assert place is not None
         occupancy.take(mask, *place[1:])
     inner = occupancy.taken[REACH:-REACH, REACH:-REACH] == 0
-    assert occupancy.clearance == pytest.approx(distance_inside(inner))
+    assert occupancy.clearance.distances == pytest.approx(distance_inside(inner))

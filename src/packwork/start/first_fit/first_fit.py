@@ -331,7 +331,7 @@ class _Fitting:
         is_drawn = self._near is not None or len(self._fields) > 0
         is_everywhere = is_loose or self._homes[item] is not None or is_drawn
         worth = self._worth(item)
-        field = occupancy.clearance if is_loose else None
+        field = occupancy.clearance.distances if is_loose else None
         tried = [occupancy.best_place(s, worth, is_everywhere, field) for s in stencils]
         found = [(*place, which) for which, place in enumerate(tried) if place is not None]
         if not found:

@@ -15,13 +15,20 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.fields.distance_transform import distance_inside, distance_to
+from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_to
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
-from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.occupancy import Occupancy, Stencil, covered, stencil_of
+from packwork.start.first_fit.occupancy import (
+    TOUCHED,
+    NearestTaken,
+    Occupancy,
+    Stencil,
+    covered,
+    stencil_of,
+)
 from packwork.start.first_poses import container_image
 
 PoseRow: TypeAlias = tuple[float, float, float, float]
@@ -176,7 +183,7 @@ class GreedyBoard:
     def lay(self, outline: Outline) -> None:
         """Take what an item covers that lies in place."""
         posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
-        mask, origin = covered(posed, self._reach)
+        mask, origin = covered(posed, self._reach, is_quick=True)
         self._take(mask, -origin[0], -origin[1])
 
     def put(self, candidate: Candidate, sizes: Sequence[float]) -> PoseRow | None:
@@ -216,7 +223,7 @@ class GreedyBoard:
             posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
             if self._is_larger(posed):
                 continue
-            mask, origin = covered(posed, self._reach)
+            mask, origin = covered(posed, self._reach, is_quick=True)
             wide = self._with_room(mask, origin, candidate.apart, scale, angle)
             found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
             if found is not None:
@@ -252,7 +259,7 @@ class GreedyBoard:
             if away is not None:
                 return away, ROOMY / float(away.max()), True
             room = self._occupancy.clearance
-            return room, ROOMY / max(self._occupancy.widest, 1.0), True
+            return room.distances, ROOMY / max(room.farthest, 1.0), True
         if not self._first:
             return self._inward, ROOMY, True
         covered = 1 - self._left / max(self._room, 1)
@@ -297,8 +304,7 @@ class Bareness:
         self._free, self._far = free, far_px
         self._least = LEAST * np.count_nonzero(free)
         self._covered: BoolArray = np.zeros(free.shape, dtype=bool)
-        self._away: FloatArray | None = None
-        self._farthest: FloatArray = np.zeros(len(free))  # of each row: most rows stay as they are
+        self._away: NearestTaken | None = None
         self._is_filled = False
 
     def emptied(self) -> Bareness:
@@ -310,10 +316,10 @@ class Bareness:
         if self._is_filled or not self._covered.any():
             return None
         if self._away is None:
-            self._away = np.where(self._free, distance_to(self._covered), 0.0)
-            self._farthest = self._away.max(axis=1)
-        self._is_filled = not np.count_nonzero(self._away > self._far) > self._least
-        return None if self._is_filled else self._away
+            self._away = NearestTaken(np.where(self._free, distance_to(self._covered), 0.0))
+        away = self._away.distances
+        self._is_filled = not np.count_nonzero(away > self._far) > self._least
+        return None if self._is_filled else away
 
     def cover(self, mask: BoolArray, row: int, column: int) -> None:
         """Note pixels of an item; what of them lies off the image is not kept."""
@@ -321,16 +327,5 @@ class Bareness:
         inner = mask[top - row :, left - column :]
         seen = self._covered[top:, left:][: inner.shape[0], : inner.shape[1]]
         seen |= inner[: seen.shape[0], : seen.shape[1]]
-        if self._away is not None and seen.size:
-            self._lessen(self._away, top, left, inner[: seen.shape[0], : seen.shape[1]])
-
-    def _lessen(self, away: FloatArray, top: int, left: int, item: BoolArray) -> None:
-        """Distances round an item that was put there."""
-        reach = math.ceil(float(self._farthest.max()))
-        above, before = min(top, reach), min(left, reach)
-        rows = slice(top - above, top + item.shape[0] + reach)
-        window = away[rows, left - before : left + item.shape[1] + reach]
-        shown = np.zeros(window.shape, dtype=bool)
-        shown[above : above + item.shape[0], before : before + item.shape[1]] = item
-        np.minimum(window, distance_to(shown), out=window)
-        self._farthest[rows] = away[rows].max(axis=1)
+        if self._away is not None:
+            self._away.add(inner[: seen.shape[0], : seen.shape[1]], top, left)
