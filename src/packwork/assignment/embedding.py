@@ -66,29 +66,18 @@ def assigned(
 ) -> IntArray:
     """Place of each item: those with like vectors lie near each other.
 
-    Parameters
-    ----------
-    vectors
-        ``(n, d)`` of the items; only their directions count.
-    points
-        ``(n, 2)`` the places, in any unit. Item k stands at place k first.
-    own, there
-        ``(n, s)`` what items and places are like: the squared difference is paid for, in
-        spacings of the places; less if it is what like items have in common.
-    drawn, along
-        ``(n, a)`` how much items are drawn along each of some ways, 0..1, and how far along it
-        places lie, in the unit of the points: an item that is drawn by 1 would rather lie a
-        spacing farther along than half a spacing nearer to all that pull it.
-    free
-        ``(n,)`` which items may leave their places; None for all.
-    ties
-        ``(n, n)`` how alike items are: with it neighbours count alone in the end, as short ties
-        leave the borders of clusters ragged.
+    ``vectors``: ``(n, d)`` of the items; only their directions count.
+    ``points``: ``(n, 2)`` the places, in any unit. Item k stands at place k first.
+    ``own``, ``there``: ``(n, s)`` what items and places are like: the squared difference is paid
+    for, in spacings of the places; less if it is what like items have in common.
+    ``drawn``, ``along``: ``(n, a)`` how much items are drawn along each of some ways, 0..1, and how
+    far along it places lie, in the unit of the points: an item that is drawn by 1 would rather lie
+    a spacing farther along than half a spacing nearer to all that pull it.
+    ``free``: ``(n,)`` which items may leave their places; None for all.
+    ``ties``: ``(n, n)`` how alike items are: with it neighbours count alone in the end, as short
+    ties leave the borders of clusters ragged.
 
-    Returns
-    -------
-    IntArray
-        ``(n,)`` a permutation: item k goes to place ``found[k]``.
+    Returns ``(n,)`` a permutation: item k goes to place ``found[k]``.
 
     Examples
     --------

@@ -41,12 +41,8 @@ AT_ONCE = 512
 class NeighbourGraph:
     """Neighbour graph with weights, as rows of a sparse symmetric matrix.
 
-    Parameters
-    ----------
-    starts
-        ``(n + 1,)``: partners of item k lie from ``starts[k]`` to before ``starts[k + 1]``.
-    partners, weights
-        ``(m,)``.
+    ``starts``: ``(n + 1,)``: partners of item k lie from ``starts[k]`` to before ``starts[k + 1]``.
+    ``partners``, ``weights``: ``(m,)``.
     """
 
     starts: IntArray

@@ -41,19 +41,12 @@ def min_conflicts_order(
     How many of each there are stays. Not the fewest conflicts that there could be: that is a hard
     problem, and with four labels or more next to none are left.
 
-    Parameters
-    ----------
-    labels
-        ``(n,)`` one per place, at least 0.
-    pairs
-        ``(m, 2)`` places that are neighbours, each pair once.
-    groups, sizes
-        Of places and of the labels that stand there first, as those of an ``Assignment``.
+    ``labels``: ``(n,)`` one per place, at least 0.
+    ``pairs``: ``(m, 2)`` places that are neighbours, each pair once.
+    ``groups``, ``sizes``: of places and of the labels that stand there first, as those of an
+    ``Assignment``.
 
-    Returns
-    -------
-    IntArray
-        ``(n,)``: place p gets ``labels[order[p]]``.
+    Returns ``(n,)``: place p gets ``labels[order[p]]``.
 
     Examples
     --------
@@ -114,19 +107,11 @@ def balanced_order(
     Where the value is the share of an item's hull that it fills, parts crowded with sketchy items
     would end emptier than the others.
 
-    Parameters
-    ----------
-    values
-        ``(n,)`` of items.
-    parts
-        ``(n,)`` number of the part in which each item stands first.
-    groups, sizes
-        As those of an ``Assignment``.
+    ``values``: ``(n,)`` of items.
+    ``parts``: ``(n,)`` number of the part in which each item stands first.
+    ``groups``, ``sizes``: as those of an ``Assignment``.
 
-    Returns
-    -------
-    IntArray
-        ``(n,)``: place p gets item ``order[p]``.
+    Returns ``(n,)``: place p gets item ``order[p]``.
 
     Examples
     --------
@@ -178,23 +163,14 @@ def order_by_colour(
 ) -> IntArray:
     """Order of items after exchanges, none of which is for the worse.
 
-    Parameters
-    ----------
-    order
-        ``(n,)`` item in each place first.
-    places
-        ``(n, 3)`` x, y and angle of the places.
-    sides
-        ``(n, 2)`` width and height of what lies there.
-    patches
-        ``(n, GRID * GRID, 3)`` light of the items, row by row.
-    wanted
-        ``(n, 3)`` light of the picture at the places, blurred as much.
-    shapes
-        ``(n, s)`` features of items, and of the places in which they lie first: the squared
-        difference is paid for as if it were a distance in Oklab.
-    blur
-        Standard deviation, in the unit of the places.
+    ``order``: ``(n,)`` item in each place first.
+    ``places``: ``(n, 3)`` x, y and angle of the places.
+    ``sides``: ``(n, 2)`` width and height of what lies there.
+    ``patches``: ``(n, GRID * GRID, 3)`` light of the items, row by row.
+    ``wanted``: ``(n, 3)`` light of the picture at the places, blurred as much.
+    ``shapes``: ``(n, s)`` features of items, and of the places in which they lie first: the squared
+    difference is paid for as if it were a distance in Oklab.
+    ``blur``: standard deviation, in the unit of the places.
     """
     # A tree of points is needed for pictures alone.
     from scipy.spatial import cKDTree

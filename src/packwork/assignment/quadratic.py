@@ -71,18 +71,13 @@ class Assignment(NamedTuple):
 
     What is not given costs nothing and forbids nothing.
 
-    Parameters
-    ----------
-    groups
-        ``(n,)`` rows exchange columns with those of one number, and never if it is negative.
-    sizes
-        ``(n,)`` of rows, and of columns: no row comes to a column whose size differs from its own
-        by more than 1.
-    staying
-        Price of a row in any column but that of its own number.
-    rows, columns
-        ``(n, s)`` features: the squared difference is the price of a row in a column. Of a product
-        of two such nothing else depends on the permutation.
+    ``groups``: ``(n,)`` rows exchange columns with those of one number, and never if it is
+    negative.
+    ``sizes``: ``(n,)`` of rows, and of columns: no row comes to a column whose size differs from
+    its own by more than 1.
+    ``staying``: price of a row in any column but that of its own number.
+    ``rows``, ``columns``: ``(n, s)`` features: the squared difference is the price of a row in a
+    column. Of a product of two such nothing else depends on the permutation.
     """
 
     groups: IntArray
@@ -141,15 +136,10 @@ def improved(
 ) -> IntArray:
     """``(n,)`` column of each row after exchanges of random pairs.
 
-    Parameters
-    ----------
-    heats
-        Temperatures, one after another, in the unit of the prices: 0 makes no exchange for the
-        worse, and is the last where it makes none at all.
-    tries
-        Exchanges tried at each for every row that may leave its column.
-    at
-        Columns to begin with; None for those of the rows' own numbers.
+    ``heats``: temperatures, one after another, in the unit of the prices: 0 makes no exchange for
+    the worse, and is the last where it makes none at all.
+    ``tries``: exchanges tried at each for every row that may leave its column.
+    ``at``: columns to begin with; None for those of the rows' own numbers.
 
     Examples
     --------

@@ -48,10 +48,7 @@ def _squares(points: FloatArray, places: FloatArray) -> FloatArray:
 class Alignment:
     """Centroids to one line: spread across it costs.
 
-    Parameters
-    ----------
-    axis
-        0 for a column (one x for all), 1 for a row (one y).
+    ``axis``: 0 for a column (one x for all), 1 for a row (one y).
 
     Examples
     --------
@@ -82,10 +79,7 @@ class Alignment:
 class TogetherBond:
     """Copies of one thing to each other: their spread costs.
 
-    Parameters
-    ----------
-    is_one
-        Whether all of the group are to lie together, and not each kind by itself.
+    ``is_one``: whether all of the group are to lie together, and not each kind by itself.
 
     Examples
     --------
@@ -123,10 +117,7 @@ class TogetherBond:
 class Home:
     """Each item of the group to a place of its own: distance from it costs.
 
-    Parameters
-    ----------
-    places
-        ``(n, 2)`` one for each of the group; NaN for an item that has none.
+    ``places``: ``(n, 2)`` one for each of the group; NaN for an item that has none.
 
     Examples
     --------
@@ -158,10 +149,7 @@ class Home:
 class Balance:
     """Centre of mass of the group to a point or an axis.
 
-    Parameters
-    ----------
-    point
-        ``(2,)`` canvas units; NaN where that coordinate does not matter.
+    ``point``: ``(2,)`` canvas units; NaN where that coordinate does not matter.
 
     Examples
     --------
@@ -204,11 +192,8 @@ class SimilarityBond:
 
     All count alike, whatever their sizes.
 
-    Parameters
-    ----------
-    ties
-        ``(n, n)`` symmetric, zeros on the diagonal: positive for those that are to be neighbours,
-        negative for those that are not.
+    ``ties``: ``(n, n)`` symmetric, zeros on the diagonal: positive for those that are to be
+    neighbours, negative for those that are not.
 
     Examples
     --------

@@ -40,25 +40,15 @@ def exchanged(
 
     In a crowd no item comes past the others, but two may change places.
 
-    Parameters
-    ----------
-    places
-        ``(n, 2)``; item k stands at place k first.
-    areas
-        ``(n,)`` how much each item counts, wherever it stands.
-    sizes
-        ``(n,)`` of items and of the places that they have: no item goes to a place whose size
-        differs from its own by more than 1.
-    groups
-        ``(n,)`` items change places with those of one number, and never if it is negative.
-    kinds
-        ``(n,)`` items of one number are alike in all but their size, which is the place's: they
-        have nothing to exchange. None if all differ.
+    ``places``: ``(n, 2)``; item k stands at place k first.
+    ``areas``: ``(n,)`` how much each item counts, wherever it stands.
+    ``sizes``: ``(n,)`` of items and of the places that they have: no item goes to a place whose
+    size differs from its own by more than 1.
+    ``groups``: ``(n,)`` items change places with those of one number, and never if it is negative.
+    ``kinds``: ``(n,)`` items of one number are alike in all but their size, which is the place's:
+    they have nothing to exchange. None if all differ.
 
-    Returns
-    -------
-    IntArray
-        ``(n,)``: place p gets item ``order[p]``.
+    Returns ``(n,)``: place p gets item ``order[p]``.
 
     Examples
     --------

@@ -32,16 +32,10 @@ class Field(Protocol):
 class ItemGroup:
     """Items that belong together, as a force sees them.
 
-    Parameters
-    ----------
-    points
-        ``(n, 2)`` where their centroids lie, canvas units.
-    areas
-        ``(n,)`` how much each counts.
-    kinds
-        ``(n,)`` items of one number are copies of one thing.
-    side
-        Longer side of the canvas.
+    ``points``: ``(n, 2)`` where their centroids lie, canvas units.
+    ``areas``: ``(n,)`` how much each counts.
+    ``kinds``: ``(n,)`` items of one number are copies of one thing.
+    ``side``: longer side of the canvas.
     """
 
     points: FloatArray
@@ -76,10 +70,7 @@ class Bond(Protocol):
 class Direction:
     """Height that falls evenly along one direction.
 
-    Parameters
-    ----------
-    angle
-        Where things fall to, radians, clockwise on screen from the right: down is pi / 2.
+    ``angle``: where things fall to, radians, clockwise on screen from the right: down is pi / 2.
 
     Examples
     --------
@@ -116,10 +107,7 @@ NOWHERE = 1e-12
 class Distance:
     """Distance from the nearest of some straight pieces; a point is a piece of no length.
 
-    Parameters
-    ----------
-    begins, ends
-        ``(m, 2)`` ends of the pieces, canvas units.
+    ``begins``, ``ends``: ``(m, 2)`` ends of the pieces, canvas units.
 
     Examples
     --------
@@ -191,12 +179,8 @@ def _ways(points: FloatArray, begins: FloatArray, ends: FloatArray) -> FloatArra
 class Fading:
     """A distance that counts less and less: its slope falls by e within each reach.
 
-    Parameters
-    ----------
-    field
-        A distance; of a direction, which has no place, nothing fades.
-    reach
-        Canvas units.
+    ``field``: a distance; of a direction, which has no place, nothing fades.
+    ``reach``: canvas units.
 
     Examples
     --------
@@ -221,10 +205,7 @@ class Fading:
 class Inward:
     """Distance from the container; none inside.
 
-    Parameters
-    ----------
-    outline
-        Of the container, canvas units.
+    ``outline``: of the container, canvas units.
 
     Examples
     --------

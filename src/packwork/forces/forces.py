@@ -24,12 +24,8 @@ together more and covers less. Tried."""
 class Pull:
     """Height of n items and its slope.
 
-    Parameters
-    ----------
-    parts
-        ``(n,)`` each item's part of the height, area times canvas units.
-    slopes
-        ``(n, 2)`` derivatives of the whole by x and y, squared canvas units.
+    ``parts``: ``(n,)`` each item's part of the height, area times canvas units.
+    ``slopes``: ``(n, 2)`` derivatives of the whole by x and y, squared canvas units.
     """
 
     parts: FloatArray
@@ -45,11 +41,8 @@ class Pull:
 class FieldForce:
     """A field that acts on some items.
 
-    Parameters
-    ----------
-    strengths
-        ``(n,)`` one per item of the run: 0 for those that it does not act on, negative
-        for those that it pushes off.
+    ``strengths``: ``(n,)`` one per item of the run: 0 for those that it does not act on, negative
+    for those that it pushes off.
     """
 
     field: Field
@@ -60,10 +53,7 @@ class FieldForce:
 class BondForce:
     """A bond between some items.
 
-    Parameters
-    ----------
-    strengths
-        As of a field; items of strength 0 are no part of the group.
+    ``strengths``: as of a field; items of strength 0 are no part of the group.
     """
 
     bond: Bond
@@ -76,12 +66,8 @@ class Forces:
 
     An item's part is its area times its height: large ones press harder, as under gravity.
 
-    Parameters
-    ----------
-    kinds
-        ``(n,)`` items of one number are copies of one thing.
-    side
-        Longer side of the canvas.
+    ``kinds``: ``(n,)`` items of one number are copies of one thing.
+    ``side``: longer side of the canvas.
 
     Examples
     --------
@@ -177,10 +163,7 @@ class Forces:
         Of fields that draw all items, little of the mean is left: it would press all together
         and make all smaller.
 
-        Parameters
-        ----------
-        areas
-            ``(n,)`` how much each counts, squared canvas units.
+        ``areas``: ``(n,)`` how much each counts, squared canvas units.
         """
         fields = []
         for force in self.fields:

@@ -36,24 +36,14 @@ _KEYS = ("strength", "reach", "items", "by")
 class ForceSpec:
     """One force, as it was written.
 
-    Parameters
-    ----------
-    kind
-        direction, towards, away, inward, align, balance or together.
-    angle
-        Of a direction, degrees clockwise from the right.
-    places
-        Pairs ``X,Y`` of lengths, or the file of a curve.
-    is_line
-        Whether the pairs are the corners of a line.
-    axis
-        horizontal or vertical, of an alignment or a balance.
-    strength
-        How strong; 1 if nothing is said.
-    reach
-        Length within which it fades by e; None if it does not.
-    items
-        Patterns of names; all if empty.
+    ``kind``: direction, towards, away, inward, align, balance or together.
+    ``angle``: of a direction, degrees clockwise from the right.
+    ``places``: pairs ``X,Y`` of lengths, or the file of a curve.
+    ``is_line``: whether the pairs are the corners of a line.
+    ``axis``: horizontal or vertical, of an alignment or a balance.
+    ``strength``: how strong; 1 if nothing is said.
+    ``reach``: length within which it fades by e; None if it does not.
+    ``items``: patterns of names; all if empty.
     """
 
     kind: str

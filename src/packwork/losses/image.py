@@ -97,10 +97,7 @@ TYPICAL_ITEMS = 100
 class Windows:
     """Windows of growing size over the blocks of one container's image.
 
-    Parameters
-    ----------
-    container
-        ``(rows, columns)`` coverage of the container.
+    ``container``: ``(rows, columns)`` coverage of the container.
     """
 
     def __init__(self, container: Image, items: int = TYPICAL_ITEMS) -> None:
@@ -133,10 +130,7 @@ class Windows:
     def value(self, empty: Image) -> float:
         """Mean emptiness of all windows to the power ``SHARPNESS``.
 
-        Parameters
-        ----------
-        empty
-            ``(rows, columns)`` of blocks: empty container in each, in pixels.
+        ``empty``: ``(rows, columns)`` of blocks: empty container in each, in pixels.
         """
         totals = [
             float(np.sum((box_mean(empty, size) * per_inside) ** SHARPNESS))
@@ -186,10 +180,8 @@ def _odd(size: float) -> int:
 class FusedWeights:
     """Weights of the fused losses at one moment of a run.
 
-    Parameters
-    ----------
-    containment, overlap, filling, evenness
-        All at least zero. Only their ratios matter to the result.
+    ``containment``, ``overlap``, ``filling``, ``evenness``: all at least zero. Only their ratios
+    matter to the result.
     """
 
     containment: float = 0.0
@@ -209,12 +201,8 @@ class FusedAdjoint:
     :func:`filling` and :func:`evenness` times the number of pixels; one pass over the
     image instead of seven, two with evenness.
 
-    Parameters
-    ----------
-    container
-        ``(rows, columns)`` coverage of the container.
-    items
-        How many items share it: sets the size of evenness' windows.
+    ``container``: ``(rows, columns)`` coverage of the container.
+    ``items``: how many items share it: sets the size of evenness' windows.
 
     Examples
     --------

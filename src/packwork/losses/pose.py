@@ -73,10 +73,7 @@ class Recall:
     space; this object-space loss pulls it straight to the nearest part of the
     container, from anywhere on the canvas or off it.
 
-    Parameters
-    ----------
-    container
-        ``(rows, columns)`` coverage of the container at any resolution.
+    ``container``: ``(rows, columns)`` coverage of the container at any resolution.
 
     Examples
     --------

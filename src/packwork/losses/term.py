@@ -206,12 +206,8 @@ class ColourLoss(Protocol):
 class SeenInColour:
     """A colour loss, and the colours in which a run's items are seen by it.
 
-    Parameters
-    ----------
-    colours
-        ``(n, 3)`` of the items, sRGB from 0 to 1.
-    background
-        ``(3,)``: what shows where nothing lies.
+    ``colours``: ``(n, 3)`` of the items, sRGB from 0 to 1.
+    ``background``: ``(3,)``: what shows where nothing lies.
 
     Examples
     --------

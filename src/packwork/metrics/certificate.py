@@ -29,12 +29,8 @@ SHARE_TOLERANCE = 1e-3
 class Promise:
     """Smallest gap and shares of area that a run promises of its layout.
 
-    Parameters
-    ----------
-    gap
-        Smallest distance between items and to the container's edge, canvas units.
-    areas_in_shares
-        Whether the items' areas are in the shares of their weights.
+    ``gap``: smallest distance between items and to the container's edge, canvas units.
+    ``areas_in_shares``: whether the items' areas are in the shares of their weights.
     """
 
     gap: float = 0.0

@@ -50,20 +50,12 @@ _MOST_HALVINGS = 24
 class ExactMetrics:
     """Shares of the container's area, areas and the smallest gap.
 
-    Parameters
-    ----------
-    coverage
-        LC: share of the container that items cover, 0 to 1.
-    overlap
-        OO: area in two or more items, over the container's area.
-    exceeding
-        EA: area in an item and not in the container, over the container's area.
-    overlap_area, outside_area
-        The same two in squared canvas units.
-    min_gap
-        Smallest distance between two items, or of an item from the container's edge,
-        canvas units. 0 if items touch or overlap or one is not inside; infinite
-        without items.
+    ``coverage``: LC: share of the container that items cover, 0 to 1.
+    ``overlap``: OO: area in two or more items, over the container's area.
+    ``exceeding``: EA: area in an item and not in the container, over the container's area.
+    ``overlap_area``, ``outside_area``: the same two in squared canvas units.
+    ``min_gap``: smallest distance between two items, or of an item from the container's edge,
+    canvas units. 0 if items touch or overlap or one is not inside; infinite without items.
     """
 
     coverage: float

@@ -64,17 +64,11 @@ class Metrics(TypedDict):
 class LayoutMetrics:
     """All measures of a layout, by pixels and in exact geometry.
 
-    Parameters
-    ----------
-    pixel
-        The paper's measures, of the outlines.
-    exact
-        The same shares without pixels, of the outlines.
-    ink
-        Exact share of the container that is really drawn: holes and gaps of the items'
-        appearance taken off.
-    seen
-        Whether the container's shape shows, of the outlines.
+    ``pixel``: the paper's measures, of the outlines.
+    ``exact``: the same shares without pixels, of the outlines.
+    ``ink``: exact share of the container that is really drawn: holes and gaps of the items'
+    appearance taken off.
+    ``seen``: whether the container's shape shows, of the outlines.
     """
 
     pixel: PixelMetrics

@@ -26,20 +26,13 @@ DISTANCE_CANVAS = 600
 class PixelMetrics:
     """Pixel measures of a layout.
 
-    Parameters
-    ----------
-    LC
-        Layout coverage: share of the container's pixels in at least one item.
-    LC_ratio
-        Covered over uncovered pixels of the container, as the paper's text reads;
-        infinite if all are covered.
-    OO
-        Object overlap: pixels in two or more items over the container's pixels.
-    EA
-        Exceeding area: pixels in an item and not in the container, over the container's.
-    LnU
-        Layout non-uniformity: mean squared distance, in pixels of a 600 px canvas,
-        from the container's uncovered pixels to the nearest item; 0 if all are covered.
+    ``LC``: layout coverage: share of the container's pixels in at least one item.
+    ``LC_ratio``: covered over uncovered pixels of the container, as the paper's text reads;
+    infinite if all are covered.
+    ``OO``: object overlap: pixels in two or more items over the container's pixels.
+    ``EA``: exceeding area: pixels in an item and not in the container, over the container's.
+    ``LnU``: layout non-uniformity: mean squared distance, in pixels of a 600 px canvas, from the
+    container's uncovered pixels to the nearest item; 0 if all are covered.
     """
 
     LC: float
@@ -107,17 +100,12 @@ seen whether there is anything in it. Chosen."""
 class ShapeMetrics:
     """Fidelity of a layout to its container's shape.
 
-    Parameters
-    ----------
-    bare
-        Share of the container that is farther from any item than 3 % of its longer side.
-    shape
-        Overlap of the container with the layout's morphological closing by a disc of that
-        radius: area of what both share, over that of both together. Bays of the container
-        that such a disc cannot enter count for neither.
-    parts, bare_parts
-        Separate parts of the container large enough to be seen, and how many of them hold
-        nothing.
+    ``bare``: share of the container that is farther from any item than 3 % of its longer side.
+    ``shape``: overlap of the container with the layout's morphological closing by a disc of that
+    radius: area of what both share, over that of both together. Bays of the container that such a
+    disc cannot enter count for neither.
+    ``parts``, ``bare_parts``: separate parts of the container large enough to be seen, and how many
+    of them hold nothing.
     """
 
     bare: float

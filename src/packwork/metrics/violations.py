@@ -20,12 +20,8 @@ from packwork.geometry.overlay import Region, difference, intersection, part_abo
 class Violation:
     """An item that meets another or is too near to it; the container's edge if ``other`` is None.
 
-    Parameters
-    ----------
-    overlap_cu2
-        Area that they share, or that lies outside the container.
-    gap_cu
-        Their distance if they share none.
+    ``overlap_cu2``: area that they share, or that lies outside the container.
+    ``gap_cu``: their distance if they share none.
     """
 
     item: int
@@ -83,10 +79,7 @@ class ViolationSet:
 
     Shares no code with the finish, nor with what moves the items.
 
-    Parameters
-    ----------
-    container
-        Canvas units.
+    ``container``: canvas units.
 
     Examples
     --------

@@ -21,10 +21,7 @@ from packwork.units import CanvasSize, Unit
 class Backdrop:
     """A picture that is drawn under all items.
 
-    Parameters
-    ----------
-    matrix
-        2 x 3 map from its own units to canvas units.
+    ``matrix``: 2 x 3 map from its own units to canvas units.
     """
 
     art: PhotoArt
@@ -129,10 +126,7 @@ def placed_container(
 ) -> Container:
     """Container of a region on its canvas, both scaled to ``side``.
 
-    Parameters
-    ----------
-    canvas
-        Left, top, width and height in the region's units.
+    ``canvas``: left, top, width and height in the region's units.
 
     Examples
     --------

@@ -105,10 +105,7 @@ def readable_over(colour: str, darkest: float, brightest: float, least: float) -
 def luminances(rgb: FloatArray) -> FloatArray:
     """Relative luminance of colours, as WCAG defines it.
 
-    Parameters
-    ----------
-    rgb
-        ``(..., 3)``, 0..1, as screens have them.
+    ``rgb``: ``(..., 3)``, 0..1, as screens have them.
 
     Examples
     --------

@@ -18,17 +18,11 @@ from packwork.geometry.outline import Outline, OutlineLike
 class Datum:
     """Row and number behind one mark.
 
-    Parameters
-    ----------
-    row
-        Cells by column, as they were read.
-    value
-        What the mark stands for: in the unit of the size column, or a number of rows. The marks
-        of one row add up to it.
-    category
-        What its colour says; empty where colours are numbers or say nothing.
-    group
-        Which group it is in; empty where there are none.
+    ``row``: cells by column, as they were read.
+    ``value``: what the mark stands for: in the unit of the size column, or a number of rows. The
+    marks of one row add up to it.
+    ``category``: what its colour says; empty where colours are numbers or say nothing.
+    ``group``: which group it is in; empty where there are none.
     """
 
     row: Mapping[str, Any]
@@ -41,12 +35,8 @@ class Datum:
 class RowLabel:
     """Label of a row in the index of a data frame of geometries.
 
-    Parameters
-    ----------
-    label
-        As the index has it: of several levels a tuple.
-    names
-        Of the levels, None for one without a name.
+    ``label``: as the index has it: of several levels a tuple.
+    ``names``: of the levels, None for one without a name.
     """
 
     label: Any
@@ -67,14 +57,9 @@ _UNSEEN = re.compile(r"[\x00-\x20\x7f-\xa0\u2028\u2029\\]")
 class Label:
     """Name, link and tooltip of one placed item; empty where there is none.
 
-    Parameters
-    ----------
-    name
-        What it is called in the file.
-    link
-        Where a click leads: http, https, mailto, or relative to the file.
-    title
-        What is shown when a pointer rests on it.
+    ``name``: what it is called in the file.
+    ``link``: where a click leads: http, https, mailto, or relative to the file.
+    ``title``: what is shown when a pointer rests on it.
 
     Raises
     ------
@@ -118,12 +103,8 @@ def _is_sound(link: str) -> bool:
 class FontFile:
     """One face of a font, as its file holds it.
 
-    Parameters
-    ----------
-    index
-        Which face of a collection.
-    weight
-        Where its weight axis is held; None if it has none, or stands at its default.
+    ``index``: which face of a collection.
+    ``weight``: where its weight axis is held; None if it has none, or stands at its default.
     """
 
     data: bytes
@@ -136,23 +117,14 @@ class FontFile:
 class TextRun:
     """Characters of one font and one direction.
 
-    Parameters
-    ----------
-    text
-        In the order in which it is read.
-    font
-        That draws it.
-    x, y
-        Where its base line begins, at its left end whatever its direction; units of the
-        text, y down.
-    size
-        Height of an em, in the same units.
-    steps
-        Where each glyph's origin stands, from the left, as shares of an em.
-    advance
-        From the left end to the right one, as a share of an em.
-    is_leftward
-        Whether it is read from right to left.
+    ``text``: in the order in which it is read.
+    ``font``: that draws it.
+    ``x``, ``y``: where its base line begins, at its left end whatever its direction; units of the
+    text, y down.
+    ``size``: height of an em, in the same units.
+    ``steps``: where each glyph's origin stands, from the left, as shares of an em.
+    ``advance``: from the left end to the right one, as a share of an em.
+    ``is_leftward``: whether it is read from right to left.
     """
 
     text: str
@@ -169,14 +141,9 @@ class TextRun:
 class LiveText:
     """Text of a word, beside the curves that draw it.
 
-    Parameters
-    ----------
-    runs
-        In the order in which they are read; in the units of the word's markup.
-    path
-        SVG path data of the same letters, filled non-zero, in the same units.
-    language
-        As in ``lang``; empty if it is not known.
+    ``runs``: in the order in which they are read; in the units of the word's markup.
+    ``path``: SVG path data of the same letters, filled non-zero, in the same units.
+    ``language``: as in ``lang``; empty if it is not known.
     """
 
     runs: tuple[TextRun, ...]
@@ -195,16 +162,11 @@ class FlatArt:
 class VectorArt:
     """An SVG fragment that has been through the gate.
 
-    Parameters
-    ----------
-    markup
-        Well-formed elements, fit to stand inside one ``<g>`` of any SVG document: ids,
-        references and style rules are scoped so that two fragments never meet, and
-        nothing in it reaches outside the document.
-    matrix
-        2 x 3 map from the fragment's user units to the item's own units.
-    is_traced
-        Whether only a rendering tells what it covers, not its shapes.
+    ``markup``: well-formed elements, fit to stand inside one ``<g>`` of any SVG document: ids,
+    references and style rules are scoped so that two fragments never meet, and nothing in it
+    reaches outside the document.
+    ``matrix``: 2 x 3 map from the fragment's user units to the item's own units.
+    ``is_traced``: whether only a rendering tells what it covers, not its shapes.
     """
 
     markup: str
@@ -216,16 +178,10 @@ class VectorArt:
 class PictureArt:
     """Pixels with transparency.
 
-    Parameters
-    ----------
-    png
-        A complete PNG file (RGBA).
-    width, height
-        Its size in pixels.
-    matrix
-        2 x 3 map from its pixels (x right, y down) to the item's own units.
-    is_traced
-        Whether the outline is another one than where its opacity passes one half.
+    ``png``: a complete PNG file (RGBA).
+    ``width``, ``height``: its size in pixels.
+    ``matrix``: 2 x 3 map from its pixels (x right, y down) to the item's own units.
+    ``is_traced``: whether the outline is another one than where its opacity passes one half.
     """
 
     png: bytes
@@ -255,12 +211,8 @@ class Original(Protocol):
 class PhotoArt:
     """A photograph of which only a small copy is kept.
 
-    Parameters
-    ----------
-    preview
-        The small copy, for screens.
-    original
-        Where a writer gets as many pixels as the print needs.
+    ``preview``: the small copy, for screens.
+    ``original``: where a writer gets as many pixels as the print needs.
     """
 
     preview: VectorArt

@@ -24,19 +24,12 @@ from packwork.units import Unit
 class Note:
     """One filled path; never packed, never measured.
 
-    Parameters
-    ----------
-    path
-        SVG path data, filled by the even-odd rule.
-    matrix
-        2 x 3 map from the path's units to canvas units.
-    fill
-        Any CSS colour.
-    says
-        What it says, for readers who do not see it; may be empty.
-    is_on_item
-        Whether it is a label on an item: what is under it can still be pointed at, and films, in
-        which items move, are without it.
+    ``path``: SVG path data, filled by the even-odd rule.
+    ``matrix``: 2 x 3 map from the path's units to canvas units.
+    ``fill``: any CSS colour.
+    ``says``: what it says, for readers who do not see it; may be empty.
+    ``is_on_item``: whether it is a label on an item: what is under it can still be pointed at, and
+    films, in which items move, are without it.
     """
 
     path: str

@@ -40,10 +40,7 @@ def turn_sides(
 ) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest turn from upright of each item, ``(n,)`` each.
 
-    Parameters
-    ----------
-    leans_rad
-        ``(n,)`` least tilts with their signs; 0 for items that may lean either way.
+    ``leans_rad``: ``(n,)`` least tilts with their signs; 0 for items that may lean either way.
 
     Examples
     --------
@@ -59,12 +56,8 @@ def turn_sides(
 class Zone:
     """Part of the container that some items stay in.
 
-    Parameters
-    ----------
-    outline
-        Canvas units; inside the container.
-    items
-        ``(m,)`` which items.
+    ``outline``: canvas units; inside the container.
+    ``items``: ``(m,)`` which items.
     """
 
     outline: Outline
@@ -75,23 +68,15 @@ class Zone:
 class Limits:
     """Bounds of n items, one array per parameter, for every stage that moves them.
 
-    Parameters
-    ----------
-    x, y
-        ``(n,)`` canvas units: where an item's centroid has to lie; NaN where that is free.
-    angle
-        ``(n,)`` radians: the turn that it has to have; NaN where that is free.
-    turn_limit
-        ``(n,)`` radians: largest turn from upright; infinite for any, and where the angle
-        is given.
-    smallest, largest
-        ``(n,)`` scales; equal where the size is given.
-    rigid
-        ``(n,)`` whether the item's stretch stays as it is: that of items pinned in size.
-    zones
-        Parts of the container that items stay in; an item is in one at most.
-    kinds
-        ``(n,)`` items of one number are not to lie side by side; a number each if all may.
+    ``x``, ``y``: ``(n,)`` canvas units: where an item's centroid has to lie; NaN where that is
+    free.
+    ``angle``: ``(n,)`` radians: the turn that it has to have; NaN where that is free.
+    ``turn_limit``: ``(n,)`` radians: largest turn from upright; infinite for any, and where the
+    angle is given.
+    ``smallest``, ``largest``: ``(n,)`` scales; equal where the size is given.
+    ``rigid``: ``(n,)`` whether the item's stretch stays as it is: that of items pinned in size.
+    ``zones``: parts of the container that items stay in; an item is in one at most.
+    ``kinds``: ``(n,)`` items of one number are not to lie side by side; a number each if all may.
 
     Examples
     --------

@@ -21,15 +21,9 @@ def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
     Points on one line, or fewer than three, are neighbours one after another; a point
     that lies on another is its neighbour.
 
-    Parameters
-    ----------
-    x, y
-        ``(n,)``.
+    ``x``, ``y``: ``(n,)``.
 
-    Returns
-    -------
-    IntArray
-        ``(m, 2)``, each pair once, the smaller index first, in order.
+    Returns ``(m, 2)``, each pair once, the smaller index first, in order.
 
     Examples
     --------
@@ -62,12 +56,8 @@ def side_by_side(outlines: Sequence[Outline], x: FloatArray, y: FloatArray) -> I
 
     Small is below :data:`NEAR` of the radius of a disc as large as the median item.
 
-    Parameters
-    ----------
-    outlines
-        In place.
-    x, y
-        ``(n,)`` their centres.
+    ``outlines``: in place.
+    ``x``, ``y``: ``(n,)`` their centres.
 
     Examples
     --------

@@ -94,10 +94,7 @@ def one_colour(art: Art) -> tuple[int, int, int, int] | None:
 def recoloured(item: Item, colour: str) -> Item:
     """Item in one colour: a drawing of one colour keeps its curves, any other its ink alone.
 
-    Parameters
-    ----------
-    colour
-        ``#rrggbb``, or ``#rrggbbaa`` with opacity.
+    ``colour``: ``#rrggbb``, or ``#rrggbbaa`` with opacity.
 
     Examples
     --------
@@ -167,12 +164,8 @@ def _is_flat_picture(art: PictureArt) -> bool:
 class TintedOriginal:
     """A photograph on disk under a coat of colour, opened anew each time it is printed.
 
-    Parameters
-    ----------
-    ink
-        What is coated, item units.
-    colour, share
-        ``#rrggbb``, and its opacity.
+    ``ink``: what is coated, item units.
+    ``colour``, ``share``: ``#rrggbb``, and its opacity.
     """
 
     original: Original

@@ -15,12 +15,8 @@ from packwork.fields.filters import box_mean
 class TargetPicture:
     """Picture that is seen from afar, as it lies on a canvas.
 
-    Parameters
-    ----------
-    light
-        ``(rows, columns, 3)`` red, green and blue as light, 0..1.
-    px_per_cu
-        Pixels of it per canvas unit.
+    ``light``: ``(rows, columns, 3)`` red, green and blue as light, 0..1.
+    ``px_per_cu``: pixels of it per canvas unit.
 
     Raises
     ------

@@ -126,13 +126,9 @@ def numbers_of(poses: Poses) -> FloatArray:
 def track_of(keyframes: Sequence[Poses], radii: FloatArray | None = None) -> Track:
     """Track of poses of the same items, one after another.
 
-    Parameters
-    ----------
-    keyframes
-        At least one.
-    radii
-        ``(n,)`` radius of each item, its own units: how far a turn or a change of size moves
-        its edge, by which steps in which much happens take longer. None: all take as long.
+    ``keyframes``: at least one.
+    ``radii``: ``(n,)`` radius of each item, its own units: how far a turn or a change of size moves
+    its edge, by which steps in which much happens take longer. None: all take as long.
     """
     numbers = np.stack([numbers_of(poses) for poses in keyframes])
     numbers[:, :, TURN] = np.unwrap(numbers[:, :, TURN], axis=0)
@@ -173,12 +169,8 @@ find their places, smaller lets them burst in among the others. Chosen by eye.""
 class Leaving:
     """Items that a layout has no more: they shrink away where they are, in a film's first third.
 
-    Parameters
-    ----------
-    poses
-        Where they were, as large as they ever are: as many as items.
-    track
-        Their way, in place of that: as of words that come and go within a series.
+    ``poses``: where they were, as large as they ever are: as many as items.
+    ``track``: their way, in place of that: as of words that come and go within a series.
 
     Raises
     ------
@@ -231,12 +223,8 @@ class Leaving:
 def grown_in(track: Track, new: IntArray) -> Track:
     """The track with new items that grow where they come in, once those that leave are gone.
 
-    Parameters
-    ----------
-    track
-        Of all items; those that are new are in it at full size from the beginning.
-    new
-        ``(k,)`` indices of these.
+    ``track``: of all items; those that are new are in it at full size from the beginning.
+    ``new``: ``(k,)`` indices of these.
 
     Examples
     --------

@@ -50,14 +50,9 @@ ROUNDING = 1e-9
 class FreeRoom:
     """Free room of an arrangement, in which discs find their lowest places.
 
-    Parameters
-    ----------
-    arrangement
-        Whose container is the room.
-    standing
-        ``(m,)`` indices of items that are in it already.
-    gap
-        Least distance of two discs, and of a disc and the edge.
+    ``arrangement``: whose container is the room.
+    ``standing``: ``(m,)`` indices of items that are in it already.
+    ``gap``: least distance of two discs, and of a disc and the edge.
     """
 
     def __init__(self, arrangement: Arrangement, standing: IntArray, gap: float) -> None:
@@ -91,12 +86,8 @@ class FreeRoom:
     def place(self, radius: float, item: int, kind: int, heights: HeightOf) -> FloatArray | None:
         """Lowest centre ``(2,)`` for a disc; None if it fits nowhere. It then stands there.
 
-        Parameters
-        ----------
-        item
-            Whose heights count.
-        kind
-            Items of one number have the same ones.
+        ``item``: whose heights count.
+        ``kind``: items of one number have the same ones.
         """
         if kind not in self._lowest:
             # Of room alone: heights above a coast of many edges take time.
@@ -238,16 +229,10 @@ def bottom_left(
     Each is taken for the disc about its origin that holds it, so the arrangement gets no
     conflicts.
 
-    Parameters
-    ----------
-    standing
-        ``(k,)`` indices of items that stay where they are; all others count as not there.
-    kinds
-        ``(n,)`` items of one number have the same heights.
-    tell
-        Called with the items that have a place by now, from time to time.
-    stop
-        Asked as often; those that follow then get no place.
+    ``standing``: ``(k,)`` indices of items that stay where they are; all others count as not there.
+    ``kinds``: ``(n,)`` items of one number have the same heights.
+    ``tell``: called with the items that have a place by now, from time to time.
+    ``stop``: asked as often; those that follow then get no place.
 
     Examples
     --------

@@ -48,14 +48,9 @@ TRIES = 3
 class Piled:
     """Result of a pile.
 
-    Parameters
-    ----------
-    poses
-        Of all items; those without room stay where they were.
-    placed
-        Items that lie in the container, without a conflict.
-    mean_height
-        Area-weighted mean height of the placed ones, canvas units.
+    ``poses``: of all items; those without room stay where they were.
+    ``placed``: items that lie in the container, without a conflict.
+    ``mean_height``: area-weighted mean height of the placed ones, canvas units.
     """
 
     poses: Poses
@@ -68,20 +63,15 @@ class Piled:
 class Arrival:
     """Arrival of a pile's items at their first places.
 
-    Parameters
-    ----------
-    known
-        ``(m,)`` items that begin where their poses have them, not quite clear of each other.
-    ranks
-        ``(n,)`` items of a lower rank get their places first, and so lie lower; empty for one rank.
-    shuffle
-        Logarithm of size within which items without a place come in random order and not the
-        largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
-    source
-        Where items come from, one after another or all at once; None for their lowest places.
-    is_round
-        Whether the pack is to lie in a small circle, where forces draw all items to one point
-        alike.
+    ``known``: ``(m,)`` items that begin where their poses have them, not quite clear of each other.
+    ``ranks``: ``(n,)`` items of a lower rank get their places first, and so lie lower; empty for
+    one rank.
+    ``shuffle``: logarithm of size within which items without a place come in random order and not
+    the largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
+    ``source``: where items come from, one after another or all at once; None for their lowest
+    places.
+    ``is_round``: whether the pack is to lie in a small circle, where forces draw all items to one
+    point alike.
     """
 
     known: IntArray = field(default_factory=lambda: np.arange(0))
@@ -115,17 +105,11 @@ def pile(
 
     Deterministic for one seed of the options.
 
-    Parameters
-    ----------
-    container
-        What items have to be in at the end.
-    outlines
-        One per item, item units.
-    poses
-        Sizes and angles, and where those are that have a place.
-    basin
-        The container and more, such as the room above an open one, through which items may
-        pass; the container itself if None.
+    ``container``: what items have to be in at the end.
+    ``outlines``: one per item, item units.
+    ``poses``: sizes and angles, and where those are that have a place.
+    ``basin``: the container and more, such as the room above an open one, through which items may
+    pass; the container itself if None.
 
     Examples
     --------

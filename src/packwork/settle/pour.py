@@ -24,15 +24,10 @@ AWAY = 1e3
 class Source:
     """Source of a pour's items.
 
-    Parameters
-    ----------
-    points
-        ``(m, 2)`` places of their origins, canvas units; earlier ones are preferred within
-        each of ``ranks``.
-    ranks
-        ``(m,)`` places of a lower rank come first.
-    every
-        Rounds between one item and the next; 0 for all at once.
+    ``points``: ``(m, 2)`` places of their origins, canvas units; earlier ones are preferred within
+    each of ``ranks``.
+    ``ranks``: ``(m,)`` places of a lower rank come first.
+    ``every``: rounds between one item and the next; 0 for all at once.
     """
 
     points: FloatArray
@@ -43,14 +38,9 @@ class Source:
 class Spout:
     """Finds free places of a source for discs.
 
-    Parameters
-    ----------
-    region
-        Room that a disc has to lie in.
-    gap
-        Least distance to keep.
-    rng
-        Chooses among places of one rank.
+    ``region``: room that a disc has to lie in.
+    ``gap``: least distance to keep.
+    ``rng``: chooses among places of one rank.
     """
 
     def __init__(
@@ -86,14 +76,9 @@ def pour(
 ) -> tuple[IntArray, int]:
     """Let items in while all go down; indices of those that found no way in, and rounds taken.
 
-    Parameters
-    ----------
-    settling
-        Its arrangement holds all items; none is active at first.
-    queue
-        ``(m,)`` indices of items, in the order in which they come.
-    every
-        Rounds between one item and the next.
+    ``settling``: its arrangement holds all items; none is active at first.
+    ``queue``: ``(m,)`` indices of items, in the order in which they come.
+    ``every``: rounds between one item and the next.
     """
     arrangement = settling.arrangement
     _send_away(settling)

@@ -47,14 +47,9 @@ def start_round_pack(
     Items that are no discs are settled from several such places, and put back to those from
     which they came to lie in the smallest circle.
 
-    Parameters
-    ----------
-    settling
-        Of all items, with a centre; its arrangement is changed in place.
-    gap
-        Least distance of two items, and of an item and the edge.
-    trusts
-        First and last bound of a move while they are tried.
+    ``settling``: of all items, with a centre; its arrangement is changed in place.
+    ``gap``: least distance of two items, and of an item and the edge.
+    ``trusts``: first and last bound of a move while they are tried.
     """
     arrangement = settling.arrangement
     if arrangement.count > MOST_ITEMS:
@@ -131,10 +126,7 @@ def packed_circles(radii: FloatArray, rng: np.random.Generator) -> FloatArray:
     Deterministic for one generator. The circle is near the smallest for some tens of discs, equal
     or not: there is no table of known packs behind it.
 
-    Parameters
-    ----------
-    radii
-        Of the discs, with what they are to keep free round them.
+    ``radii``: of the discs, with what they are to keep free round them.
 
     Examples
     --------

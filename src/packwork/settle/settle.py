@@ -64,22 +64,13 @@ inside lie anywhere, smaller lets some stick out. Tried."""
 class Settling:
     """Items of fixed sizes on their way down; the arrangement never has a conflict.
 
-    Parameters
-    ----------
-    arrangement
-        Without conflicts; changed in place.
-    forces
-        One strength for each item of the arrangement.
-    areas
-        ``(n,)`` how much each item counts.
-    turns
-        Farthest turns back and on, ``(n,)`` each, rad.
-    gap
-        Least distance that the check asks for.
-    hair
-        The part of it that was not asked for.
-    side
-        Longer side of the canvas.
+    ``arrangement``: without conflicts; changed in place.
+    ``forces``: one strength for each item of the arrangement.
+    ``areas``: ``(n,)`` how much each item counts.
+    ``turns``: farthest turns back and on, ``(n,)`` each, rad.
+    ``gap``: least distance that the check asks for.
+    ``hair``: the part of it that was not asked for.
+    ``side``: longer side of the canvas.
     """
 
     def __init__(
@@ -136,12 +127,8 @@ class Settling:
     ) -> int:
         """Compact all down the potential until they are at rest; how many rounds it took.
 
-        Parameters
-        ----------
-        tell
-            Called with the places ``(n, 4)``, canvas units and rad, after each round.
-        trusts
-            First and last bound of a move.
+        ``tell``: called with the places ``(n, 4)``, canvas units and rad, after each round.
+        ``trusts``: first and last bound of a move.
         """
         trust = trusts[0]
         for rounds in range(MOST_ROUNDS):
@@ -161,12 +148,8 @@ class Settling:
     def round(self, trust: float, turn: int) -> float:
         """One step of each block, the lowest first; the mean way down, and that of the circle.
 
-        Parameters
-        ----------
-        trust
-            Bound of a move, in sides of the square of an item's mean area.
-        turn
-            Number of the round: others cut blocks elsewhere.
+        ``trust``: bound of a move, in sides of the square of an item's mean area.
+        ``turn``: number of the round: others cut blocks elsewhere.
         """
         now = self.pull()
         before, circle, low = self._cost(now, self.active), self.circle(), self._lows(now)
@@ -242,10 +225,7 @@ def downward(
 ) -> FloatArray:  # fmt: skip
     """Change of place of ``items`` that goes down most and keeps the contacts apart, nearly.
 
-    Parameters
-    ----------
-    slope
-        ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each item.
+    ``slope``: ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each item.
     """
     rows = contacts.rows_of(board, items, pairs, trust, gap, hair)
     gain, low, high = descent.gains_and_bounds(board, slope, *turns, items, trust)

@@ -23,10 +23,7 @@ def allowed_pixels(limits: Limits, container: Image, px_per_cu: float) -> Allowe
     A line is the row or column of pixels that is nearest to it. Where no pixel shows an
     item's zone, it may begin anywhere.
 
-    Parameters
-    ----------
-    container
-        ``(rows, columns)`` coverage of the container.
+    ``container``: ``(rows, columns)`` coverage of the container.
 
     Examples
     --------

@@ -15,12 +15,8 @@ def start_angles(
 ) -> FloatArray:
     """``(count,)`` angles: among the choices if there are any, else within the limit.
 
-    Parameters
-    ----------
-    limit_rad
-        Largest turn from upright; None for any.
-    choices_rad
-        The only angles allowed, or None.
+    ``limit_rad``: largest turn from upright; None for any.
+    ``choices_rad``: the only angles allowed, or None.
 
     Examples
     --------
@@ -36,10 +32,7 @@ def start_angles(
 def spread_angles(count: int, limit_rad: float | None, rng: np.random.Generator) -> FloatArray:
     """``(count,)`` angles spread over what is allowed, each at random in its part of it.
 
-    Parameters
-    ----------
-    limit_rad
-        Largest turn from upright; None for any.
+    ``limit_rad``: largest turn from upright; None for any.
 
     Examples
     --------
@@ -56,10 +49,7 @@ def nearest_allowed(
 ) -> FloatArray:
     """Angles that an earlier layout had, turned no further than it takes to be allowed.
 
-    Parameters
-    ----------
-    angles_rad
-        ``(n,)``.
+    ``angles_rad``: ``(n,)``.
 
     Examples
     --------
@@ -92,15 +82,10 @@ spiral as large as a disc, larger spends the container on compact items. Tried."
 def nominal_scales(areas: FloatArray, weights: FloatArray, total_cu2: float) -> FloatArray:
     """Scales at which areas are in the shares of the weights.
 
-    Parameters
-    ----------
-    areas
-        ``(n,)``, item units squared: of the outlines where sizes are data, of their
-        hulls where items are to look equally large.
-    weights
-        ``(n,)``, positive.
-    total_cu2
-        Sum of the areas asked for, canvas units squared.
+    ``areas``: ``(n,)``, item units squared: of the outlines where sizes are data, of their hulls
+    where items are to look equally large.
+    ``weights``: ``(n,)``, positive.
+    ``total_cu2``: sum of the areas asked for, canvas units squared.
 
     Examples
     --------
@@ -116,16 +101,10 @@ def shared_scales(
 ) -> FloatArray:
     """Scales where areas are data: true areas in the shares of the weights.
 
-    Parameters
-    ----------
-    areas
-        ``(n,)`` true areas of the items, item units squared.
-    seen
-        ``(n,)`` areas of what stands for them while they are placed.
-    weights
-        ``(n,)``, positive.
-    total_cu2
-        Sum of the areas seen, canvas units squared.
+    ``areas``: ``(n,)`` true areas of the items, item units squared.
+    ``seen``: ``(n,)`` areas of what stands for them while they are placed.
+    ``weights``: ``(n,)``, positive.
+    ``total_cu2``: sum of the areas seen, canvas units squared.
 
     Examples
     --------
@@ -141,16 +120,10 @@ def yielding_scales(
 ) -> FloatArray:
     """First scales where sizes are free: compact items larger, straggly ones smaller.
 
-    Parameters
-    ----------
-    areas, hulls
-        ``(n,)`` areas of the outlines and of their convex hulls.
-    nominal
-        ``(n,)`` middle of each item's range.
-    ratio
-        Scales stay within ``nominal / ratio`` and ``nominal * ratio``.
-    total_cu2
-        Sum of the areas to begin with, unless the bounds forbid it.
+    ``areas``, ``hulls``: ``(n,)`` areas of the outlines and of their convex hulls.
+    ``nominal``: ``(n,)`` middle of each item's range.
+    ``ratio``: scales stay within ``nominal / ratio`` and ``nominal * ratio``.
+    ``total_cu2``: sum of the areas to begin with, unless the bounds forbid it.
 
     Examples
     --------

@@ -86,10 +86,7 @@ def is_thread(container: Outline, radii_cu: FloatArray) -> bool:
 def spread_along(container: Outline, count: int, rng: np.random.Generator) -> Spread | None:
     """Discs spread evenly along a thread, as large as most of it has room for.
 
-    Parameters
-    ----------
-    rng
-        Says where the first lies.
+    ``rng``: says where the first lies.
 
     Examples
     --------
@@ -115,12 +112,10 @@ def scales_within(
 ) -> tuple[FloatArray, FloatArray]:
     """``(n,)`` scales at which each item lies in a disc of one radius, and ``(n,)`` typical ones.
 
-    Parameters
-    ----------
-    nominal
-        ``(n,)`` scales that are in the proportions asked for, which the typical ones are in too.
-    is_common
-        Whether scales must keep them; else what is longer than others of its size is smaller.
+    ``nominal``: ``(n,)`` scales that are in the proportions asked for, which the typical ones are
+    in too.
+    ``is_common``: whether scales must keep them; else what is longer than others of its size is
+    smaller.
 
     Examples
     --------

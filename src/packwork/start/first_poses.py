@@ -74,12 +74,8 @@ def first_poses(
     Items that have to lie at one point come first and take their room, so that the others
     find their places round them.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    scales, angles
-        ``(n,)``.
+    ``outlines``: one per item, item units.
+    ``scales``, ``angles``: ``(n,)``.
     """
     image, px_per_cu = container_image(container, start_resolution(len(outlines)))
     if limits.binds:
@@ -96,12 +92,8 @@ def poses_apart(
     None if there is no room for so many even then. What there is where the search for the largest
     common size was ended before it found any.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    scales, angles
-        ``(n,)``; the scales are made smaller by one factor.
+    ``outlines``: one per item, item units.
+    ``scales``, ``angles``: ``(n,)``; the scales are made smaller by one factor.
 
     Examples
     --------
@@ -226,14 +218,9 @@ def relocated(
     one by one while a run goes on, they find the room already taken. The other items
     stay where they are.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    poses
-        Where the items are; angles, scales and stretches are kept.
-    buried
-        ``(m,)`` indices of items to move: those of which most is overlapped or outside.
+    ``outlines``: one per item, item units.
+    ``poses``: where the items are; angles, scales and stretches are kept.
+    ``buried``: ``(m,)`` indices of items to move: those of which most is overlapped or outside.
 
     Examples
     --------

@@ -32,16 +32,10 @@ def place_discs(
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, pixels, in the order of the radii.
 
-    Parameters
-    ----------
-    room
-        Where there is room; every disc is taken away from it.
-    radii_px
-        ``(n,)``.
-    homes
-        Pixels for discs that may not lie anywhere: they choose before the others.
-    preferred
-        Pixels ``(m,)`` that the others take as long as their discs fit there.
+    ``room``: where there is room; every disc is taken away from it.
+    ``radii_px``: ``(n,)``.
+    ``homes``: pixels for discs that may not lie anywhere: they choose before the others.
+    ``preferred``: pixels ``(m,)`` that the others take as long as their discs fit there.
 
     Examples
     --------
@@ -100,10 +94,7 @@ def distance_field(
     items cost n small windows and not n full transforms. When there is no room left,
     items go where they overlap least.
 
-    Parameters
-    ----------
-    radii_cu
-        ``(n,)`` radius of the disc to keep free for each item.
+    ``radii_cu``: ``(n,)`` radius of the disc to keep free for each item.
 
     Examples
     --------
@@ -136,12 +127,8 @@ def medial_axis(
     as its disc fits there (so the largest sit where the container is widest, and none on
     another), and else where there is most room in the container.
 
-    Parameters
-    ----------
-    container
-        Coverage of the container, not 0 everywhere.
-    radii_cu
-        ``(n,)`` radius of the disc to keep free for each item.
+    ``container``: coverage of the container, not 0 everywhere.
+    ``radii_cu``: ``(n,)`` radius of the disc to keep free for each item.
 
     Examples
     --------
@@ -192,12 +179,8 @@ start along its middle line. Larger lines up items that have room side by side. 
 def suitable(container: Image, px_per_cu: float, radii_cu: FloatArray) -> Placing:
     """Choose the medial axis where few items fit side by side, else the distance field.
 
-    Parameters
-    ----------
-    container
-        Coverage of the container, not 0 everywhere.
-    radii_cu
-        ``(n,)`` radius of a disc of each item's size.
+    ``container``: coverage of the container, not 0 everywhere.
+    ``radii_cu``: ``(n,)`` radius of a disc of each item's size.
 
     Examples
     --------

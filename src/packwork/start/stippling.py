@@ -21,12 +21,8 @@ ROUNDS = 30
 class Stippling:
     """Points and their cells.
 
-    Parameters
-    ----------
-    x, y
-        ``(n,)``, pixels.
-    areas
-        ``(n,)`` of the cells, pixels, none below one.
+    ``x``, ``y``: ``(n,)``, pixels.
+    ``areas``: ``(n,)`` of the cells, pixels, none below one.
     """
 
     x: FloatArray
@@ -39,14 +35,9 @@ def stippled(
 ) -> Stippling:
     """Points whose cells are small where the density is high: side of a cell by its fourth root.
 
-    Parameters
-    ----------
-    inside
-        Coverage of the region; pixels of which more than half is covered belong to it.
-    density
-        Positive weight of each pixel.
-    count
-        Number of points, at least 1; where there are more than pixels, several share one.
+    ``inside``: coverage of the region; pixels of which more than half is covered belong to it.
+    ``density``: positive weight of each pixel.
+    ``count``: number of points, at least 1; where there are more than pixels, several share one.
 
     Examples
     --------

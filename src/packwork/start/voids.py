@@ -51,12 +51,8 @@ so that they do not meet in one void. Chosen."""
 class Fillers:
     """Copies for voids.
 
-    Parameters
-    ----------
-    sort
-        ``(m,)`` which of the outlines that were offered.
-    poses
-        Where they fit, nearly: the voids are seen in an image.
+    ``sort``: ``(m,)`` which of the outlines that were offered.
+    ``poses``: where they fit, nearly: the voids are seen in an image.
     """
 
     sort: IntArray
@@ -77,18 +73,11 @@ def copies_for_voids(
 ) -> Fillers:
     """Copies that fit into the voids of a layout, in the largest first.
 
-    Parameters
-    ----------
-    placed
-        What lies in it, canvas units.
-    sorts
-        Outlines that copies may have, item units, origin at their centroids.
-    turns
-        ``(SECTORS,)`` which turns they may have, in steps of a sector.
-    smallest, largest
-        ``(k,)`` scales of each sort.
-    gap
-        What is to stay free round each copy, canvas units.
+    ``placed``: what lies in it, canvas units.
+    ``sorts``: outlines that copies may have, item units, origin at their centroids.
+    ``turns``: ``(SECTORS,)`` which turns they may have, in steps of a sector.
+    ``smallest``, ``largest``: ``(k,)`` scales of each sort.
+    ``gap``: what is to stay free round each copy, canvas units.
 
     Examples
     --------
@@ -158,10 +147,7 @@ def _chosen(
 def void_centres(distance: FloatArray, most: int) -> IntArray:
     """``(m, 2)`` row and column of the points farthest from everything, the roomiest first.
 
-    Parameters
-    ----------
-    distance
-        From each free pixel to what is not free, pixels; 0 where it is not.
+    ``distance``: from each free pixel to what is not free, pixels; 0 where it is not.
 
     Examples
     --------
@@ -236,19 +222,11 @@ def fitted(
 
     As far as :data:`SECTORS` directions tell, with the outline's origin on the void's centre.
 
-    Parameters
-    ----------
-    rays
-        ``(m, SECTORS)``, canvas units.
-    sorts
-        ``k`` outlines, item units.
-    turns
-        ``(SECTORS,)`` which turns, in steps of a sector, are allowed.
+    ``rays``: ``(m, SECTORS)``, canvas units.
+    ``sorts``: ``k`` outlines, item units.
+    ``turns``: ``(SECTORS,)`` which turns, in steps of a sector, are allowed.
 
-    Returns
-    -------
-    tuple
-        Scales ``(m, k)``, and turns in sectors ``(m, k)``.
+    Returns scales ``(m, k)``, and turns in sectors ``(m, k)``.
 
     Examples
     --------

@@ -48,14 +48,9 @@ def followed(
 ) -> Poses | None:
     """Exact poses of a step at its true sizes; None if none are found.
 
-    Parameters
-    ----------
-    size
-        Scale of all steps: items have so many times their true scales.
-    beside
-        Poses of the step beside it, None if there is none; ``names`` of its items.
-    known
-        Places of all words that any step has had so far.
+    ``size``: scale of all steps: items have so many times their true scales.
+    ``beside``: poses of the step beside it, None if there is none; ``names`` of its items.
+    ``known``: places of all words that any step has had so far.
     """
     target = size * step.true
     if beside is not None:
@@ -187,10 +182,7 @@ Chosen."""
 class WordBoard:
     """Pixels of a container, each taken or not.
 
-    Parameters
-    ----------
-    margin_cu
-        Room that every item keeps from others, canvas units.
+    ``margin_cu``: room that every item keeps from others, canvas units.
     """
 
     def __init__(self, container: Container, rng: np.random.Generator, margin_cu: float) -> None:
@@ -216,19 +208,11 @@ class WordBoard:
     ) -> tuple[float, float, float, float] | None:
         """Pose of an item put on the board, as large as there is room; None if there is none.
 
-        Parameters
-        ----------
-        scale
-            The largest to try; see ``SIZES``.
-        angles
-            To try, radians, the preferred one first.
-        home
-            What it is to lie near, canvas units; None puts it where it touches most.
+        ``scale``: the largest to try; see ``SIZES``.
+        ``angles``: to try, radians, the preferred one first.
+        ``home``: what it is to lie near, canvas units; None puts it where it touches most.
 
-        Returns
-        -------
-        tuple or None
-            x, y, angle, scale.
+        Returns x, y, angle, scale.
         """
         worth = self._noise if home is None else self._noise - HOMING * self._away(home)
         for share in SIZES:

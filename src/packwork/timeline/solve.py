@@ -40,10 +40,7 @@ Told: TypeAlias = Callable[[int], object]
 class Solved:
     """Layouts of all steps.
 
-    Parameters
-    ----------
-    size
-        Scale of all: items have so many times their true scales.
+    ``size``: scale of all: items have so many times their true scales.
     """
 
     steps: tuple[SeriesStep, ...]

@@ -44,14 +44,9 @@ IDLE: Mapping[str, tuple[Any, ...]] = {
 class SeriesStep:
     """One step.
 
-    Parameters
-    ----------
-    job
-        What a layout of it alone would be made of.
-    true
-        ``(n,)`` scale of each item, on one scale for all steps.
-    names
-        ``(n,)`` what items are known by: one name in two steps is one item.
+    ``job``: what a layout of it alone would be made of.
+    ``true``: ``(n,)`` scale of each item, on one scale for all steps.
+    ``names``: ``(n,)`` what items are known by: one name in two steps is one item.
     """
 
     label: str
@@ -71,10 +66,7 @@ def word_steps(
 ) -> list[SeriesStep]:
     """Steps of a cloud, from the options of ``words``.
 
-    Parameters
-    ----------
-    weights
-        By step, then by word.
+    ``weights``: by step, then by word.
 
     Raises
     ------
@@ -107,10 +99,7 @@ def word_steps(
 def chart_steps(container: str, data: object, column: str, **options: Any) -> list[SeriesStep]:
     """Steps of a unit chart, from the options of ``chart``.
 
-    Parameters
-    ----------
-    column
-        Of steps; with the option ``by_step`` so many of its numbers go together.
+    ``column``: of steps; with the option ``by_step`` so many of its numbers go together.
 
     Raises
     ------
@@ -193,10 +182,8 @@ def _heights(job: Job) -> FloatArray:
 def step_files(templates: Sequence[str], column: str, labels: Sequence[str]) -> list[list[Path]]:
     """Files of each step, all checked before the first is made.
 
-    Parameters
-    ----------
-    templates
-        Names with a place for the column, as ``out/{year}.svg``; ``{row}`` is a step's number.
+    ``templates``: names with a place for the column, as ``out/{year}.svg``; ``{row}`` is a step's
+    number.
 
     Raises
     ------

@@ -38,19 +38,17 @@ Key: TypeAlias = tuple[Outline, float, float]
 class Grain:
     """Resolution of the search for places and sizes. All tried.
 
-    Parameters
-    ----------
-    pixels_each, least_px, most_px
-        Pixels of the image's side for each item of a row of them, and its side at least and at
-        most. More waste less room at the edges of pixels and take longer.
-    reach, most_fringe
-        Width of the fringe, pixels, in which taken pixels are counted, and how many of them are
-        looked at. More tell better which place is best, up to a point, and take longer.
-    first_share
-        Share of the container that the first try's items cover. Any other takes more tries.
-    stride, close
-        Factor between the first two sizes tried, squared with each one until one fits and one does
-        not; and the factor between those two at which the search ends. Smaller finds more.
+    ``pixels_each``, ``least_px``, ``most_px``: pixels of the image's side for each item of a row of
+    them, and its side at least and at most. More waste less room at the edges of pixels and take
+    longer.
+    ``reach``, ``most_fringe``: width of the fringe, pixels, in which taken pixels are counted, and
+    how many of them are looked at. More tell better which place is best, up to a point, and take
+    longer.
+    ``first_share``: share of the container that the first try's items cover. Any other takes more
+    tries.
+    ``stride``, ``close``: factor between the first two sizes tried, squared with each one until one
+    fits and one does not; and the factor between those two at which the search ends. Smaller finds
+    more.
     """
 
     pixels_each: float
@@ -126,29 +124,18 @@ def first_fit(
 ) -> Poses | None:
     """Poses at which nothing overlaps, all items in proportion; None if none were found.
 
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    scales
-        ``(n,)``; all but those that limits hold are multiplied by one factor.
-    angles
-        For each item the angles that it may have, radians.
-    margin_cu
-        Room that every item keeps round itself, canvas units.
-    slack
-        More of it, as a share of the item's extent: what later stages take it for may be
-        as much wider.
-    attempts
-        Orders tried for each size: the item that found no place comes earlier the next time. Of
-        items of one angle, placed more closely, half as many; of many of those a quarter.
-    fields
-        Forces that say where an item had better lie.
-    kinds
-        ``(n,)`` numbers of what is to be mixed: what lies there at any time has as much of each
-        kind's area, as what is put later comes to lie elsewhere. None for the largest first.
-    stop
-        Asked before each attempt; True ends the search with the best found so far.
+    ``outlines``: one per item, item units.
+    ``scales``: ``(n,)``; all but those that limits hold are multiplied by one factor.
+    ``angles``: for each item the angles that it may have, radians.
+    ``margin_cu``: room that every item keeps round itself, canvas units.
+    ``slack``: more of it, as a share of the item's extent: what later stages take it for may be as
+    much wider.
+    ``attempts``: orders tried for each size: the item that found no place comes earlier the next
+    time. Of items of one angle, placed more closely, half as many; of many of those a quarter.
+    ``fields``: forces that say where an item had better lie.
+    ``kinds``: ``(n,)`` numbers of what is to be mixed: what lies there at any time has as much of
+    each kind's area, as what is put later comes to lie elsewhere. None for the largest first.
+    ``stop``: asked before each attempt; True ends the search with the best found so far.
 
     Examples
     --------

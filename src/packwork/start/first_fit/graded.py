@@ -85,34 +85,23 @@ def graded_fit(
 ) -> Graded:
     """Poses at which nothing overlaps, each item at most so much larger than the one before.
 
-    Parameters
-    ----------
-    candidates
-        The heaviest first; taken one by one, as long as there is room.
-    count
-        About how many there are: the more, the finer the image.
-    smallest
-        Scale below which an item is left out; 0 for ``LEAST_SHARE`` of the first one's.
-    grid
-        Scales are whole multiples of it; 0 for any.
-    drop
-        By how much, at least, scales that are tried differ.
-    margin_cu
-        Room that every item keeps from others and from the edge, canvas units.
-    patience
-        How many items in a row may find no place before the rest is left out; None for any.
-    lengths
-        Of all candidates, in any unit, such as their letters: where all can be as large as the
-        smallest, those after the first ones are held down so that the last find a place too.
-    is_first_bounded
-        Whether the first one's scale is what it is to have; else it is the largest of some with
-        which the next ones find places.
-    regained
-        How much of what an item lacks at its size those after it have again, where they find
-        places: 0, no more than it; 1, all that their own steps leave them, but never more than
-        the one before. A share of the logarithm.
-    side_px
-        Pixels of the image's longer side; by the number of candidates where it is not given.
+    ``candidates``: the heaviest first; taken one by one, as long as there is room.
+    ``count``: about how many there are: the more, the finer the image.
+    ``smallest``: scale below which an item is left out; 0 for ``LEAST_SHARE`` of the first one's.
+    ``grid``: scales are whole multiples of it; 0 for any.
+    ``drop``: by how much, at least, scales that are tried differ.
+    ``margin_cu``: room that every item keeps from others and from the edge, canvas units.
+    ``patience``: how many items in a row may find no place before the rest is left out; None for
+    any.
+    ``lengths``: of all candidates, in any unit, such as their letters: where all can be as large as
+    the smallest, those after the first ones are held down so that the last find a place too.
+    ``is_first_bounded``: whether the first one's scale is what it is to have; else it is the
+    largest of some with which the next ones find places.
+    ``regained``: how much of what an item lacks at its size those after it have again, where they
+    find places: 0, no more than it; 1, all that their own steps leave them, but never more than the
+    one before. A share of the logarithm.
+    ``side_px``: pixels of the image's longer side; by the number of candidates where it is not
+    given.
 
     Examples
     --------

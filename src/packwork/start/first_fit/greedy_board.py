@@ -81,19 +81,13 @@ NOISE = 0.01
 class Candidate:
     """An item that is to be put next.
 
-    Parameters
-    ----------
-    outline
-        Item units.
-    step
-        How many times the scale that the one before had, or might have had where it found no
-        place, it may have; of the first, its scale.
-    angles
-        That it may have, radians, the preferred ones first: of those at which it fits in one
-        size, the first is taken.
-    apart
-        Room that it keeps, along and across itself, from those that were put before it, in item
-        units: beside the margin of all.
+    ``outline``: item units.
+    ``step``: how many times the scale that the one before had, or might have had where it found no
+    place, it may have; of the first, its scale.
+    ``angles``: that it may have, radians, the preferred ones first: of those at which it fits in
+    one size, the first is taken.
+    ``apart``: room that it keeps, along and across itself, from those that were put before it, in
+    item units: beside the margin of all.
     """
 
     outline: Outline
@@ -131,14 +125,9 @@ def _inwards(clearance: FloatArray) -> FloatArray:
 class GreedyBoard:
     """The image on which items are put one after another.
 
-    Parameters
-    ----------
-    count
-        About how many items there are: the more, the finer the image.
-    margin_cu
-        Room that every item keeps from others and from the edge, canvas units.
-    side_px
-        Pixels of the longer side of the image; by their number where it is not given.
+    ``count``: about how many items there are: the more, the finer the image.
+    ``margin_cu``: room that every item keeps from others and from the edge, canvas units.
+    ``side_px``: pixels of the longer side of the image; by their number where it is not given.
     """
 
     is_loose = False
@@ -282,12 +271,8 @@ while larger gaps stay. Tried."""
 class Bareness:
     """Bare places of a container: farther from every item than a reader takes for filled.
 
-    Parameters
-    ----------
-    free
-        ``(rows, columns)`` the pixels that may be taken.
-    far_px
-        Distance from which on a pixel is bare.
+    ``free``: ``(rows, columns)`` the pixels that may be taken.
+    ``far_px``: distance from which on a pixel is bare.
 
     Examples
     --------

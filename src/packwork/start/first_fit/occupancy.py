@@ -28,17 +28,11 @@ longer to keep up, smaller cuts stems of letters in more pieces. Chosen."""
 class Stencil:
     """Pixels that an item takes, about a pixel's corner.
 
-    Parameters
-    ----------
-    mask
-        ``(rows, columns)`` which pixels of its box it takes; one at least.
-    origin
-        Row and column of the item's own origin in that box; it may lie off the box.
-    boxes
-        ``(r, 6)`` the same as boxes, which may overlap: row, first column, height, width, and log2
-        of these; large ones first, as they are the first to meet something.
-    reach
-        Width of the fringe round it, pixels.
+    ``mask``: ``(rows, columns)`` which pixels of its box it takes; one at least.
+    ``origin``: row and column of the item's own origin in that box; it may lie off the box.
+    ``boxes``: ``(r, 6)`` the same as boxes, which may overlap: row, first column, height, width,
+    and log2 of these; large ones first, as they are the first to meet something.
+    ``reach``: width of the fringe round it, pixels.
     """
 
     mask: BoolArray
@@ -55,14 +49,9 @@ class Stencil:
 def cut(outline_px: Outline, reach: int, margin_px: float = 0.0) -> Stencil:
     """Stencil of an outline about its origin.
 
-    Parameters
-    ----------
-    outline_px
-        In pixels, origin where a pixel's corner will be put.
-    reach
-        Width of the fringe round it, pixels.
-    margin_px
-        How far round the outline pixels count as taken as well.
+    ``outline_px``: in pixels, origin where a pixel's corner will be put.
+    ``reach``: width of the fringe round it, pixels.
+    ``margin_px``: how far round the outline pixels count as taken as well.
 
     Examples
     --------
@@ -123,14 +112,10 @@ MOST_FRINGE = 96
 class Occupancy:
     """Bitmap of the taken pixels; it finds places by bits, 64 pixels at a time.
 
-    Parameters
-    ----------
-    free
-        ``(rows, columns)`` the pixels that may be taken.
-    margin
-        Pixels by which a fringe may reach out of a box.
-    most_fringe
-        Pixels round a stencil that are looked at, at most: every so manieth of a longer fringe.
+    ``free``: ``(rows, columns)`` the pixels that may be taken.
+    ``margin``: pixels by which a fringe may reach out of a box.
+    ``most_fringe``: pixels round a stencil that are looked at, at most: every so manieth of a
+    longer fringe.
 
     Examples
     --------
@@ -183,15 +168,11 @@ class Occupancy:
     ) -> tuple[float, int, int] | None:
         """Score, row and column for the stencil's box where it touches most; None if none.
 
-        Parameters
-        ----------
-        worth
-            ``(rows, columns)`` added to the score, which is 0 to 1, where the origin comes to;
-            minus infinity where it may not.
-        is_everywhere
-            Look at places that touch nothing, too.
-        field, pull
-            ``(rows, columns)`` that is added as well, so many times; None for none.
+        ``worth``: ``(rows, columns)`` added to the score, which is 0 to 1, where the origin comes
+        to; minus infinity where it may not.
+        ``is_everywhere``: look at places that touch nothing, too.
+        ``field``, ``pull``: ``(rows, columns)`` that is added as well, so many times; None for
+        none.
         """
         height = stencil.mask.shape[0]
         _kernels.find_free(self._rows, stencil.boxes, height, self._free)
@@ -237,12 +218,8 @@ class Occupancy:
 class NearestTaken:
     """Distances of all pixels to the nearest of some, which become more and more.
 
-    Parameters
-    ----------
-    distances
-        ``(rows, columns)`` pixels, at first; changed in place.
-    edge
-        From a taken pixel's centre to where it begins.
+    ``distances``: ``(rows, columns)`` pixels, at first; changed in place.
+    ``edge``: from a taken pixel's centre to where it begins.
     """
 
     def __init__(self, distances: FloatArray, edge: float = 0.0) -> None:

@@ -13,14 +13,9 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 class Homes:
     """Points near which items had better lie.
 
-    Parameters
-    ----------
-    points
-        ``(n, 2)``, canvas units.
-    pull
-        ``(n,)`` score that an item gives for lying the canvas' side nearer to its own.
-    is_first
-        ``(n,)`` whether it is put before all that are not, however small it is.
+    ``points``: ``(n, 2)``, canvas units.
+    ``pull``: ``(n,)`` score that an item gives for lying the canvas' side nearer to its own.
+    ``is_first``: ``(n,)`` whether it is put before all that are not, however small it is.
     """
 
     points: FloatArray
@@ -45,12 +40,8 @@ its kind alone there. Larger keeps them apart over voids, smaller only side by s
 class KindPenalty:
     """Penalty of each pixel for each kind: a Gaussian about each of its items.
 
-    Parameters
-    ----------
-    inside
-        ``[row, col]`` the container.
-    kinds
-        ``(n,)`` of the items, from 0.
+    ``inside``: ``[row, col]`` the container.
+    ``kinds``: ``(n,)`` of the items, from 0.
 
     Examples
     --------
