@@ -31,7 +31,7 @@ MOST_PARTNERS = 48
 """Partners of each item among copies. More take longer. Chosen."""
 
 HALVINGS = 40
-"""Bisections for the rate at which weights fall. Chosen: they end below any difference."""
+"""Bisections for the rate at which weights fall. Derived: they end below any difference."""
 
 AT_ONCE = 512
 """Rows of distances held at a time. More take more memory. Chosen."""

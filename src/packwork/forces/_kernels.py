@@ -7,8 +7,7 @@ import math
 from packwork.compiled import kernel
 
 FAR = 3.0
-"""Reaches beyond which two items do not feel each other: a hundredth of the most is left there.
-Chosen."""
+"""Reaches beyond which two items do not feel each other. Derived: a hundredth is left there."""
 
 
 @kernel

@@ -156,13 +156,10 @@ def _paced(numbers: FloatArray, radii: FloatArray) -> FloatArray:
     return np.asarray(times / times[-1])
 
 
-GONE = 1 / 3
-"""Time of a track by which items that leave have shrunk to nothing, and from which on new ones
-grow. Larger lets the others run into them, smaller lets them vanish at a blow. Chosen by eye."""
-
-GROWN = 2 / 3
-"""Time of a track by which new items are as large as they were recorded. Larger hides how they
-find their places, smaller lets them burst in among the others. Chosen by eye."""
+GONE, GROWN = 1 / 3, 2 / 3
+"""Times of a track by which items that leave have shrunk to nothing, new ones begin to grow, and by
+which these are as large as recorded. Farther apart hides how new ones find their places, nearer
+lets items vanish and burst in. Chosen by eye: a third each."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

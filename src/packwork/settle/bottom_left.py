@@ -18,6 +18,7 @@ from packwork.compaction.arrangement import Arrangement
 from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.progress import Stop, never
 from packwork.raster.coverage import TOUCHED, coverage
+from packwork.settle.kernels.circle_packing import ROUNDING
 
 HeightOf = Callable[[FloatArray, int], FloatArray]
 """Heights ``(m,)`` of an item at points ``(m, 2)``."""
@@ -43,8 +44,8 @@ EVERY = 200
 """Discs that are placed between two looks at what can be forgotten, reports and looks for a stop: a
 second's work at most. More makes each place slower, fewer looks more often. Chosen."""
 
-ROUNDING = 1e-9
-"""Share of a distance that rounding may take. Derived, as for the check of the finish."""
+AROUND_GAP = 1 + 1e-3
+"""Factor on the gap, so that what touches passes the check. Larger leaves gaps. Chosen."""
 
 
 class FreeRoom:
@@ -56,8 +57,7 @@ class FreeRoom:
     """
 
     def __init__(self, arrangement: Arrangement, standing: IntArray, gap: float) -> None:
-        # A little more than the gap, so that what touches passes the check.
-        self._gap = gap * (1 + 1e-3)
+        self._gap = gap * AROUND_GAP
         left, top, right, bottom = arrangement.container.bounds
         width, height = right - left, bottom - top
         wanted = PIXELS_ACROSS / (2 * float(np.mean(arrangement.radii)) + gap)

@@ -17,6 +17,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.progress import Stop
+from packwork.settle.bottom_left import AROUND_GAP
 from packwork.settle.kernels import circle_packing as kernels
 from packwork.settle.settle import Settling
 
@@ -30,9 +31,6 @@ MOST_ITEMS = 4_000
 NEARLY_DISC = 0.88
 """Share of the disc about it that an item covers to be taken for one: its first place is then
 as good as any. Chosen."""
-
-AROUND_GAP = 1 + 1e-3
-"""Factor on the gap, so that what touches passes the check. Chosen."""
 
 
 def start_round_pack(
@@ -115,9 +113,6 @@ to 0.002 of the circle where there are many. Tried."""
 TRIANGLE = 1 / math.sqrt(3)
 """How far the middle of three equal discs lies off the line of two, radii. Derived."""
 
-ROUNDING = 1e-9
-"""Share of a distance that rounding may take. Derived, as for the check of the finish."""
-
 
 def packed_circles(radii: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Centres ``(n, 2)`` of discs that do not meet, about the origin, in a small circle.
@@ -145,12 +140,12 @@ def packed_circles(radii: FloatArray, rng: np.random.Generator) -> FloatArray:
         narrower = kernels.squeeze(squeezed, radii)
         if narrower < circle:
             circle, found = narrower, squeezed
-        if circle < best * (1 - ROUNDING):
+        if circle < best * (1 - kernels.ROUNDING):
             best, centres = circle, found
     trials = min(TRIALS, int(WORK / n**2)) if n > 2 else 0
     draws = rng.random((trials, 2 * max(n, kernels.SAMPLES) + 3))
     kernels.hop(centres, radii, draws)
-    return centres * (1 + ROUNDING)
+    return centres * (1 + kernels.ROUNDING)
 
 
 def _origins(rng: np.random.Generator) -> list[tuple[float, float]]:

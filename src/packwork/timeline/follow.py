@@ -24,7 +24,7 @@ from packwork.progress import Stop, never
 from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit.occupancy import Occupancy, covered, cut
+from packwork.start.first_fit.occupancy import NOISE, REACH, Occupancy, covered, cut
 from packwork.start.first_poses import container_image
 from packwork.steps.finish import gap_with_bulge
 from packwork.timeline.step import SeriesStep
@@ -164,15 +164,9 @@ SIDE_PX = 600
 """Longer side of the image. Larger wastes less room at the edges of pixels, and takes longer. As
 the finest image of ``first_fit``."""
 
-REACH = 3
-"""Width of the fringe in which taken pixels are counted. As in ``first_fit``."""
-
 HOMING = 20.0
 """Score that an item gives for coming nearer to its home by the canvas' side, where what it touches
 gives 1 at most. Larger leaves more of the room bare, smaller lets words wander. Tried."""
-
-NOISE = 0.01
-"""Random part of a place's score. As in ``first_fit``."""
 
 SIZES = (1.0, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2)
 """Shares of its size at which an item is tried in turn: it grows to the whole of it later on.

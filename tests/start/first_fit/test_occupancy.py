@@ -157,8 +157,10 @@ def test_boxes_cover_a_mask_and_nothing_else(seed: int) -> None:
     assert (found == mask).all()
 
 
-@pytest.mark.parametrize("is_quick", [False, True])
-@pytest.mark.parametrize("margin", [0.3, 1.0, 2.0, 3.0, 5.5])
+@pytest.mark.parametrize(
+    ("margin", "is_quick"),
+    [(0.3, False), (1.0, False), (2.0, False), (3.0, False), (2.0, True), (3.0, True), (9.0, True)],
+)
 def test_a_margin_takes_what_is_near_the_outline(margin: float, is_quick: bool) -> None:
     """All that a buffer covers, and not much more; holes get smaller."""
     tall = np.array([[0.0, 0], [20, 0], [20, 30], [12, 30], [12, 8], [8, 8], [8, 30], [0, 30]])

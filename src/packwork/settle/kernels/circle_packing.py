@@ -56,10 +56,10 @@ SKIN = 1.0
 it, and no step is longer. Larger lists more, smaller looks more often. Chosen."""
 
 ROUNDING = 1e-9
-"""What counts as nothing beside one. Chosen."""
+"""Share of a distance that rounding may take. Derived, as for the check of the finish."""
 
 NOTHING = 1e-300
-"""What no distance is divided by. Chosen."""
+"""Guard of divisions by a distance of 0. Derived: the least of normal numbers, about."""
 
 
 @kernel

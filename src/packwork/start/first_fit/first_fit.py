@@ -26,7 +26,7 @@ from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
-from packwork.start.first_fit.occupancy import Occupancy, Stencil, cut
+from packwork.start.first_fit.occupancy import NOISE, Occupancy, Stencil, cut
 from packwork.start.first_fit.preferences import Homes, KindPenalty
 from packwork.start.first_poses import container_image
 
@@ -85,8 +85,8 @@ Measured on five shapes."""
 MOST_SIZES = 24
 """Sizes tried at most: should nothing fit at a tenth of the first, nothing will. Chosen."""
 
-MOST_STRIDE = 1.12
-"""Factor between two sizes tried, at most. Chosen."""
+MOST_STRIDE = TURNING.stride
+"""Factor between two sizes tried, at most. Derived: as wide as any begins."""
 
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
@@ -101,9 +101,6 @@ all still find a place. Beginning with 0.4 or 0.6 gives the same. Tried."""
 PULL = 2.0
 """Score that an item gives for coming the canvas' side lower, at a strength of 1. 4 and 8 draw
 nothing nearer. Tried."""
-
-NOISE = 0.01
-"""Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
 
 
 def first_fit(

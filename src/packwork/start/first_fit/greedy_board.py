@@ -15,14 +15,15 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.fields.clearance import distance_inside
-from packwork.fields.distance_transform import distance_to
+from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
+from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import (
-    TOUCHED,
+    NOISE,
+    REACH,
     NearestTaken,
     Occupancy,
     Stencil,
@@ -40,9 +41,6 @@ take longer. Tried."""
 
 LEAST_PX, MOST_PX = 700, 1_000
 """Sides of that image at least and at most. As above."""
-
-REACH = 3
-"""Width of the fringe, pixels, in which taken pixels are counted. As in ``first_fit``."""
 
 CORNER = math.sqrt(0.5)
 """Pixels from the centre of one to its corner."""
@@ -72,9 +70,6 @@ Tried."""
 FAR = 0.03
 """Distance from every item, as a share of the container's longer side, from which on a place is
 bare: items that go where there is room go there first. As ``metrics`` count it."""
-
-NOISE = 0.01
-"""Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,13 @@ from packwork.geometry.simplify import grown
 from packwork.raster.coverage import TOUCHED, Rasteriser
 from packwork.start.first_fit import _kernels
 
+REACH = 3
+"""Width of a fringe, pixels, in which taken pixels are counted. More tell better which place is
+best, up to a point, and take longer. Tried."""
+
+NOISE = 0.01
+"""Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
+
 MOST_OFFSET_PX = 2.0
 """Margin up to which vertices are moved, which takes hardly any time; wider ones are drawn round
 the outline. Larger fills more beyond the corners of bays. Chosen."""
