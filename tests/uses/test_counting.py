@@ -84,19 +84,18 @@ def test_the_canvas_changes_nothing(factor: float) -> None:
 
 
 def test_a_number_that_is_given_stays() -> None:
-    assert KnownContainer(round_container()).counted(recipe(count=7), ()) is None
     assert len(uses.read(recipe(count=7), container=round_container()).items) == 7
 
 
 def test_all_different_items_are_there() -> None:
     items = uses.read(recipe(), container=round_container()).items
-    found = KnownContainer(round_container()).counted(recipe(count="auto"), items)
+    found = KnownContainer(round_container()).needed(recipe(count="auto"), items)
     assert found == max(len(items), items_needed(round_container()).count)
 
 
 def test_without_a_container_there_is_nothing_to_count_by() -> None:
     with pytest.raises(RecipeError, match="count: auto needs a container"):
-        KnownContainer(None).counted(make_recipe(container="none", count="auto"), ())
+        KnownContainer(None).needed(make_recipe(container="none", count="auto"), ())
 
 
 def test_a_heap_leaves_room_above_it() -> None:

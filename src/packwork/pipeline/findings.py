@@ -7,9 +7,8 @@ tell it in the same words.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from enum import Enum, auto
-from typing import Any
 
 
 class Told(Enum):
@@ -213,8 +212,3 @@ class WordsFound:
     found: int
     asked: int
     of_true: Mapping[str, float] = field(default_factory=dict)
-
-
-def plain(one: Filling | WordsFound | None) -> dict[str, Any] | None:
-    """Plain values of a part of a result, for JSON; None if there is no such part."""
-    return None if one is None else asdict(one)

@@ -211,12 +211,6 @@ class Job:
         return tints
 
     @property
-    def keeps_order(self) -> bool:
-        """Whether items are put in an order that later stages have to keep."""
-        is_asked = self.recipe.arrange is not None or self.vectors is not None
-        return is_asked and not self.plan.stays
-
-    @property
     def seated(self) -> IntArray:
         """Items that change places until their colours show the picture; none without one."""
         if self.target is None:

@@ -102,7 +102,8 @@ class Material:
     fillers
         Of which voids are filled, unless the recipe names others.
     given
-        Names and sources of all that was read, in the order it was given; None if it had none.
+        Names and sources of all that was read, in the order it was given; None if it had none,
+        or nothing asks for it.
     target
         The recipe's picture on this container, if it has been read.
     """
@@ -138,22 +139,17 @@ def read_room(recipe: Recipe, given: Container | None) -> Container:
         If it cannot be read, or has more points than files of the run could be measured with.
     """
     if given is not None:
-        return _bounded(on_canvas(given, recipe.canvas_size))
-    quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
-    return _bounded(
-        read_container(
+        found = on_canvas(given, recipe.canvas_size)
+    else:
+        quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+        found = read_container(
             recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
         )
-    )
-
-
-def _bounded(container: Container) -> Container:
-    """The container, if it has no more points than exact stages are made for."""
-    count = len(container.outline.points)
+    count = len(found.outline.points)
     if count > MAX_POINTS:
         why = f"has {count:,} points, more than {MAX_POINTS:,}; simplify it"
-        raise ReadError(container.source or container.name, why)
-    return container
+        raise ReadError(found.source or found.name, why)
+    return found
 
 
 def sample_of(recipe: Recipe) -> Sample | None:
@@ -162,13 +158,6 @@ def sample_of(recipe: Recipe) -> Sample | None:
         return None
     wanted = tuple(pattern for _, rule in rules_by_source(recipe) for pattern in rule.items)
     return Sample(recipe.count, recipe.seed if recipe.items_from == "seed" else None, wanted)
-
-
-def _speaks_of_all(recipe: Recipe) -> bool:
-    """Whether it has to be known of all items, not of those that are taken alone."""
-    keeps_colours = recipe.photos is not None or recipe.tint is not None
-    is_chosen = recipe.picture is not None and keeps_colours
-    return is_chosen or recipe.embeddings is not None or recipe.weights is not None
 
 
 def drawn_first(recipe: Recipe, items: tuple[Item, ...]) -> tuple[Item, ...]:
@@ -186,7 +175,11 @@ def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:
     """Photos and items of a recipe; items that were given are in place of its names."""
     items: tuple[Item, ...] = ()
     skipped: tuple[PackworkError, ...] = ()
-    sample = None if _speaks_of_all(recipe) else sample_of(recipe)
+    # Of all items it has to be known, not of those alone that are taken.
+    keeps_colours = recipe.photos is not None or recipe.tint is not None
+    is_chosen = recipe.picture is not None and keeps_colours
+    has_data = recipe.embeddings is not None or recipe.weights is not None
+    sample = None if is_chosen or has_data else sample_of(recipe)
     if recipe.photos is not None:
         threshold = recipe.alpha_threshold
         photos = read_photos(

@@ -14,13 +14,12 @@ from packwork.installed import installed_version
 from packwork.losses.registry import by_name
 from packwork.metrics.measure import LayoutMetrics
 from packwork.phrasing import one_of
-from packwork.pipeline.findings import Filling, Sentence, Told, Unplaced, WordsFound, plain, told_as
+from packwork.pipeline.findings import Filling, Sentence, Told, Unplaced, WordsFound, told_as
 from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.pipeline.state import RunState
 from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.level import Level
-from packwork.solve.options import SolveOptions
 from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import Ending
@@ -163,8 +162,8 @@ class Run:
             "certified": self.certified,
             "promised": self.layout.manifest["promised"] is not None,
             "broken": list(self.broken),
-            "filling": plain(self.filling),
-            "words": plain(self.words),
+            "filling": self.filling and asdict(self.filling),
+            "words": self.words and asdict(self.words),
             "pile": dict(self.pile) or None,
             "photos": [asdict(photo) for photo in photo_pixels(self.layout)],
             "remarks": list(self.remarks),
@@ -191,17 +190,15 @@ def find_unplaced(layout: Layout, limits: Limits = NO_LIMITS) -> tuple[Unplaced,
     )
 
 
-def _solved(options: SolveOptions) -> dict[str, Any]:
-    """All numbers that the levels were run by, losses by their names."""
-    return {
-        **options.model_dump(mode="json", exclude={"losses"}),
-        "losses": by_name(options.losses),
-    }
-
-
 def manifest(state: RunState) -> dict[str, Any]:
     """Manifest of a measured state: what repeats the run, and what it measured."""
     job, (layout, metrics) = state.job, state.measured
+    solved = None
+    if state.levels:
+        options = job.plan.solve_options()
+        # Losses by their names.
+        solved = options.model_dump(mode="json", exclude={"losses"})
+        solved["losses"] = by_name(options.losses)
     said: dict[str, Any] = {
         "packwork": installed_version(),
         "recipe": job.recipe.plain(),
@@ -209,7 +206,7 @@ def manifest(state: RunState) -> dict[str, Any]:
         "start": state.method,
         "ending": state.ending.value,
         "levels": [asdict(level) for level in state.levels],
-        "solve": _solved(job.plan.solve_options()) if state.levels else None,
+        "solve": solved,
         "metrics": metrics.as_dict(),
         "seconds": dict(job.clock.seconds),
         "unplaced": [asdict(u) for u in state.unplaced],
@@ -217,8 +214,8 @@ def manifest(state: RunState) -> dict[str, Any]:
         "skipped": [str(error) for error in job.skipped],
         "certified": state.certified,
         "promised": asdict(state.promise) if job.plan.is_exact else None,
-        "filling": plain(state.filling),
-        "words": plain(state.words),
+        "filling": state.filling and asdict(state.filling),
+        "words": state.words and asdict(state.words),
     }
     if state.pile:
         said["pile"] = dict(state.pile)

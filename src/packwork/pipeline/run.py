@@ -39,7 +39,7 @@ def share_of(steps: Sequence[RunStep]) -> float:
 
 def run_steps(steps: Sequence[RunStep], state: RunState, context: RunContext) -> RunState:
     """State after all steps, one after another; each tells of its part of the progress."""
-    whole, done = share_of(steps) or 1.0, 0.0
+    whole, done = sum(step.share for step in steps) or 1.0, 0.0
     for step in steps:
         part = context.part(done / whole, (done + step.share) / whole) if step.share else context
         state = step.run(state, part)

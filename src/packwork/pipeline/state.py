@@ -125,11 +125,6 @@ class RunState:
         return self.job.plan.is_exact and not self.conflicts
 
     @property
-    def is_refined(self) -> bool:
-        """Whether an earlier layout is gone on from that has to be refined only."""
-        return self.is_tight and self.is_warm_start
-
-    @property
     def largest(self) -> FloatArray:
         """``(n,)`` scales that no item may exceed."""
         limits, nominal, poses = self.limits, self.nominal, self.poses

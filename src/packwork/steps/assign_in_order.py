@@ -132,7 +132,7 @@ def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Hom
 
     Points spread evenly over the container, in the order asked for.
     """
-    if job.recipe.arrange is None or not job.keeps_order:
+    if job.recipe.arrange is None or not job.plan.keeps_order:
         return None
     asked, everything = parse_arrangement(job.recipe.arrange), np.arange(len(job.items))
     points = even_points(region, len(everything), rng)

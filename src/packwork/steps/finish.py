@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -79,6 +79,7 @@ PRESSING = frozenset(
 
 
 @final
+@dataclass(frozen=True, kw_only=True)
 class Finish(RunStep):
     """Exact finish: separation, compaction and trials on the true outlines.
 
@@ -89,9 +90,7 @@ class Finish(RunStep):
     """
 
     share = 1.0 - LEVELS
-
-    def __init__(self, *, may_fail: bool = False) -> None:
-        self._may_fail = may_fail
+    may_fail: bool = False
 
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with exact poses near those of the levels.
@@ -104,7 +103,7 @@ class Finish(RunStep):
         job = state.job
         with job.clock.time("finish"):
             found = finished(state, context)
-            if not (self._may_fail or job.plan.stays or context.stop()):
+            if job.plan.gap and not (self.may_fail or job.plan.stays or context.stop()):
                 check_found(job.container, job.plan.gap, found.conflicts, len(found.poses))
             return found
 
@@ -141,13 +140,15 @@ def finished(state: RunState, context: RunContext, *, grows: bool = False) -> Ru
         if len(items) == 0:
             continue
         region = limits.zones[group - 1].outline if group else whole
-        room = without(region, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
+        if len(done):
+            walls = [outlines[k].mapped(poses.matrix(int(k))) for k in done]
+            region = without(region, walls)
         result = finish(
-            replace(job.container, outline=room),
+            replace(job.container, outline=region),
             [outlines[k] for k in items],
             poses.subset(items),
             _options(state, items, smallest[items], largest[items]),
-            Closing(context.observer, poses, items),
+            Closing(context.observer, poses, items, context.observer.every),
             until,
             is_enough,
             forces.subset(items) if forces.acts else NO_FORCES,
@@ -217,7 +218,7 @@ def _options(
     job, limits = state.job, state.limits
     plan, rotation = job.plan, job.plan.rotation
     turning, limit = not rotation.is_still, rotation.limit
-    leans = job_leanings(job)
+    leans = job_leanings(job) if plan.leans else np.zeros(len(job.items))
     if limits.binds:
         # One bound for all of a group: the narrowest that a rule gives.
         turning = turning and bool(np.isnan(limits.angle[items]).all())
@@ -226,10 +227,11 @@ def _options(
     # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
     is_settled = state.is_tight and plan.effort != "best"
     # What goes on from an earlier layout keeps its order, unless much effort is asked for.
+    is_refined = state.is_tight and state.is_warm_start
     keeps_order = plan.stays or (state.is_warm_start and plan.effort != "best")
     return FinishOptions(
         gap_cu=gap_with_bulge(job, items, largest),
-        sizes=plan.size_mode,
+        sizes="free" if plan.sizes == "graded" else plan.sizes,
         smallest=tuple(smallest.tolist()),
         largest=tuple(largest.tolist()),
         turning=turning,
@@ -237,10 +239,10 @@ def _options(
         leans=tuple(leans[items].tolist()) if turning and leans.any() else None,
         trials=0 if keeps_order or is_settled else trials_for(job, len(items)),
         relieving=not is_settled,
-        refining=needs_no_levels(job) or state.is_refined or state.is_only_refined,
-        staying=plan.stays or state.is_refined,
-        exchanging=len(job.seated) == 0 and not job.keeps_order,
-        keeps_order=job.keeps_order,
+        refining=(plan.stays and needs_no_levels(job)) or is_refined or state.is_only_refined,
+        staying=plan.stays or is_refined,
+        exchanging=(job.target is None or len(job.seated) == 0) and not job.plan.keeps_order,
+        keeps_order=job.plan.keeps_order,
         seed=plan.seed,
     )
 
@@ -295,6 +297,7 @@ def unfinished(state: RunState) -> tuple[Unplaced, ...]:
     return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
 
 
+@dataclass
 class Closing:
     """Passes steps of some items on as those of a last level of all.
 
@@ -304,15 +307,15 @@ class Closing:
         What all items are called by, as in ``Step``.
     """
 
-    def __init__(
-        self, observer: Observer, poses: Poses, items: IntArray, ids: IntArray | None = None
-    ) -> None:
-        self._observer, self._poses, self._items, self._ids = observer, poses, items, ids
-        self.every = observer.every
+    observer: Observer
+    poses: Poses
+    items: IntArray
+    every: int
+    ids: IntArray | None = None
 
     def on_step(self, step: Step) -> None:
         """Tell the run's observer."""
-        poses = self._poses.with_some(self._items, step.poses)
-        self._observer.on_step(
-            replace(step, poses=poses, is_finish=True, ids=self._ids, stage="finish")
+        poses = self.poses.with_some(self.items, step.poses)
+        self.observer.on_step(
+            replace(step, poses=poses, is_finish=True, ids=self.ids, stage="finish")
         )

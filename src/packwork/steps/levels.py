@@ -10,7 +10,7 @@ from packwork.pipeline.plan.limits import job_leanings, padded
 from packwork.pipeline.plan.own_losses import in_colours, sees_colours
 from packwork.pipeline.run import LEVELS, RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.recipe.presets import refined_levels
+from packwork.recipe.presets import DEFAULT, refined_levels
 from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
@@ -44,8 +44,10 @@ class Levels(RunStep):
                 forces = with_homes(state)
             elif job.vectors is not None:
                 forces = with_similarity_bond(job, forces)
+            gap = job.plan.gap
             outcome = solve(
-                padded(job.container, job.plan.gap), job.solid_outlines, state.poses,
+                padded(job.container, gap) if gap else job.container,
+                job.solid_outlines, state.poses,
                 state.nominal, options, context.heard_by(state.recorder).observer, context.stop,
                 state.limits, forces,
             )  # fmt: skip
@@ -66,12 +68,11 @@ def _solve_options(job: Job) -> SolveOptions:
     """Options of the solve, with levels fine enough for the items unless they were given."""
     plan, container = job.plan, job.container
     options = plan.solve_options(job.seconds_left(LEVELS_SHARE))
-    if job.keeps_order:
+    if job.plan.keeps_order:
         options = options.model_copy(update={"relocating": False, "exchanging": False})
-    leans = job_leanings(job)
-    if leans.any():
+    if plan.leans and (leans := job_leanings(job)).any():
         options = options.model_copy(update={"leans": tuple(leans.tolist())})
-    if plan.levels or not plan.is_default:
+    if plan.levels or plan.preset is not DEFAULT:
         return options
     levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))
     return options.model_copy(update={"levels": levels})

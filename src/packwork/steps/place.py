@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
 
@@ -50,14 +50,41 @@ class Setting:
     def __init__(self, state: RunState, stop: Stop) -> None:
         job = state.job
         self.state, self.job, self.stop, self.forces = state, job, stop, state.forces
-        self.region = padded(job.container, job.plan.gap)
+        gap = job.plan.gap
+        self.region = padded(job.container, gap) if gap else job.container
         self.outlines = job.solid_outlines
         self.rng = np.random.default_rng(job.plan.seed)
         self.share_out(job.weights)
 
     def share_out(self, weights: FloatArray) -> None:
-        """Set nominal and first scales by ``(n,)`` weights."""
-        self.nominal, self.scales = self._scales(weights)
+        """Set nominal and first scales by ``(n,)`` weights, in the room that pinned items leave."""
+        job, plan, outlines = self.job, self.job.plan, self.outlines
+        pinned = pinned_scales(job)
+        self.nominal, self.scales = nominal, scales = pinned.copy(), pinned.copy()
+        free = np.flatnonzero(np.isnan(pinned))
+        true = np.array([item.outline.area for item in job.items])
+        room = self.region.outline.area - float(np.nansum(true * pinned**2))
+        if room <= 0:
+            k = int(np.nanargmax(true * pinned**2))
+            raise (
+                job.asked[k]
+                .sources["pin.size"]
+                .error(f"pins {job.items[k].name} so large that no room is left in the container")
+            )
+        if len(free) == 0:
+            return
+        total = plan.start_options().coverage * room
+        seen = [outlines[k] for k in free]
+        areas = np.array([outline.area for outline in seen])
+        if plan.sizes == "fixed":
+            given = given_scales(job.items, weights, job.container.unit, job.container.side)
+            nominal[free] = scales[free] = given[free]
+        elif plan.sizes == "shared":
+            nominal[free] = scales[free] = shared_scales(true[free], areas, weights[free], total)
+        else:
+            hulls = hull_areas(seen)
+            nominal[free] = nominal_scales(hulls, weights[free], NOMINAL_COVERAGE * room)
+            scales[free] = yielding_scales(areas, hulls, nominal[free], plan.size_ratio, total)
 
     @cached_property
     def angles(self) -> FloatArray:
@@ -80,39 +107,6 @@ class Setting:
             nominal=self.nominal,
         )  # fmt: skip
 
-    def _scales(self, weights: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Nominal and first scales; items that are free share what pinned ones leave."""
-        job, plan, outlines = self.job, self.job.plan, self.outlines
-        pinned = pinned_scales(job)
-        scales, nominal = pinned.copy(), pinned.copy()
-        free = [k for k, scale in enumerate(pinned) if np.isnan(scale)]
-        true = np.array([item.outline.area for item in job.items])
-        room = self.region.outline.area - float(np.nansum(true * pinned**2))
-        if room <= 0:
-            largest = int(np.nanargmax(true * pinned**2))
-            raise (
-                job.asked[largest]
-                .sources["pin.size"]
-                .error(
-                    f"pins {job.items[largest].name} so large that no room is left in the container"
-                )
-            )
-        if len(free) == 0:
-            return nominal, scales
-        total = plan.start_options().coverage * room
-        seen = [outlines[k] for k in free]
-        areas = np.array([outline.area for outline in seen])
-        if plan.sizes == "fixed":
-            given = given_scales(job.items, weights, job.container.unit, job.container.side)
-            nominal[free] = scales[free] = given[free]
-        elif plan.sizes == "shared":
-            nominal[free] = scales[free] = shared_scales(true[free], areas, weights[free], total)
-        else:
-            hulls = hull_areas(seen)
-            nominal[free] = nominal_scales(hulls, weights[free], NOMINAL_COVERAGE * room)
-            scales[free] = yielding_scales(areas, hulls, nominal[free], plan.size_ratio, total)
-        return nominal, scales
-
 
 class Start(ABC):
     """One way of finding first poses."""
@@ -123,17 +117,11 @@ class Start(ABC):
 
 
 @final
+@dataclass(frozen=True)
 class Place(RunStep):
-    """First poses by the first of several starts that finds any.
+    """First poses by the first of several starts that finds any; the last one always does."""
 
-    Parameters
-    ----------
-    starts
-        Tried in turn; the last one finds poses anywhere.
-    """
-
-    def __init__(self, starts: Sequence[Start]) -> None:
-        self._starts = starts
+    starts: Sequence[Start]
 
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with first poses of the outlines that the solver will see.
@@ -145,10 +133,12 @@ class Place(RunStep):
         """
         job = state.job
         with job.clock.time("start"):
-            check_padding(job.container, job.plan.gap, len(job.items))
+            if job.plan.gap:
+                check_padding(job.container, job.plan.gap, len(job.items))
             setting = Setting(state, context.stop)
-            found = next(one for start in self._starts if (one := start.find(setting)))
-            check_poses(job, setting.region, found.poses, found.limits)
+            found = next(one for start in self.starts if (one := start.find(setting)))
+            if job.is_limited:
+                check_poses(job, setting.region, found.poses, found.limits)
             return found
 
 
@@ -165,13 +155,13 @@ def allowed_angles(job: Job, choose: Callable[[IntArray, Rotation], FloatArray])
     """``(n,)`` angles of all items, those of some of them by ``choose`` within a rotation."""
     rotation = job.plan.rotation
     angles = choose(np.arange(len(job.items)), rotation).copy()
-    leans = job_leanings(job)
+    leans = job_leanings(job) if job.plan.leans else np.zeros(len(angles))
     if leans.any():
         # As far beyond its least tilt as any other turn from upright, but to its own side.
         rest = np.abs(angles) * (1 - np.abs(leans) / rotation.farthest)
         angles = np.where(leans == 0, angles, leans + np.sign(leans) * rest)
     for k, one in enumerate(job.asked):
-        if one.rotation:
+        if "rotate" in one.values and one.rotation:
             angles[k] = choose(np.array([k]), one.rotation)[0]
         if "angle" in one.pin:
             angles[k] = np.radians(one.pin["angle"])

@@ -27,6 +27,7 @@ from packwork.pipeline.plan.copies import kinds_of
 from packwork.pipeline.plan.limits import held_to, job_leanings
 from packwork.pipeline.state import RunState
 from packwork.progress import until_over
+from packwork.recipe.presets import DEFAULT
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.limits import Limits, turn_sides
 from packwork.scene.pose import Poses
@@ -99,13 +100,13 @@ def needs_levels(job: Job) -> bool:
     plan = job.plan
     return (
         bool(plan.levels or plan.epochs or plan.losses)
-        or not plan.is_default
+        or plan.preset is not DEFAULT
         or not plan.is_exact
         or plan.stretch > 1.0
         or plan.keeps_apart
         or bool(job.forces.bonds)
         # Icons in an order are placed as well by the levels, and cover more.
-        or (job.keeps_order and job.vectors is None and not job.use.words)
+        or (job.plan.keeps_order and job.vectors is None and not job.use.words)
     )
 
 
@@ -139,7 +140,7 @@ def new_starts(job: Job, *, suits_first_fit: bool) -> list[Start]:
             "start",
             f"first-fit seeks one size for all; use it with sizes shared, not {plan.sizes}",
         )
-    suits = suits_first_fit and plan.sizes == "shared" and not needs_levels(job)
+    suits = plan.sizes == "shared" and not needs_levels(job) and suits_first_fit
     if plan.method == "first-fit" or (not plan.method and suits):
         found.append(ByFirstFit())
     return [*found, ByMethod()]

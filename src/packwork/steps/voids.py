@@ -225,7 +225,7 @@ class _Filling:
         # The number of rounds is not known beforehand: each takes half of the bar that is left.
         begun, self._rounds = 1.0 - 0.5**self._rounds, self._rounds + 1
         context = RunContext(self._observer).part(begun, 1.0 - 0.5**self._rounds)
-        return Closing(context.observer, self.poses, movers, self._ids)
+        return Closing(context.observer, self.poses, movers, context.observer.every, self._ids)
 
     def _all_outlines(self) -> list[Outline]:
         return [*self._originals, *(self._shapes[k] for k in self.added)]

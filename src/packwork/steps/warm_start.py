@@ -20,6 +20,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import held_to
 from packwork.pipeline.registration import match_items, new_items
 from packwork.pipeline.state import RunState
+from packwork.recipe.presets import DEFAULT
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import brought_over
 from packwork.scene.layout import Layout
@@ -127,7 +128,9 @@ def _suffices(job: Job, violation: FloatArray) -> bool:
     finish knows nothing.
     """
     plan = job.plan
-    is_asked = bool(plan.losses) or plan.keeps_apart or not plan.is_default or not plan.is_exact
+    is_asked = (
+        bool(plan.losses) or plan.keeps_apart or plan.preset is not DEFAULT or not plan.is_exact
+    )
     is_rough = float(np.mean(violation > ROUGH_SHARE)) > ROUGH_ITEMS
     return not (is_asked or is_rough) and not job.forces.acts
 

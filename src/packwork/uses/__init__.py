@@ -22,7 +22,7 @@ from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.steps.assign_in_order import with_order
-from packwork.uses.icons import NO_CONTAINER, KnownContainer, read_icons
+from packwork.uses.icons import NO_CONTAINER, IconsUse, KnownContainer, material_of
 
 if TYPE_CHECKING:
     from packwork.uses.charts.recipe import chart_recipe
@@ -88,7 +88,8 @@ def read(
     """Read what a recipe names; the first half of :func:`fill`."""
     clock = Clock()
     with clock.time("read"), threads.using(recipe.threads):
-        return with_order(job_of(recipe, _material(recipe, items, container), clock))
+        job = job_of(recipe, _material(recipe, items, container), clock)
+        return job if recipe.arrange is None else with_order(job)
 
 
 def _material(
@@ -121,4 +122,4 @@ def _content(recipe: Recipe, room: KnownContainer, items: Sequence[Item] | None)
         from packwork.uses.photos.use import read_collage
 
         return read_collage(recipe, room, items)
-    return read_icons(recipe, room, items)
+    return material_of(IconsUse(), recipe, room, items)

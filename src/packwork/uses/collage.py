@@ -62,7 +62,7 @@ def solving(job: Job, *, suits_first_fit: bool, place: RunStep | None = None) ->
         exchanges.append(ExchangeByForces())
     if job.vectors is not None:
         exchanges.append(AssignByEmbedding())
-    elif job.keeps_order:
+    elif job.plan.keeps_order:
         exchanges.append(AssignInOrder())
     if exchanges and job.earlier is None:
         steps.append(UnlessTight(*exchanges))

@@ -58,10 +58,6 @@ class KnownContainer:
         needed = items_needed(self.known, recipe.sizes, recipe.size_ratio).count
         return max(needed, len(items))
 
-    def counted(self, recipe: Recipe, items: Sequence[Item]) -> int | None:
-        """Copies in all where the recipe has the run find that; None where it says."""
-        return self.needed(recipe, items) if recipe.count == AUTO else None
-
 
 def suited_first(
     recipe: Recipe, container: Container, items: tuple[Item, ...]
@@ -120,17 +116,14 @@ class IconsUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """Places, levels, finish; voids if asked; measures and looks."""
-        placed = placing(job, suits_first_fit=fits_first(job))
+        # Of sizes that are not shared first fit is not tried.
+        suits = job.plan.sizes == "shared" and fits_first(job)
+        placed = placing(job, suits_first_fit=suits)
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
         return reporting(job, is_dressed=False)
-
-
-def read_icons(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None) -> Material:
-    """Items of a recipe, as often as it says."""
-    return material_of(IconsUse(), recipe, room, given)
 
 
 def material_of(
@@ -143,15 +136,18 @@ def material_of(
         items, target = suited_first(recipe, room.known, items)
     if given is None and items is named.items:
         items = drawn_first(recipe, items)
-    chosen = expand_copies(recipe, items, room.counted(recipe, items))
-    container = room.of(chosen)
+    total = room.needed(recipe, items) if recipe.count == AUTO else None
+    chosen = expand_copies(recipe, items, total)
+    container, order = room.of(chosen), None
+    if recipe.embeddings is not None and all(item.text is None for item in given or ()):
+        order = named.keys
     return Material(
         use=use,
         container=container,
         cast=chosen,
         fillers=named.items,
         # Words of a layout come by weight: what a user means by their order is not known.
-        given=None if any(item.text is not None for item in given or ()) else named.keys,
+        given=order,
         skipped=named.skipped,
         target=target if container is room.container else None,
     )

@@ -196,7 +196,15 @@ def expand_copies(
         total = recipe.count
     said = rules_by_source(recipe)
     members_of = [_members(rule, source, items) for source, rule in said]
-    which = turns(_counts(said, members_of, len(items)), total)
+    counts: list[int | None] = [None] * len(items)
+    for (source, rule), members in zip(said, members_of, strict=True):
+        for k in members:
+            if rule.count is not None:
+                counts[k] = rule.count
+            elif source.key == "hero" and counts[k] is None and len(items) > 1:
+                # A hero stands alone if others can.
+                counts[k] = 1
+    which = turns(counts, total)
     asked = [ItemRules() for _ in which]
     taken: dict[int, RuleSource] = {}
     for (source, rule), members in zip(said, members_of, strict=True):
@@ -207,8 +215,15 @@ def expand_copies(
                 taken[copies[0]] = source
             for k in copies:
                 asked[k] = asked[k].merged(rule, source)
-    chosen = tuple(items[k] for k in which)
-    return Cast(chosen, tuple(asked), _weights_of_copies(shares[which], asked))
+    pairs = zip(asked, shares[which].tolist(), strict=True)
+    weights = np.array([one.values.get("weight", weight) for one, weight in pairs])
+    if weights.max() / weights.min() > WIDEST_WEIGHTS:
+        raise RecipeError(
+            "weights",
+            f"the largest may be {WIDEST_WEIGHTS:g} times the smallest, "
+            f"not {weights.max():g} to {weights.min():g}",
+        )
+    return Cast(tuple(items[k] for k in which), tuple(asked), weights)
 
 
 def turns(counts: Sequence[int | None], total: int | None) -> IntArray:
@@ -283,19 +298,6 @@ def kinds(items: Sequence[Item]) -> IntArray:
     return np.asarray(numbers, dtype=np.int64)
 
 
-def _weights_of_copies(shares: FloatArray, asked: Sequence[ItemRules]) -> FloatArray:
-    """Shares of the copies, weights of the rules in their place, not too far apart."""
-    pairs = zip(asked, shares.tolist(), strict=True)
-    found = np.array([one.values.get("weight", weight) for one, weight in pairs])
-    if found.max() / found.min() > WIDEST_WEIGHTS:
-        raise RecipeError(
-            "weights",
-            f"the largest may be {WIDEST_WEIGHTS:g} times the smallest, "
-            f"not {found.max():g} to {found.min():g}",
-        )
-    return found
-
-
 def _members(rule: Rule, source: RuleSource, items: Sequence[Item]) -> list[int]:
     members = matching(rule.items, source, [item.name for item in items])
     if source.key != "hero":
@@ -304,20 +306,6 @@ def _members(rule: Rule, source: RuleSource, items: Sequence[Item]) -> list[int]
         several = ", ".join(items[k].name for k in members[:4])
         raise source.error(f"names {len(members)} items ({several} ...); name one")
     return members[:1]
-
-
-def _counts(
-    said: Sequence[tuple[RuleSource, Rule]], members_of: Sequence[Sequence[int]], items: int
-) -> list[int | None]:
-    """Copies of each item where rules count them; a hero stands alone if others can."""
-    counts: list[int | None] = [None] * items
-    for (source, rule), members in zip(said, members_of, strict=True):
-        for k in members:
-            if rule.count is not None:
-                counts[k] = rule.count
-            elif source.key == "hero" and counts[k] is None and items > 1:
-                counts[k] = 1
-    return counts
 
 
 def _free_copy(

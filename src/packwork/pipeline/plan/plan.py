@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from packwork.errors import RecipeError
-from packwork.options import SizeMode
 from packwork.pipeline.plan.counts import widest_cu
 from packwork.readers.regions import Holes
 from packwork.recipe import APART, EPOCHS, Effort, Recipe
 from packwork.recipe.pictures import Shades
-from packwork.recipe.presets import DEFAULT, PRESETS, Preset, parse_levels
+from packwork.recipe.presets import PRESETS, Preset, parse_levels
 from packwork.recipe.refusals import validated
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
@@ -92,8 +91,9 @@ class Plan:
         How sizes are found, how far free ones go, how much items may be stretched.
     rotation
         How far items may turn unless a rule says otherwise.
-    apart_weight
-        Weight of the loss that keeps copies of one item apart; 0 where that is not asked.
+    keeps_apart, keeps_order
+        Whether copies of one item are not to lie side by side, and whether items are put in an
+        order that later stages have to keep.
     method
         How first places are found; None for what suits.
     is_from_layout, stays
@@ -136,7 +136,8 @@ class Plan:
     stretch: float
     rotation: Rotation
     has_own_turns: bool
-    apart_weight: float
+    keeps_apart: bool
+    keeps_order: bool
     method: str | None
     is_from_layout: bool
     stays: bool
@@ -175,11 +176,12 @@ class Plan:
         plan = cls(
             gap=recipe.padding_cu(container),
             sizes=sizes,
-            size_ratio=_size_ratio(recipe),
+            size_ratio=_size_ratio(recipe) if recipe.picture else recipe.size_ratio,
             stretch=recipe.stretch,
             rotation=recipe.rotation,
             has_own_turns=any(rule.rotate for rule in recipe.rules),
-            apart_weight=APART if recipe.apart else 0.0,
+            keeps_apart=recipe.keeps_apart,
+            keeps_order=bool(recipe.arrange or recipe.embeddings) and not recipe.stay,
             method=None if recipe.layout_file else recipe.start,
             is_from_layout=recipe.layout_file is not None,
             stays=recipe.stay,
@@ -196,11 +198,11 @@ class Plan:
             forces=tuple(recipe.force or ()),
             share=recipe.share,
             least_dpi=recipe.least_dpi,
-            voids=void_plan(recipe, container),
+            voids=void_plan(recipe, container) if recipe.fills_gaps else NO_VOIDS,
             palette=() if recipe.palette is None else tuple(palette_colours(recipe.palette)),
             shades=recipe.shades,
             tint=recipe.tint,
-            detail=_detail(recipe, sizes),
+            detail=_detail(recipe, sizes) if recipe.picture else 0.0,
             has_even_lines=recipe.stroke_width == "even",
             holes=recipe.holes,
             seed=recipe.seed,
@@ -222,26 +224,6 @@ class Plan:
         asked = {"method": method, "coverage": self.preset.coverage}
         return validated(StartOptions, asked, {"method": "start"})
 
-    @property
-    def keeps_apart(self) -> bool:
-        """Whether copies of one item are not to lie side by side."""
-        return bool(self.apart_weight or self.losses.get("apart"))
-
-    @property
-    def is_default(self) -> bool:
-        """Whether no other preset was asked for."""
-        return self.preset is DEFAULT
-
-    @property
-    def size_mode(self) -> SizeMode:
-        """Mode of sizes for stages: graded ones are free within bounds of each item's own."""
-        return "free" if self.sizes == "graded" else self.sizes
-
-    @property
-    def may_press(self) -> bool:
-        """Whether items may be pressed together for even gaps: else it would cost overlap."""
-        return self.sizes == "free" and self.gap == 0
-
     def solve_options(self, seconds: float | None = None) -> SolveOptions:
         """Options of the levels.
 
@@ -258,22 +240,21 @@ class Plan:
         preset = self.preset.solve
         if self.levels is not None:
             changes["levels"], changes["shares"] = parse_levels(self.levels)
-        losses = {**preset.losses, "apart": self.apart_weight, **self.losses}
-        if "evenness" not in self.losses and not self.may_press:
+        losses = {**preset.losses, "apart": APART * self.keeps_apart, **self.losses}
+        if "evenness" not in self.losses and not (self.sizes == "free" and self.gap == 0):
+            # Items that are pressed together for even gaps would cost overlap.
             losses.pop("evenness", None)
         changes |= {
             "epochs": self.epochs or EPOCHS[self.effort],
             "seconds": seconds,
-            "sizes": self.size_mode,
+            # Graded ones are free within bounds of each item's own.
+            "sizes": "free" if self.sizes == "graded" else self.sizes,
             "size_ratio": self.size_ratio,
             "stretch": self.stretch,
             "losses": {loss: weight for loss, weight in losses.items() if weight},
             "margin": self.gap / 2,
         }
         return SolveOptions(**{**dict(preset), **changes})
-
-
-"""Stages that are the first to read a field; the start for all others."""
 
 
 def found_sizes(recipe: Recipe, container: Container) -> FoundSizes:
@@ -294,9 +275,7 @@ def found_sizes(recipe: Recipe, container: Container) -> FoundSizes:
 
 
 def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
-    """Plan for voids of a container on a recipe's canvas, if it fills them."""
-    if not recipe.fills_gaps:
-        return NO_VOIDS
+    """Plan for voids of a container on a recipe's canvas."""
     return VoidPlan(
         recipe.target_coverage, recipe.max_items, recipe.smallest_cu(container), bool(recipe.filler)
     )
@@ -304,7 +283,7 @@ def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
 
 def _size_ratio(recipe: Recipe) -> float:
     """Ratio of free sizes: less where a picture is to be shown, unless it was asked."""
-    is_asked = "size_ratio" in recipe.model_fields_set or recipe.picture is None
+    is_asked = "size_ratio" in recipe.model_fields_set
     return recipe.size_ratio if is_asked else min(recipe.size_ratio, SHOWING_RATIO)
 
 
@@ -313,8 +292,6 @@ def _detail(recipe: Recipe, sizes: str) -> float:
 
     Unless it is asked, those of photos do not: fewer of them find a place where their colours fit.
     """
-    if recipe.picture is None:
-        return 0.0
     clash = None
     if sizes != "free":
         clash = f"makes sizes follow the picture, and they are {sizes}; use --sizes free"

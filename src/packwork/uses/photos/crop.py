@@ -18,7 +18,7 @@ from packwork.pipeline.findings import Filling, Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.plan.limits import check_padding
-from packwork.pipeline.plan.plan import void_plan
+from packwork.pipeline.plan.plan import NO_VOIDS, void_plan
 from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
 from packwork.pipeline.state import RunState
@@ -121,7 +121,7 @@ def with_room(job: Job, share: float) -> tuple[Job, float]:
         size_ratio=min(job.plan.size_ratio, EVEN_RATIO),
         # Shares of a canvas are lengths of this one.
         gap=job.recipe.padding_cu(room),
-        voids=void_plan(job.recipe, room),
+        voids=void_plan(job.recipe, room) if job.plan.voids.fills else NO_VOIDS,
     )
     return replace(job, plan=plan, container=room, regions=regions, asked=asked), depth
 

@@ -139,7 +139,7 @@ def can_give_way(job: Job) -> bool:
     """Whether nothing is asked of places or single items that this cannot heed."""
     plan = job.plan
     is_told_where = job.earlier is not None or plan.method or plan.share or job.forces.acts
-    is_told = is_told_where or job.keeps_order or job.is_limited
+    is_told = is_told_where or job.plan.keeps_order or job.is_limited
     return not (is_told or needs_levels(job))
 
 
