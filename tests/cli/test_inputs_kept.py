@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from packwork.inputs import input_at, note_input, noting_inputs
+from packwork.sources import input_at, note_input, noting_inputs
 
 QUICK = "--levels 16 --epochs 2 --finish none -q"
 DOT = '<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="3"/></svg>'

@@ -19,7 +19,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.shelf import shelf_in_use
+from packwork.sources import memory_in_use
 
 ITEMS = ("filler", "items", "mark")
 """Options that are items: what is in memory may stand for them."""
@@ -44,8 +44,8 @@ def handed_over(y_up: bool | None = None, columns: Columns | None = None) -> Ite
     ...     handed.name_of(b"<svg/>", "items")
     'memory:drawing.svg'
     """
-    with shelf_in_use() as shelf:
-        yield Handed(shelf, y_up, columns)
+    with memory_in_use() as memory:
+        yield Handed(memory, y_up, columns)
 
 
 def with_names(options: Mapping[str, Any], handed: Handed) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def _named_start(value: Any, handed: Handed) -> Any:
     if isinstance(value, Poses):
         checked_poses(value)
     if isinstance(value, Layout | Poses):
-        return handed.shelf.put(value, "layout" if isinstance(value, Layout) else "poses")
+        return handed.memory.put(value, "layout" if isinstance(value, Layout) else "poses")
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 

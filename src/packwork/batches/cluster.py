@@ -26,9 +26,9 @@ from packwork.batches.task import Drawn, RowOutcome, Task, draw, failed, make, w
 from packwork.display.extras import import_extra
 from packwork.errors import PackworkError
 from packwork.installed import installed_version
-from packwork.mirror import mirrored, place_in
 from packwork.progress import Stop, never
 from packwork.recipe_paths import named_files
+from packwork.sources import mirrored, place_in
 from packwork.temporary import TemporaryFolder
 
 AHEAD = 2

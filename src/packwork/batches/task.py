@@ -20,11 +20,11 @@ from typing import Any, Literal, TypeAlias
 
 from packwork import pipeline, threads, uses, writers
 from packwork.errors import PackworkError
-from packwork.inputs import check_no_input, note_input, noting_inputs
 from packwork.installed import installed_version
 from packwork.progress import NOBODY, Stop, never
 from packwork.recipe import make_recipe
 from packwork.recipe_paths import named_files
+from packwork.sources import check_no_input, note_input, noting_inputs
 
 Status: TypeAlias = Literal["made", "short", "kept", "failed", "stopped"]
 """What has become of a row: ``short`` is made, but not as asked; ``kept`` was made before."""

@@ -21,7 +21,7 @@ from typer.core import TyperCommand, TyperGroup
 from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors
 from packwork.cli.terminal import prepare_streams, say
 from packwork.errors import ReadError
-from packwork.inputs import noting_inputs
+from packwork.sources import noting_inputs
 from packwork.synonyms import command_meant, option_meant
 
 SUMMARIES: Mapping[str, str] = {

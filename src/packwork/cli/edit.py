@@ -67,8 +67,8 @@ def edit(
     """
     with clear_errors():
         from packwork import writers
-        from packwork.inputs import check_no_input
         from packwork.readers.layouts.read import SESSION, is_session
+        from packwork.sources import check_no_input
 
         outputs = list(output or ([] if report else [DEFAULT_OUTPUT]))
         sides = [path for path in outputs if is_session(path)]

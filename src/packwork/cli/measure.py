@@ -50,10 +50,10 @@ def measure(
     with clear_errors():
         from packwork import writers
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
-        from packwork.inputs import check_no_input
         from packwork.metrics import certificate
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.layouts.read import read_written
+        from packwork.sources import check_no_input
 
         outputs = [path for path in (report, diagnose) if path is not None]
         for path in outputs:

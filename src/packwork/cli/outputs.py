@@ -12,13 +12,13 @@ from packwork import pipeline, writers
 from packwork.cli.files import Choosing
 from packwork.cli.terminal import say
 from packwork.errors import RecipeError, WriteError
-from packwork.inputs import check_no_input
 from packwork.readers.layouts.read import SESSION, is_session
 from packwork.recipe import Recipe
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import VERBS, default_of, film_options, options_of
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.layout import Layout
+from packwork.sources import check_no_input
 from packwork.units import split_length
 from packwork.uses.icons import NO_CONTAINER
 from packwork.writers.cutting import kiss_cut

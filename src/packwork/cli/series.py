@@ -20,7 +20,6 @@ from packwork.cli.running import compile_kernels
 from packwork.cli.terminal import printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import RecipeError
-from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session

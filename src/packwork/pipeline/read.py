@@ -37,7 +37,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.limits import Zone
 from packwork.scene.pose import Poses
 from packwork.scene.target import TargetPicture
-from packwork.shelf import shelved
+from packwork.sources import stored
 from packwork.units import CanvasSize, parse_length
 
 
@@ -282,7 +282,7 @@ def _target(recipe: Recipe, picture: str, material: Material) -> TargetPicture:
 
 def _earlier(file: str, container: Container, items: tuple[Item, ...]) -> Layout:
     """The earlier layout that a run begins from."""
-    made = shelved(file)
+    made = stored(file)
     if isinstance(made, Layout):
         # Arrays of a layout are read-only, which kernels would be compiled for anew.
         return replace(made, poses=made.poses.subset(np.arange(len(made.items))))

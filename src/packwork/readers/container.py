@@ -22,7 +22,7 @@ from packwork.readers.svg.container import container_of_svg, parts_of_svg
 from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.container import Container, on_canvas, placed_container
 from packwork.scene.layout import sheet
-from packwork.shelf import shelved
+from packwork.sources import stored
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 
 _FORMS = (
@@ -71,7 +71,7 @@ def read_container(
     (200.0, 150.0, 'mm', (25.0, 0.0, 175.0, 150.0))
     """
     size = canvas_size(canvas) if isinstance(canvas, str | int | float) else canvas
-    made = shelved(str(source))
+    made = stored(str(source))
     if isinstance(made, Container):
         return on_canvas(made, size)
     if str(source) in SHEETS and not exists(source):
@@ -109,7 +109,7 @@ def _container(
     reading: ReadOptions,
 ) -> Container:
     """Container whose canvas is ``side`` long; None lets the file decide."""
-    shape = container_in_memory(shelved(text), text, side or DEFAULT_SIDE, reading)
+    shape = container_in_memory(stored(text), text, side or DEFAULT_SIDE, reading)
     if shape is not None:
         return shape
     if text.startswith(BUILTIN):

@@ -8,9 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
-from packwork.inputs import note_input
-from packwork.mirror import here_of
-from packwork.shelf import MEMORY, shelved
+from packwork.sources import MEMORY, here_of, note_input, stored
 
 
 def read_bytes(path: str | Path, most: int) -> bytes:
@@ -22,7 +20,7 @@ def read_bytes(path: str | Path, most: int) -> bytes:
     Traceback (most recent call last):
     packwork.errors.ReadError: no such file.svg: there is no such file
     """
-    value = shelved(str(path))
+    value = stored(str(path))
     data = value if isinstance(value, bytes) else _read_file(path, most)
     if len(data) > most:
         raise _too_large(path, most)
@@ -118,7 +116,7 @@ def exists(path: str | Path) -> bool:
     >>> exists("no such file.svg"), exists("a" * 10_000)
     (False, False)
     """
-    if shelved(str(path)) is not None:
+    if stored(str(path)) is not None:
         return True
     try:
         return here_of(path).exists()

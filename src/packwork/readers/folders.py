@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from packwork.errors import ReadError
-from packwork.mirror import here_of, names_like
 from packwork.phrasing import enumerated
+from packwork.sources import here_of, names_like
 
 LOOK_LIKE_PICTURES = frozenset(f".{ending}" for ending in (
     "svg", "svgz", "png", "jpg", "jpeg", "jfif", "webp", "gif", "bmp", "tif", "tiff", "avif",

@@ -21,7 +21,7 @@ from packwork.readers.regions import Holes
 from packwork.readers.svg.item import read_svg
 from packwork.recipe_paths import BUILTIN
 from packwork.scene.item import Item
-from packwork.shelf import shelved
+from packwork.sources import stored
 
 _LOG = logging.getLogger("packwork")
 
@@ -134,7 +134,7 @@ def _found(source: str, asked: _Asked) -> _Source:
     if not source.strip():
         # As a path it would stand for the whole of the working folder.
         raise ReadError("items", "an empty name stands for nothing; give a file or a folder")
-    if (made := items_in_memory(shelved(source), source, asked.holes)) is not None:
+    if (made := items_in_memory(stored(source), source, asked.holes)) is not None:
         return _Source(source, tuple(Read(item) for item in made))
     if source.startswith(BUILTIN):
         return _built_in(source.removeprefix(BUILTIN), asked)

@@ -32,7 +32,7 @@ from packwork.readers.pictures.silhouette import outline_of_cut_out, solidity, t
 from packwork.readers.reading import reading_file
 from packwork.readers.regions import centred, clean_union
 from packwork.scene.item import Item, PhotoArt
-from packwork.shelf import MEMORY
+from packwork.sources import MEMORY
 from packwork.threads import thread_count
 
 CUT_OUT_PX = 800

@@ -18,7 +18,7 @@ from packwork.readers.memory.values import GivenVectors
 from packwork.readers.tables.cells import Written
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table
-from packwork.shelf import shelved
+from packwork.sources import stored
 
 MAX_BYTES = 512_000_000
 """Size of an array's file: 100,000 vectors of 600 numbers. Chosen."""
@@ -87,7 +87,7 @@ def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
 
 
 def _read(file: str, asked: TableFormat | None) -> Vectors:
-    known = shelved(file)
+    known = stored(file)
     if isinstance(known, GivenVectors):
         return Vectors(file, known.names, known.rows, known.columns, known.groups)
     if Path(file).suffix.lower() == ARRAY:

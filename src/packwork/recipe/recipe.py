@@ -39,12 +39,12 @@ from packwork.recipe.rules import (
     some_rules,
 )
 from packwork.recipe_paths import check_names
-from packwork.shelf import MEMORY
 from packwork.solve.options import (
     MAX_STRETCH,
     ImageLossFunction,
     OutlineChoice,
 )
+from packwork.sources import MEMORY
 from packwork.start.options import LAYOUTS
 from packwork.units import CanvasSize, canvas_size, known_canvas, parse_share
 from packwork.writers.film.options import FilmOptions

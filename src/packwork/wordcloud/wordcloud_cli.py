@@ -21,7 +21,7 @@ from PIL import Image
 
 import packwork.wordcloud as wc
 from packwork.errors import PackworkError, WriteError
-from packwork.inputs import note_input, noting_inputs
+from packwork.sources import note_input, noting_inputs
 from packwork.wordcloud.colours import (
     ImageColorGenerator,
     get_single_color_func,

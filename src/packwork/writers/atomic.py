@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from packwork.errors import WriteError
-from packwork.inputs import check_no_input
+from packwork.sources import check_no_input
 
 _LEFT = re.compile(r"\.packwork-(?P<process>\d+)-[0-9a-f]{16}\.part")
 """Name of a file that is being written."""

@@ -19,7 +19,6 @@ from typing import IO, TypeVar
 from filelock import FileLock, Timeout
 
 from packwork.errors import ReadError, RecipeError, WriteError
-from packwork.inputs import forget_input
 from packwork.live.document import Document
 from packwork.live.file.session_file import MOST_BYTES, read_session, session_bytes
 from packwork.live.file.things import Things
@@ -30,6 +29,7 @@ from packwork.phrasing import number_of
 from packwork.readers.files import exists, read_bytes, read_lines
 from packwork.readers.layouts.read import SESSION
 from packwork.scene.layout import Layout
+from packwork.sources import forget_input
 from packwork.writers.atomic import write_atomic
 
 ENDING = SESSION

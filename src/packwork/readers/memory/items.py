@@ -125,7 +125,7 @@ def _check_size(rows: int, columns: int) -> None:
 def container_in_memory(
     value: object, source: str, side: float, reading: ReadOptions
 ) -> Container | None:
-    """Container of a value on the shelf, its longer side ``side``; None of a file's bytes.
+    """Container of a value in memory, its longer side ``side``; None of a file's bytes.
 
     The canvas of an array is the array; that of geometries is their box.
     """
@@ -159,7 +159,7 @@ item is moved there. Below lie items whose lines have become thinner. Chosen."""
 
 
 def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | None:
-    """Items of a value on the shelf; None of one that readers of files understand."""
+    """Items of a value in memory; None of one that readers of files understand."""
     with reading_file(source):
         if isinstance(value, Item):
             return [recentred(value)]

@@ -20,7 +20,7 @@ from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.shelf import MEMORY, Shelf
+from packwork.sources import MEMORY, MemoryStore
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +139,7 @@ class Handed:
     ``y_up``: whether the y of geometries points up; None: where they say their reference system.
     """
 
-    shelf: Shelf
+    memory: MemoryStore
     y_up: bool | None = None
     columns: Columns | None = None
     texts: set[str] = field(default_factory=set)
@@ -147,7 +147,7 @@ class Handed:
     def name_of(self, value: Any, key: str, name: str | None = None) -> str:
         """Name of one value: itself, if it is one; ``name`` is what people call it.
 
-        >>> handed = Handed(Shelf())
+        >>> handed = Handed(MemoryStore())
         >>> handed.name_of("star", "items"), handed.name_of(np.eye(9) > 0, "items")
         ('star', 'memory:array')
         """
@@ -170,7 +170,7 @@ class Handed:
     def names_of(self, values: Any, key: str) -> list[str]:
         """Names of one value or of several, or of values by what people call them.
 
-        >>> Handed(Shelf()).names_of({"dot": b"<svg/>", "old": "star"}, "items")
+        >>> Handed(MemoryStore()).names_of({"dot": b"<svg/>", "old": "star"}, "items")
         ['memory:dot.svg', 'star']
         """
         if isinstance(values, Mapping) and not is_geometry(values):
@@ -187,7 +187,7 @@ class Handed:
     def picture_name_of(self, value: Any, key: str) -> str:
         """Name of a picture, whose arrays are light or colours, not shares of a shape.
 
-        >>> Handed(Shelf()).picture_name_of(np.zeros((9, 9, 3)), "picture")
+        >>> Handed(MemoryStore()).picture_name_of(np.zeros((9, 9, 3)), "picture")
         'memory:picture.png'
         """
         if hasattr(value, "__array__") and not isinstance(value, Image.Image):
@@ -200,39 +200,39 @@ class Handed:
     def vectors_name_of(self, value: Any, key: str) -> str:
         """Name of vectors: a file's, or that of an array, a dict by name or a data frame.
 
-        >>> Handed(Shelf()).vectors_name_of(np.eye(3), "embeddings")
+        >>> Handed(MemoryStore()).vectors_name_of(np.eye(3), "embeddings")
         'memory:embeddings'
         """
         if isinstance(value, str | os.PathLike):
             return os.fspath(value)
         with reading_file(f"{MEMORY}{key}"):
-            return self.shelf.put(vectors_of(value), key)
+            return self.memory.put(vectors_of(value), key)
 
     def _put_made(self, value: Item | Container) -> str:
-        known = self.shelf.values.get(value.source)
+        known = self.memory.values.get(value.source)
         is_free = known is None and value.source not in self.texts
         if value.source.strip() and (is_free or known is value):
-            self.shelf.values[value.source] = value
+            self.memory.values[value.source] = value
             return value.source
-        return self.shelf.put(value, value.name)
+        return self.memory.put(value, value.name)
 
     def _put_picture(self, picture: Image.Image, name: str | None) -> str:
         called = name or _stem(getattr(picture, "filename", "")) or "picture"
         with reading_file(f"{MEMORY}{called}"):
-            return self.shelf.put(png_of_picture(picture), called, ".png")
+            return self.memory.put(png_of_picture(picture), called, ".png")
 
     def _put_file(self, value: Any, name: str | None) -> str:
         data = _content(value)
         called = name or _stem(getattr(value, "name", "")) or "drawing"
         is_drawing = data.startswith(b"\x1f\x8b") or data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"<"
         ending = ".svg" if is_drawing else ".jpg" if data.startswith(b"\xff\xd8") else ".png"
-        return self.shelf.put(data, called, ending)
+        return self.memory.put(data, called, ending)
 
     def _put_geometry(self, value: Any, name: str) -> str:
         y_up = points_up(value) if self.y_up is None else self.y_up
         plain = value.region if isinstance(value, Outline) else value
         with reading_file(f"{MEMORY}{name}"):
-            return self.shelf.put(shapes_of(plain, name, y_up=y_up, columns=self.columns), name)
+            return self.memory.put(shapes_of(plain, name, y_up=y_up, columns=self.columns), name)
 
     def _put_array(self, array: np.ndarray[Any, Any], name: str | None) -> str:
         called = name or "array"
@@ -240,7 +240,7 @@ class Handed:
             if array.ndim == 2 and array.shape[1] == 2 and array.dtype.kind in "iuf":
                 return self._put_geometry(Outline.of(array), name or "shape")
             made = coverage_of_array(array, called)
-        return self.shelf.put(made, called, ".png" if isinstance(made, bytes) else "")
+        return self.memory.put(made, called, ".png" if isinstance(made, bytes) else "")
 
 
 def _is_one(value: Any) -> bool:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from packwork.errors import ReadError, RowsLostError
-from packwork.inputs import note_input
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.files import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, decoded
@@ -27,6 +26,7 @@ from packwork.readers.words.tokens import (
     sentences,
     stop_words,
 )
+from packwork.sources import note_input
 
 LEAST_TOGETHER = 3
 """How often words must stand together to be a phrase. Chosen."""
