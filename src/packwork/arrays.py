@@ -24,11 +24,6 @@ Image: TypeAlias = npt.NDArray[np.floating[Any]]
 def as_points(points: npt.ArrayLike) -> FloatArray:
     """Contiguous float64 copy (or view) of an (n, 2) array of finite points.
 
-    Raises
-    ------
-    ShapeError
-        If the shape is not (n, 2) or a coordinate is not finite.
-
     Examples
     --------
     >>> as_points([[0, 0], [1, 2]]).dtype
@@ -44,11 +39,6 @@ def as_points(points: npt.ArrayLike) -> FloatArray:
 
 def as_starts(starts: npt.ArrayLike, point_count: int) -> IntArray:
     """Ring starts ``(rings + 1,)``: increasing indices from 0 to ``point_count``.
-
-    Raises
-    ------
-    ShapeError
-        If they do not begin at 0, end at ``point_count`` and never decrease.
 
     Examples
     --------
@@ -68,11 +58,6 @@ def as_starts(starts: npt.ArrayLike, point_count: int) -> IntArray:
 
 def as_image(image: npt.ArrayLike) -> Image:
     """Contiguous float image ``(rows, columns)``; float32 stays, all else becomes float64.
-
-    Raises
-    ------
-    ShapeError
-        If it is not two-dimensional and non-empty.
 
     Examples
     --------

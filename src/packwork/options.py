@@ -122,11 +122,6 @@ _WHOLE = re.compile(r"[+-]?[0-9]{1,12}")
 def number_or_auto(value: object) -> object:
     """Whole number of a text, or ``auto``; what is no text stays as it is.
 
-    Raises
-    ------
-    ValueError
-        If the text is neither.
-
     Examples
     --------
     >>> number_or_auto(" 12"), number_or_auto("auto"), number_or_auto(None)

@@ -111,11 +111,6 @@ def named_files(options: Mapping[str, Any]) -> list[str]:
 def check_names(options: Mapping[str, Any]) -> None:
     """Refuse names of nothing: as paths they would stand for the whole of a folder.
 
-    Raises
-    ------
-    RecipeError
-        Naming the option.
-
     Examples
     --------
     >>> check_names({"filler": ["star", ""]})

@@ -229,13 +229,7 @@ def input_at(path: str | Path) -> str | None:
 
 
 def check_no_input(path: str | Path) -> None:
-    """Refuse to write where something was read.
-
-    Raises
-    ------
-    WriteError
-        Naming the input.
-    """
+    """Refuse to write where something was read."""
     read = input_at(path)
     if read is not None:
         known = "" if read == str(path) else f" (as {read})"

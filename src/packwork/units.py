@@ -107,11 +107,6 @@ def convert(value: float, unit: str, to: str) -> float:
 def parse_length(text: str, unit: str, whole: float) -> float:
     """Length in a unit, from ``2`` (that unit), ``2pt``, ``1mm`` or ``5%`` (of the whole).
 
-    Raises
-    ------
-    ValueError
-        If it is no length, below zero, or beyond ``SHORTEST`` and ``LONGEST``.
-
     Examples
     --------
     >>> parse_length("2", "mm", 200.0), parse_length("1in", "mm", 200.0)
@@ -173,11 +168,6 @@ class CanvasSize:
 def canvas_size(text: str | float) -> CanvasSize:
     """Size of ``600`` (px), ``8in``, ``200x150mm``, ``A4`` or ``A4-landscape``.
 
-    Raises
-    ------
-    RecipeError
-        About ``canvas``, if it is none of these or out of bounds.
-
     Examples
     --------
     >>> canvas_size("200x150mm")
@@ -196,11 +186,6 @@ def canvas_size(text: str | float) -> CanvasSize:
 
 def check_side(side: float, unit: Unit) -> None:
     """Refuse a side that no canvas can have.
-
-    Raises
-    ------
-    RecipeError
-        About ``canvas``, if it is not within ``SMALLEST_PX`` and ``LARGEST_PX``.
 
     Examples
     --------

@@ -49,13 +49,7 @@ class Use(ABC):
 
     @abstractmethod
     def steps(self, job: Job) -> Sequence[RunStep]:
-        """All steps of a run, in their order.
-
-        Raises
-        ------
-        RecipeError
-            If an option has no meaning for this job.
-        """
+        """All steps of a run, in their order."""
 
     @abstractmethod
     def report(self, job: Job) -> Sequence[RunStep]:
@@ -82,13 +76,7 @@ class Use(ABC):
         return None
 
     def column(self, job: Job, name: str) -> FloatArray:
-        """``(n,)`` numbers of the items in a column of the data that the use reads.
-
-        Raises
-        ------
-        RecipeError
-            If there is no such column.
-        """
+        """``(n,)`` numbers of the items in a column of the data that the use reads."""
         del job
         raise unknown_measure(name)
 
@@ -190,15 +178,7 @@ class Job:
 
     @cached_property
     def forces(self) -> Forces:
-        """Forces on these items on this canvas.
-
-        Raises
-        ------
-        ReadError
-            If a curve cannot be used.
-        RecipeError
-            If a force names no item, or a length has no meaning.
-        """
+        """Forces on these items on this canvas."""
         return forces_of(self.plan.forces, self.items, self.weights, self.container)
 
     @property

@@ -42,15 +42,7 @@ from packwork.units import CanvasSize, parse_length
 
 
 def read_regions(asked: Sequence[ItemRules], container: Container) -> tuple[Region, ...]:
-    """Regions of all copies that have one, one for each that is named.
-
-    Raises
-    ------
-    ReadError
-        If a region's file or name cannot be used.
-    RecipeError
-        If a region and the container have no part in common.
-    """
+    """Regions of all copies that have one, one for each that is named."""
     members: dict[Any, list[int]] = {}
     for k, one in enumerate(asked):
         if "region" in one.values:
@@ -131,13 +123,7 @@ class Named:
 
 
 def read_room(recipe: Recipe, given: Container | None) -> Container:
-    """The container of a recipe on its canvas; one that was given is in its place.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, or has more points than files of the run could be measured with.
-    """
+    """The container of a recipe on its canvas; one that was given is in its place."""
     if given is not None:
         found = on_canvas(given, recipe.canvas_size)
     else:
@@ -203,15 +189,7 @@ def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:
 
 
 def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
-    """Job of what was read, everything in it found usable.
-
-    Raises
-    ------
-    ReadError
-        If a file cannot be used.
-    RecipeError
-        If an option has no meaning for these items.
-    """
+    """Job of what was read, everything in it found usable."""
     chosen, container = material.cast, material.container
     weights = chosen.weights
     if recipe.share is not None:

@@ -68,13 +68,7 @@ LABEL_RULE = RuleSource("label_regions")
 
 
 def labelled(job: Job) -> Job:
-    """The job with a plate for each group of its vectors, or part of its container, if asked for.
-
-    Raises
-    ------
-    RecipeError
-        If neither has names.
-    """
+    """The job with a plate for each group of its vectors, or part of its container."""
     if job.vectors is not None and job.vectors.groups:
         return _with_groups(job, job.vectors)
     parts = read_parts(job.container)

@@ -133,15 +133,7 @@ class _Subrange:
 
 
 def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool = False) -> Run:
-    """Solve and measure what was read.
-
-    Raises
-    ------
-    ReadError
-        Naming the container, if outlines lie too close for any set operation.
-    RecipeError
-        If an option has no meaning for these files.
-    """
+    """Solve and measure what was read."""
     onward, job = MonotonicProgress(observer), replace(job, is_recorded=record)
     # Runs without levels took no time for them.
     job.clock.seconds.setdefault("levels", 0.0)

@@ -51,11 +51,6 @@ class Ordering:
 def parse_arrangement(text: str) -> Ordering:
     """Arrangement of its text.
 
-    Raises
-    ------
-    RecipeError
-        About ``arrange``: what is wrong, what was met, what would do.
-
     Examples
     --------
     >>> parse_arrangement("down by=weight")
@@ -158,11 +153,6 @@ class Anchor:
 
 def parse_anchor(text: str) -> Anchor:
     """Anchor of its text.
-
-    Raises
-    ------
-    RecipeError
-        About ``anchors``: what is wrong, what was met, what would do.
 
     Examples
     --------

@@ -70,11 +70,6 @@ KINDS = ("words", "photos", "items")
 def share_of_kinds(value: object) -> dict[str, float]:
     """Shares by kind, of ``words=50%,items=50%`` or a table of numbers.
 
-    Raises
-    ------
-    RecipeError
-        If a kind is unknown, or a share no positive number.
-
     Examples
     --------
     >>> share_of_kinds("words=70%, items=30%"), share_of_kinds({"photos": 2, "items": 1})
@@ -97,13 +92,7 @@ def share_of_kinds(value: object) -> dict[str, float]:
 
 
 def known_palette(value: object) -> object:
-    """The same value, refused unless it is a palette, colours or None; of names a dict.
-
-    Raises
-    ------
-    RecipeError
-        About ``palette``.
-    """
+    """The same value, refused unless it is a palette, colours or None; of names a dict."""
     if value is not None:
         # Loads the picture library, which the command line's help can do without.
         from packwork.scene.palette import colours_by_name, palette_colours

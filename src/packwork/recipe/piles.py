@@ -50,11 +50,6 @@ class Emitter:
 def parse_emitter(text: str) -> Emitter:
     """Emitter of its text.
 
-    Raises
-    ------
-    RecipeError
-        About ``emit``.
-
     Examples
     --------
     >>> parse_emitter("top").side, parse_emitter("10%,0 90%,0").points

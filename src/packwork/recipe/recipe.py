@@ -383,11 +383,6 @@ class Recipe(
 def make_recipe(**options: Any) -> Recipe:
     """Recipe from plain values.
 
-    Raises
-    ------
-    RecipeError
-        Naming the option, what was met and what would do.
-
     Examples
     --------
     >>> make_recipe(container="heart", count=0)

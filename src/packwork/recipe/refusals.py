@@ -39,11 +39,6 @@ def validated(
     ----------
     names
         What people call an option that goes by another name in the model.
-
-    Raises
-    ------
-    RecipeError
-        Naming the option, what was met and what would do.
     """
     try:
         return model.model_validate(values)

@@ -53,11 +53,6 @@ _HERO = re.compile(r"(?P<name>[^@=]+)(?:@(?P<x>[^,@=]+),(?P<y>[^,@=]+))?(?:=(?P<
 def checked_length(value: object) -> object:
     """The same value, if it is a length of the grammar; percents of whatever it turns out.
 
-    Raises
-    ------
-    ValueError
-        If it is none.
-
     Examples
     --------
     >>> checked_length("40%"), checked_length(12)
@@ -173,11 +168,6 @@ def rotation_text(value: object) -> object:
 
 def known_rotation(value: object) -> object:
     """As :func:`rotation_text`, refused unless it has a meaning.
-
-    Raises
-    ------
-    RecipeError
-        About ``rotate``.
 
     Examples
     --------
@@ -336,11 +326,6 @@ class Rule(Options):
 
 def hero_rule(text: str) -> Rule:
     """Rule of a hero ``NAME``, ``NAME@X,Y``, ``NAME=SIZE`` or ``NAME@X,Y=SIZE``.
-
-    Raises
-    ------
-    RecipeError
-        If the text is none of these.
 
     Examples
     --------

@@ -161,11 +161,6 @@ def film_options(recipes: FilmOptions | None = None, /, **given: Any) -> FilmOpt
     given
         Options by name; None is as good as not given.
 
-    Raises
-    ------
-    RecipeError
-        Naming the option, what was met and what would do.
-
     Examples
     --------
     >>> film_options(FilmOptions(fps=12, hold=3), fps=60, hold=None)

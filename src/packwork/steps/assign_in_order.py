@@ -52,15 +52,7 @@ GREY = 0.02
 
 
 def with_order(job: Job) -> Job:
-    """The job with the numbers of its order, which is refused if it has no meaning.
-
-    Raises
-    ------
-    ReadError
-        If the file of numbers cannot be read.
-    RecipeError
-        If items have no number, or all have one.
-    """
+    """The job with the numbers of its order, which is refused if it has no meaning."""
     recipe = job.recipe
     if recipe.arrange is None:
         return job
@@ -80,13 +72,7 @@ def with_order(job: Job) -> Job:
 
 
 def measured(job: Job, by: str) -> FloatArray:
-    """``(n,)`` what items are put in order by; NaN for grey where that is hue.
-
-    Raises
-    ------
-    RecipeError
-        As for :func:`with_order`.
-    """
+    """``(n,)`` what items are put in order by; NaN for grey where that is hue."""
     if job.numbers is not None:
         values = np.array([job.numbers[item.name] for item in job.items])
     elif by not in MEASURES:

@@ -93,13 +93,7 @@ class Finish(RunStep):
     may_fail: bool = False
 
     def run(self, state: RunState, context: RunContext) -> RunState:
-        """State with exact poses near those of the levels.
-
-        Raises
-        ------
-        RecipeError
-            If the padding is so large that most items find no room.
-        """
+        """State with exact poses near those of the levels."""
         job = state.job
         with job.clock.time("finish"):
             found = finished(state, context)

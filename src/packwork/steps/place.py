@@ -124,13 +124,7 @@ class Place(RunStep):
     starts: Sequence[Start]
 
     def run(self, state: RunState, context: RunContext) -> RunState:
-        """State with first poses of the outlines that the solver will see.
-
-        Raises
-        ------
-        RecipeError
-            If what is asked of single items cannot be, or the padding leaves no room.
-        """
+        """State with first poses of the outlines that the solver will see."""
         job = state.job
         with job.clock.time("start"):
             if job.plan.gap:

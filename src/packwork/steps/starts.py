@@ -123,11 +123,6 @@ def new_starts(job: Job, *, suits_first_fit: bool) -> list[Start]:
     ----------
     suits_first_fit
         Whether first fit does these items good where all have one size.
-
-    Raises
-    ------
-    RecipeError
-        If first fit was asked for where it cannot be.
     """
     plan, found = job.plan, list[Start]()
     is_open = not (plan.method or job.is_limited or job.forces.acts or needs_levels(job))

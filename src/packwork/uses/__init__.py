@@ -68,13 +68,6 @@ def fill(
     ----------
     items, container
         Already read, in place of the recipe's names of files.
-
-    Raises
-    ------
-    ReadError
-        If a file cannot be used.
-    RecipeError
-        If an option has no meaning for these files.
     """
     job = read(recipe, items, container)
     with threads.using(recipe.threads):

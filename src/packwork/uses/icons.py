@@ -37,13 +37,7 @@ class KnownContainer:
 
     @property
     def known(self) -> Container:
-        """The container.
-
-        Raises
-        ------
-        RecipeError
-            If there is none that could tell how many items it takes.
-        """
+        """The container."""
         if self.container is None:
             raise no_container()
         return self.container

@@ -26,11 +26,6 @@ def overridden(options: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[s
     changes
         New values by name; None is not given.
 
-    Raises
-    ------
-    RecipeError
-        If a chart, whose data say how large marks are, is asked for other sizes.
-
     Examples
     --------
     >>> overridden({"container": "heart", "seed": 1, "epochs": 9}, {"seed": 6, "effort": "best"})

@@ -80,13 +80,7 @@ class ItemRules:
         )
 
     def refuse(self, keys: Sequence[str], where: str) -> None:
-        """Refuse rules that have no meaning somewhere.
-
-        Raises
-        ------
-        RecipeError
-            About the option that asked for one of the keys.
-        """
+        """Refuse rules that have no meaning somewhere."""
         for key in keys:
             source = next((v for k, v in self.sources.items() if k.split(".")[0] == key), None)
             if source is not None:
@@ -126,11 +120,6 @@ def rules_by_source(recipe: Recipe) -> list[tuple[RuleSource, Rule]]:
 
 def matching(patterns: Sequence[str], source: RuleSource, names: Sequence[str]) -> list[int]:
     """Indices of the names that match one of the patterns.
-
-    Raises
-    ------
-    RecipeError
-        If a pattern matches none.
 
     Examples
     --------
@@ -185,11 +174,6 @@ def expand_copies(
         Copies in all, where the run found it; None for as many as the recipe says.
     areas
         ``(n,)`` share of area of each item, in place of the recipe's table.
-
-    Raises
-    ------
-    RecipeError
-        If rules name no item, ask for more than the count, or pin one copy twice.
     """
     shares = item_weights(items, recipe.weights, recipe) if areas is None else areas
     if total is None and isinstance(recipe.count, int):
@@ -236,11 +220,6 @@ def turns(counts: Sequence[int | None], total: int | None) -> IntArray:
     total
         Copies in all; None for one of each that has no count of its own.
 
-    Raises
-    ------
-    RecipeError
-        If the counts do not add up to the total, or to nothing at all.
-
     Examples
     --------
     >>> turns([None, 3, None], 7).tolist(), turns([None, 2], None).tolist()
@@ -268,13 +247,7 @@ def item_weights(
     weights: str | Mapping[str, float] | None,
     asked: TableFormat | None = None,
 ) -> FloatArray:
-    """``(n,)`` share of area of each item, by its name or its file's; else its own.
-
-    Raises
-    ------
-    RecipeError
-        If a weight names no item, or is not a positive number.
-    """
+    """``(n,)`` share of area of each item, by its name or its file's; else its own."""
     if weights is None:
         return np.array([float(item.weight) for item in items])
     table = read_weights(weights, asked) if isinstance(weights, str) else weights
@@ -331,11 +304,6 @@ def shared_out(
     share: Mapping[str, float],
 ) -> FloatArray:
     """``(n,)`` weights whose sums over words, photos and other items are in the shares asked.
-
-    Raises
-    ------
-    RecipeError
-        If a kind that is there has no share, or one that has one is not there.
 
     Examples
     --------

@@ -25,13 +25,6 @@ def forces_of(
 ) -> Forces:
     """Forces that are asked for, on these items and this canvas.
 
-    Raises
-    ------
-    ReadError
-        If a curve cannot be used.
-    RecipeError
-        If a force names no item, or a length has no meaning.
-
     Examples
     --------
     >>> from packwork.readers.builtin import builtin_container, builtin_item
@@ -94,13 +87,7 @@ def _field(spec: ForceSpec, container: Container) -> Field:
 
 
 def point_at(pair: str, container: Container, key: str = "force") -> FloatArray:
-    """Point of ``X,Y``, percents of the canvas' width and height; may lie off the canvas.
-
-    Raises
-    ------
-    RecipeError
-        About ``key``, if a length has no meaning.
-    """
+    """Point of ``X,Y``, percents of the canvas' width and height; may lie off the canvas."""
     pairs = zip(pair.split(","), (container.width, container.height), strict=True)
     return np.array([_length(text, container, whole, key) for text, whole in pairs])
 

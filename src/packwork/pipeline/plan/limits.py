@@ -136,14 +136,7 @@ def held_to(limits: Limits, poses: Poses) -> Poses:
 
 
 def check_poses(job: Job, container: Container, poses: Poses, limits: Limits) -> None:
-    """Refuse what no solve can keep to.
-
-    Raises
-    ------
-    RecipeError
-        If an item is pinned outside the container or its region, is too large for it, or
-        is pinned onto another.
-    """
+    """Refuse what no solve can keep to."""
     homes = {int(k): region for region in job.regions for k in region.zone.items}
     for k, one in enumerate(job.asked):
         if not one.pin:
@@ -270,11 +263,6 @@ def check_padding(container: Container, padding: float, count: int, whose: str =
     whose
         What is said of the container; `` of a group`` for one of several.
 
-    Raises
-    ------
-    RecipeError
-        If there is no such room.
-
     Examples
     --------
     >>> from packwork.geometry.outline import Outline
@@ -301,13 +289,7 @@ def check_padding(container: Container, padding: float, count: int, whose: str =
 def check_found(
     container: Container, padding: float, conflicts: Sequence[Conflict], count: int
 ) -> None:
-    """Refuse a padding with which most items found no room, however small they were made.
-
-    Raises
-    ------
-    RecipeError
-        If that is so.
-    """
+    """Refuse a padding with which most items found no room, however small they were made."""
     stuck = len({found.item for found in conflicts})
     if padding > 0 and stuck > MOST_STUCK * count:
         why = f"{stuck} of {count} found no room, however small"

@@ -46,13 +46,7 @@ _LOG = logging.getLogger("packwork")
 
 
 def losses_with_a_say(losses: Losses, container: Container, items: Sequence[Item]) -> Losses:
-    """The losses without those of one's own that are zero wherever items are, which is told.
-
-    Raises
-    ------
-    RecipeError
-        If there is no such loss, or it fails.
-    """
+    """The losses without those of one's own that are zero wherever items are, which is told."""
     return {key: weight for key, weight in losses.items() if _has_a_say(key, container, items)}
 
 
@@ -68,13 +62,7 @@ def _has_a_say(key: str | ImageLoss, container: Container, items: Sequence[Item]
 
 
 def check_ablations(plan: Plan, preset: str) -> None:
-    """Refuse to switch a loss off that the preset has not, tell of one that weighs nothing here.
-
-    Raises
-    ------
-    RecipeError
-        Naming the losses of the preset.
-    """
+    """Refuse to switch a loss off that the preset has not, tell of one that weighs nothing here."""
     plain = replace(plan, losses={}).solve_options().losses
     known = dict.fromkeys([*plan.preset.solve.losses, *plain])
     for name, weight in plan.losses.items():
@@ -95,13 +83,7 @@ def sees_colours(losses: Losses) -> bool:
 
 
 def in_colours(losses: Losses, colours: FloatArray) -> dict[Any, float]:
-    """The losses, those that are given colours bound to those of the items, ``(n, 3)`` sRGB.
-
-    Raises
-    ------
-    RecipeError
-        If the background of one is no solid colour.
-    """
+    """The losses, those that are given colours bound to those of the items, ``(n, 3)`` sRGB."""
     bound: dict[Any, float] = {}
     for key, weight in losses.items():
         found: Any = key if key in POSE_LOSSES else find_loss(key)
@@ -115,11 +97,6 @@ def in_colours(losses: Losses, colours: FloatArray) -> dict[Any, float]:
 
 def background_of(loss: object) -> FloatArray:
     """Colour ``(3,)``, 0 to 1, over which a loss sees items: its attribute, else white.
-
-    Raises
-    ------
-    RecipeError
-        If it is no solid colour.
 
     Examples
     --------

@@ -165,13 +165,7 @@ class Plan:
 
     @classmethod
     def of(cls, recipe: Recipe, container: Container) -> Plan:
-        """Plan of a recipe for a container on its canvas.
-
-        Raises
-        ------
-        RecipeError
-            If a length has no meaning, or the start is unknown.
-        """
+        """Plan of a recipe for a container on its canvas."""
         sizes = found_sizes(recipe, container)
         plan = cls(
             gap=recipe.padding_cu(container),
@@ -211,13 +205,7 @@ class Plan:
         return plan
 
     def start_options(self) -> StartOptions:
-        """Options of the start stage.
-
-        Raises
-        ------
-        RecipeError
-            If the start is unknown.
-        """
+        """Options of the start stage."""
         if self.is_from_layout:
             return StartOptions()
         method = "distance-field" if self.method is None else self.method

@@ -155,11 +155,6 @@ def largest_scales(job: Job) -> FloatArray:
     """``(n,)`` scales beyond which photos would have fewer pixels than ``least_dpi`` asks.
 
     Infinite for what is no photo, and for photos whose size is given.
-
-    Raises
-    ------
-    RecipeError
-        If sizes are not free.
     """
     least = job.plan.least_dpi
     if least is None:

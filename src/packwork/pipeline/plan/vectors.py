@@ -93,11 +93,6 @@ def read_item_vectors(
     ----------
     given
         All that was read, in its order, which may be more than the run places; None if it has none.
-
-    Raises
-    ------
-    ReadError
-        If it cannot be read, or has no row for each.
     """
     things = list({key_of(item): item for item in items}.values())
     names = [(item.name, Path(item.source).name) for item in things]

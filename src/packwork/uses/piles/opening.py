@@ -222,13 +222,6 @@ def source_of(
         In which they may lie.
     radius
         Of the largest item, canvas units.
-
-    Raises
-    ------
-    ReadError
-        If a curve or a region cannot be used.
-    RecipeError
-        If the emitter lies outside the room.
     """
     if asked.emit is None:
         return None

@@ -18,11 +18,6 @@ DEFAULT_FORCE, DEFAULT_FORCE_ALONE = "down", "towards centre"
 def pile_recipe(container: str, items: Sequence[str], **options: Any) -> Recipe:
     """Recipe that heaps items, from the options of ``pile`` and of all runs alike.
 
-    Raises
-    ------
-    RecipeError
-        Naming the option, what was met and what would do.
-
     Examples
     --------
     >>> recipe = pile_recipe("square", ["star"], count=9, open="top")

@@ -183,13 +183,7 @@ def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[J
 
 
 def check_pile(job: Job) -> None:
-    """Refuse what a heap cannot do.
-
-    Raises
-    ------
-    RecipeError
-        If something asked has no meaning in a pile.
-    """
+    """Refuse what a heap cannot do."""
     plan = job.plan
     if plan.sizes != "fixed":
         raise RecipeError("sizes", f"items of a pile keep their sizes; use fixed, not {plan.sizes}")

@@ -35,13 +35,7 @@ PAPER = "white"
 
 
 def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | None] | None:
-    """Colour of each item, None for one that keeps its own; None if neighbours decide.
-
-    Raises
-    ------
-    ReadError
-        If there is no such picture.
-    """
+    """Colour of each item, None for one that keeps its own; None if neighbours decide."""
     asked = recipe.words
     if asked is None or asked.color_by is None:
         return None
@@ -60,15 +54,7 @@ def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | 
 
 
 def check_colours(recipe: Recipe, words: WordsRead) -> None:
-    """Refuse pictures that cannot be read and columns that are not there, before a run.
-
-    Raises
-    ------
-    ReadError
-        If there is no such picture.
-    RecipeError
-        If the table has no such column.
-    """
+    """Refuse pictures that cannot be read and columns that are not there, before a run."""
     by = None if recipe.words is None else recipe.words.color_by
     if by is None or by == WEIGHT or callable(by):
         return
@@ -107,13 +93,7 @@ def _by_weight(words: list[Word | None], palette: tuple[str, ...]) -> list[str |
 def _by_function(
     words: list[Word | None], colour_of: ColourOf, options: WordOptions, otherwise: str
 ) -> list[str | None]:
-    """Colours that a function gives to words, kept readable; ``otherwise`` where it says None.
-
-    Raises
-    ------
-    RecipeError
-        If that is no colour.
-    """
+    """Colours that a function gives to words, kept readable; ``otherwise`` where it says None."""
     paper = options.paper or PAPER
     found: list[str | None] = []
     for word in words:

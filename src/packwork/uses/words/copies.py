@@ -32,13 +32,7 @@ more. Chosen by eye."""
 
 
 def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item]) -> Cast:
-    """Words and what is mixed in with them, each once; that is as large as a middling word's box.
-
-    Raises
-    ------
-    RecipeError
-        As for :func:`expand_copies`, and if the recipe has a table of weights besides.
-    """
+    """Words and what is mixed in, each once; that is as large as a middling word's box."""
     if recipe.weights is not None:
         raise RecipeError(
             "weights",
@@ -79,13 +73,6 @@ def column_values(read: WordsRead, job: Job, column: str) -> FloatArray | None:
     """``(n,)`` what a column says of the job's items; None if there is no such column.
 
     Numbers are what they say; other cells, dates too, are in the order of the alphabet.
-
-    Raises
-    ------
-    ReadError
-        If it is not plain how its numbers are written.
-    RecipeError
-        If an item has nothing there.
     """
     pairs = zip(read.items, read.words, strict=True)
     cells = {item: word.columns.get(column, "").strip() for item, word in pairs}

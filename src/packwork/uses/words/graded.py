@@ -92,13 +92,7 @@ class Places:
 
 
 def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
-    """Places of words, and of what is mixed in, the heaviest first.
-
-    Raises
-    ------
-    RecipeError
-        If something is asked that this cannot heed, or not even one word finds a place.
-    """
+    """Places of words, and of what is mixed in, the heaviest first."""
     _check(job)
     words = _Ranked.of(job)
     tried = list[tuple[float, Graded]]()

@@ -44,11 +44,6 @@ def words_recipe(
     source
         As :class:`WordOptions` has it; anything with ``items()`` is a table of weights.
 
-    Raises
-    ------
-    RecipeError
-        Naming the option, what was met and what would do.
-
     Examples
     --------
     >>> recipe = words_recipe("heart", {"bear": 2, "fox": 1}, count=1, palette="yellow")
@@ -108,11 +103,6 @@ def words_colours(
     """Colours that can be read on the background; a picture is one word by word, later.
 
     Those of the values of a column may be given by name.
-
-    Raises
-    ------
-    RecipeError
-        If the palette is unknown.
 
     Examples
     --------

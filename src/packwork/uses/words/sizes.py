@@ -56,13 +56,7 @@ class Letters:
 
     @classmethod
     def of(cls, asked: WordOptions, container: Container, sizes: Sizes) -> Letters:
-        """Bounds that words are asked to keep in a container on its canvas.
-
-        Raises
-        ------
-        RecipeError
-            If one is no length, they cross, or sizes are neither shared nor graded.
-        """
+        """Bounds that words are asked to keep in a container on its canvas."""
         found: dict[str, float | None] = {}
         for key in ("smallest", "largest"):
             length = getattr(asked, key)
@@ -165,11 +159,6 @@ def heaviest(
         ``(n,)`` what the letters of each would measure.
     smallest, unit
         What was asked.
-
-    Raises
-    ------
-    RecipeError
-        If there is not even one.
     """
     if count == 0:
         raise RecipeError(
