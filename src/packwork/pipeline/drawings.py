@@ -16,7 +16,7 @@ from pydantic import ValidationError
 
 from packwork.errors import PackworkError
 from packwork.phrasing import enumerated
-from packwork.pipeline.registration import is_alike
+from packwork.pipeline.registration import SAME_AREA, is_alike
 from packwork.readers.items import read_items
 from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.photos import read_photos
@@ -27,13 +27,6 @@ from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import representative_colour
 from packwork.writers.recolour_drawings import in_palette, shaded
-
-SAME_AREA = 1e-3
-"""Share by which the area of a drawing may differ from that of its shape. Larger takes another
-drawing for it, smaller refuses what was read a little otherwise. Chosen."""
-
-MOST_NAMED = 3
-"""Items that a message names. Chosen."""
 
 
 def with_drawings(layout: Layout, folder: Path) -> tuple[Layout, tuple[str, ...]]:
@@ -76,14 +69,14 @@ _TOLD_BESIDE = (
 def _told_outside(sources: Iterable[str], folder: Path) -> tuple[str, ...]:
     """A sentence about files that lie neither here nor beside the layout."""
     outside = files_outside({"items": list(sources)}, [folder, Path.cwd()])
-    names = enumerated(outside, MOST_NAMED)
+    names = enumerated(outside)
     return (f"names drawings outside its folder, which are read: {names}",) if outside else ()
 
 
 def _told(missing: Sequence[str], count: int) -> tuple[str, ...]:
     if not missing:
         return ()
-    names = enumerated(list(dict.fromkeys(missing)), MOST_NAMED)
+    names = enumerated(list(dict.fromkeys(missing)))
     return (
         f"{len(missing)} of {count} items are plain shapes ({names}): the files of their drawings "
         "are not there, or are others now; give them with --items",

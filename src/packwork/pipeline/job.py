@@ -16,7 +16,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import PackworkError, RecipeError
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
-from packwork.pipeline.plan.copies import ItemRules, RuleSource
+from packwork.pipeline.plan.copies import ItemRules, RuleSource, kinds
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.vectors import ItemVectors
@@ -179,6 +179,8 @@ class Job:
     @cached_property
     def forces(self) -> Forces:
         """Forces on these items on this canvas."""
+        if not self.plan.forces:
+            return Forces([], [], kinds(self.items), self.container.side)
         return forces_of(self.plan.forces, self.items, self.weights, self.container)
 
     @property

@@ -87,6 +87,10 @@ ALIKE = 2 * FLATTENING
 item's own: curves of a drawing are followed more finely there. Larger takes a shape for another
 one's. Derived."""
 
+SAME_AREA = 1e-3
+"""Share by which the area of a drawing may differ from that of its shape in a file. Larger takes
+another drawing of that name for it, smaller refuses what was read a little otherwise. Chosen."""
+
 ROUND = 1e-6
 """Mean squared lever, of an outline of area 1, below which it has no turn to speak of: a disc.
 Chosen."""

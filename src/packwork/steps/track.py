@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.pipeline.job import Job
 from packwork.pipeline.recorder import Recorder
-from packwork.pipeline.registration import match_items, new_items
+from packwork.pipeline.registration import SAME_AREA, match_items, new_items
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.scene.container import brought_over
@@ -19,10 +19,6 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.track import Leaving, grown_in
 from packwork.steps.warm_start import as_it_was
-
-SAME_FORM = 1e-3
-"""Share of an item's area by which its drawing may differ and still be taken for it. Larger
-takes another drawing of the same name, smaller none where digits of a file are few. Chosen."""
 
 
 def left_behind(job: Job, placed: IntArray) -> Leaving | None:
@@ -49,7 +45,7 @@ def left_behind(job: Job, placed: IntArray) -> Leaving | None:
 def _drawn(gone: Item, drawings: Mapping[str, Item]) -> Item:
     """An item of a layout file with the drawing of its name, if that is of its form."""
     drawing = drawings.get(gone.name)
-    if drawing is None or abs(drawing.outline.area / gone.outline.area - 1) > SAME_FORM:
+    if drawing is None or abs(drawing.outline.area / gone.outline.area - 1) > SAME_AREA:
         return gone
     if isinstance(gone.art, FlatArt) and has_one_colour(drawing.art):
         drawing = recoloured(drawing, gone.art.fill)
