@@ -26,6 +26,7 @@ from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import EM_PX
 from packwork.readers.words.table import named_column, read_word_steps
 from packwork.recipe.refusals import validated
+from packwork.sources import check_no_input
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
 from packwork.timeline.step import chart_steps, step_files, word_steps
