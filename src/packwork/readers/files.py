@@ -12,14 +12,7 @@ from packwork.sources import MEMORY, here_of, note_input, stored
 
 
 def read_bytes(path: str | Path, most: int) -> bytes:
-    """Content of a file of at most ``most`` bytes.
-
-    Examples
-    --------
-    >>> read_bytes("no such file.svg", 10)
-    Traceback (most recent call last):
-    packwork.errors.ReadError: no such file.svg: there is no such file
-    """
+    """Content of a file of at most ``most`` bytes."""
     value = stored(str(path))
     data = value if isinstance(value, bytes) else _read_file(path, most)
     if len(data) > most:
@@ -49,12 +42,6 @@ def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
     """Lines of a UTF-8 file of at most ``most`` bytes that this program goes on writing.
 
     What is no UTF-8 is replaced by a mark of that; ``longest`` bounds the characters of a line.
-
-    Examples
-    --------
-    >>> next(read_lines("no such file.log", 10, 10))
-    Traceback (most recent call last):
-    packwork.errors.ReadError: no such file.log: there is no such file
     """
     with _telling(path):
         _check_file(path, most)
@@ -92,14 +79,7 @@ def _telling(path: str | Path) -> Iterator[None]:
 
 
 def read_text(path: str | Path, most: int) -> str:
-    """Text of a UTF-8 file of at most ``most`` bytes, with or without a byte order mark.
-
-    Examples
-    --------
-    >>> read_text("no such file.csv", 10)
-    Traceback (most recent call last):
-    packwork.errors.ReadError: no such file.csv: there is no such file
-    """
+    """Text of a UTF-8 file of at most ``most`` bytes, with or without a byte order mark."""
     try:
         return read_bytes(path, most).decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -38,11 +38,6 @@ class ReadOptions:
     """Choices that a file cannot state itself, as the options of those names.
 
     None leaves ``trim`` and ``keep_page`` to what the drawing looks like.
-
-    Examples
-    --------
-    >>> ReadOptions().trim is None
-    True
     """
 
     trim: bool | None = None

@@ -143,21 +143,7 @@ def read_photo(
     threshold: float = HALF,
     shape: Region | None = None,
 ) -> Item:
-    """Item of a photo, its units the file's pixels; ``number`` tells apart files that come twice.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> from PIL import Image
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "sea.jpg")
-    ...     Image.new("RGB", (300, 200), "teal").save(path)
-    ...     item = read_photo(str(path), PhotoOptions(sources=path, border="5%"))
-    ...     print_ = item.art.original.printed(0.1)
-    >>> item.name, item.outline.bounds
-    ('sea', (-160.0, -110.0, 160.0, 110.0))
-    """
+    """Item of a photo, its units the file's pixels; ``number`` is its place in the run."""
     data = read_bytes(file, MAX_PICTURE_BYTES)
     with reading_file(file):
         negative = inspected(data)
@@ -221,12 +207,6 @@ def read_photos(
     A file named by itself must be usable; one among many of a folder or a pattern is left out
     with a notice if it is not, and refused if ``strict``. Of those named by themselves a sample
     takes all, unless these alone are too many.
-
-    Examples
-    --------
-    >>> read_photos(PhotoOptions(sources="no such file.jpg"))
-    Traceback (most recent call last):
-    packwork.errors.ReadError: no such file.jpg: there is no such file
     """
     unread: list[ReadError] = []
     named = [one for source in options.sources for one in _files(source, unread)]

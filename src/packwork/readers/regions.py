@@ -106,12 +106,7 @@ def large_parts(whole: Region, smallest: float) -> list[Polygon]:
 
 
 def tell_if_full(share: float, why: str) -> None:
-    """Notice that a container is nearly all of its page, which is seldom meant, and why it is so.
-
-    Examples
-    --------
-    >>> tell_if_full(0.5, "never told")
-    """
+    """Notice that a container is nearly all of its page, which is seldom meant, and why."""
     if share > NEARLY_ALL:
         notice(f"fills {min(share, 1.0):.1%} of its page, for {why}")
 

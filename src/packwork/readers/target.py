@@ -59,7 +59,10 @@ def read_target(
     scale = LONGEST_PX / container.side
     shape = (max(round(container.height * scale), 1), max(round(container.width * scale), 1))
     box = np.array(container.outline.bounds) * scale
-    target = TargetPicture(_laid(_on_white(_seen(pixels)), box, shape), scale)
+    # The part of a cut-out that is solid; any other picture whole.
+    rows, columns = np.nonzero(pixels[..., 3] >= SOLID)
+    seen = pixels[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+    target = TargetPicture(_laid(_on_white(seen), box, shape), scale)
     if target.spread < PLAIN:
         raise ReadError(source, "has one colour only; a layout cannot show it: use --palette")
     return target
@@ -81,12 +84,6 @@ def _painted(data: bytes, source: str, reading: ReadOptions | None) -> bytes:
         return drawn_png(document)
     except ValueError as error:
         raise ReadError(source, f"cannot be drawn: {error}") from None
-
-
-def _seen(pixels: Pixels) -> Pixels:
-    """The part of a cut-out that is solid; any other picture whole."""
-    rows, columns = np.nonzero(pixels[..., 3] >= SOLID)
-    return pixels[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
 
 
 def _on_white(pixels: Pixels) -> FloatArray:

@@ -61,20 +61,10 @@ class Vectors:
 
 
 def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
-    r"""Vectors of a file: an array of NumPy, or a table whose columns are their numbers.
+    """Vectors of a file: an array of NumPy, or a table whose columns are their numbers.
 
     A table's first column may hold names, and one more texts: of what group each is. A first line
     of numbers alone is a row too.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "vectors.csv")
-    ...     _ = path.write_text("name,a,b\nbear,1,0\nfox,0,2\n")
-    ...     found = read_vectors(str(path))
-    >>> found.names, found.rows.tolist()
-    (('bear', 'fox'), [[1.0, 0.0], [0.0, 2.0]])
     """
     found = _read(file, asked)
     broken = np.argwhere(~np.isfinite(found.rows))

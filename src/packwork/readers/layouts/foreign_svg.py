@@ -33,13 +33,7 @@ LOST_CONTAINER = "has no group named container any more: the page is taken for i
 
 
 def tag(element: ET.Element) -> str:
-    """Name of an element without its namespace.
-
-    Examples
-    --------
-    >>> tag(ET.Element("{http://www.w3.org/2000/svg}path"))
-    'path'
-    """
+    """Name of an element without its namespace."""
     return str(element.tag).rpartition("}")[2]
 
 

@@ -48,17 +48,7 @@ def is_session(path: str | Path) -> bool:
 
 
 def holds_layout(path: str | Path) -> bool:
-    """Whether an SVG is one of ours, a layout, and no drawing to be packed.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder, "a.svg")
-    ...     _ = file.write_text('<svg><g id="container"/><g id="items"/></svg>')
-    ...     holds_layout(file)
-    True
-    """
+    """Whether an SVG is one of ours, a layout, and no drawing to be packed."""
     try:
         root = parse_xml(read_bytes(path, MAX_BYTES))
     except UnfitError:
@@ -72,12 +62,6 @@ def read_written(path: str | Path) -> Layout:
     A session's file is read as the session stands. GeoJSON and DXF hold the outlines themselves. In
     an SVG each drawing is read anew, as people will see it, and followed to
     ``svg.MEASURED_FLATTENING`` of the canvas.
-
-    Examples
-    --------
-    >>> read_written("layout.png")
-    Traceback (most recent call last):
-    packwork.errors.ReadError: layout.png: has no outlines to measure; give a .geojson, ...
     """
     if not isinstance(path, str | os.PathLike):
         raise RecipeError("layout", f"is {type(path).__name__}; give a layout or its file")

@@ -130,6 +130,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         else examined(root, data, drawn, sources, container, (width, height))
     )
     is_in_full = all(source is one for source, one in zip(sources, drawn, strict=True))
+    words = number_of(arts.texts, "word that is text there is", "words that are text there are")
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -147,7 +148,10 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
             "recipe": limits_of(said),
             "drawing": drawing_of(root, is_in_full and arts.texts < len(drawn)),
             "changed": changed,
-            "not_kept": [*_not_kept(root, items), *_turned_to_curves(arts.texts)],
+            "not_kept": [
+                *_not_kept(root, items),
+                *([f"{words} curves from now on"] if arts.texts else []),
+            ],
         },
     )
     known = None if walls is None else walls.get("data-name")
@@ -272,11 +276,6 @@ def _outline_of(
     place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
     weight = sound_weight(drawn.get("data-weight", "1"))
     return FoundItem(name, Item(name, name, outline, outline, FlatArt()), weight, place)
-
-
-def _turned_to_curves(count: int) -> list[str]:
-    many = number_of(count, "word that is text there is", "words that are text there are")
-    return [f"{many} curves from now on"] if count else []
 
 
 def _not_kept(root: ET.Element, items: ET.Element | None) -> list[str]:

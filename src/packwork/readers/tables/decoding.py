@@ -177,14 +177,7 @@ gigabyte. Derived."""
 
 
 def read_json(file: str, asked: TableFormat) -> Any:
-    """Value of a JSON file.
-
-    Examples
-    --------
-    >>> read_json("no such file.json", TableFormat())
-    Traceback (most recent call last):
-    packwork.errors.ReadError: no such file.json: there is no such file
-    """
+    """Value of a JSON file."""
     text = decoded(read_bytes(file, MAX_JSON_BYTES), file, asked.encoding).text
     try:
         return json.loads(text)

@@ -65,19 +65,9 @@ class Pairs:
 
 
 def read_pairs(file: str, asked: TableFormat, most_bytes: int = MAX_TABLE_BYTES) -> Pairs:
-    r"""Names and numbers of a file: lines of cells, or JSON.
+    """Names and numbers of a file: lines of cells, or JSON.
 
     Its first line may name the columns, and then there may be more of them.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "t.csv")
-    ...     _ = path.write_text("Tier;Zahl\nBär;1.200,5\n", encoding="cp1252")
-    ...     read = read_pairs(str(path), TableFormat())
-    >>> [(pair.name, pair.number, pair.where) for pair in read.rows]
-    [('Bär', 1200.5, 'line 2')]
     """
     ending = Path(file).suffix.lower()
     if ending == ".json":
@@ -175,18 +165,9 @@ _LOG = logging.getLogger("packwork")
 
 
 def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str, float]:
-    r"""Weights by item name, in the file's order.
+    """Weights by item name, in the file's order.
 
     The file has two columns, ``name,weight``; a line that names them may stand on top.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = Path(folder, "weights.csv")
-    ...     _ = file.write_text("name,weight\nbear,2\nfox,0.5\n")
-    ...     read_weights(file)
-    {'bear': 2.0, 'fox': 0.5}
     """
     table = read_pairs(str(path), asked or TableFormat())
     weights: dict[str, float] = {}

@@ -29,23 +29,10 @@ class TableRead:
 
 
 def read_word_table(file: str, asked: TableFormat) -> TableRead:
-    r"""Words of lines ``word,weight``, or of JSON as ``{"bear": 2}``.
+    """Words of lines ``word,weight``, or of JSON as ``{"bear": 2}``.
 
     Further columns go under the names of the first line. Rows without a word, or without a
     positive number, are left out and named.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "t.csv")
-    ...     _ = path.write_text("word,weight,kind\nbear,2,animal\nfox,,\n")
-    ...     read = read_word_table(str(path), TableFormat())
-    >>> read.words
-    (Word(text='bear', weight=2.0, columns={'kind': 'animal'}),)
-    >>> read.notices
-    ('left out 1 row of 2 without a weight: fox (line 3)',)
     """
     return words_of(read_pairs(file, asked, MAX_BYTES), file)
 
@@ -127,20 +114,10 @@ def named_column(said: str) -> tuple[str, str]:
 
 
 def read_word_steps(file: str, column: str, asked: TableFormat | None = None) -> WordSteps:
-    r"""Words of a table, by its column of steps.
+    """Words of a table, by its column of steps.
 
     A word that a step has twice has both weights. Steps that are all numbers, or all days such as
     2026-11-23, come in their order, others in that of the table.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "t.csv")
-    ...     _ = path.write_text("year,word,count\n2001,bear,2\n1999,fox,1\n")
-    ...     read_word_steps(str(path), "year").weights
-    {'1999': {'fox': 1.0}, '2001': {'bear': 2.0}}
     """
     return _steps(read_word_table(file, asked or TableFormat()), file, column)
 
