@@ -328,7 +328,6 @@ def _check_points(points_px: Tensor) -> None:
 
 @cache
 def _coverage_function() -> Any:
-    """Class of the autograd function, made when PyTorch is first needed."""
     torch = found_torch()
     function: Any = torch.autograd.Function
 
@@ -357,7 +356,6 @@ def _coverage_function() -> Any:
 
 @cache
 def _colour_function() -> Any:
-    """Class of the autograd function of colours, made when PyTorch is first needed."""
     torch = found_torch()
     function: Any = torch.autograd.Function
 

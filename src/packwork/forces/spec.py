@@ -65,10 +65,7 @@ class ForceSpec:
 def parse_force(text: str) -> ForceSpec:
     """Force of its text.
 
-    Raises
-    ------
-    RecipeError
-        About ``force``: what is wrong, what was met, what would do.
+    Raises ``RecipeError`` about ``force``: what is wrong, what was met, what would do.
 
     Examples
     --------
@@ -196,10 +193,7 @@ def _key(key: str, value: str) -> dict[str, Any]:
 def checked_forces(value: object) -> object:
     """Forces as a tuple of texts, if each can be parsed; one text is one force, None is none.
 
-    Raises
-    ------
-    RecipeError
-        As for :func:`parse_force`.
+    Raises ``RecipeError`` as for :func:`parse_force`.
 
     Examples
     --------

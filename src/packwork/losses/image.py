@@ -172,7 +172,6 @@ def evenness(density: Image, container: Image, items: int = TYPICAL_ITEMS) -> Te
 
 
 def _odd(size: float) -> int:
-    """Nearest odd number, at least 1."""
     return max(1, 2 * round((size - 1) / 2) + 1)
 
 

@@ -36,10 +36,7 @@ POSE_LOSSES: Mapping[str, PoseLoss] = MappingProxyType({"area-shares": area_shar
 def find_loss(name: str | ImageLoss) -> ImageLoss:
     """Image loss by its registered name, by ``module:function``, or given as a function.
 
-    Raises
-    ------
-    RecipeError
-        If there is no such loss, module or function.
+    Raises ``RecipeError`` if there is no such loss, module or function.
 
     Examples
     --------
@@ -103,10 +100,7 @@ def by_name(weights: Mapping[Any, float]) -> dict[str, float]:
 def find_pose_loss(name: str | ImageLoss | PoseLoss) -> PoseLoss | None:
     """Loss of the poses, by its name or as a function of one argument; None of image losses.
 
-    Raises
-    ------
-    RecipeError
-        As for :func:`find_loss`.
+    Raises ``RecipeError`` as for :func:`find_loss`.
 
     Examples
     --------

@@ -48,10 +48,7 @@ class ImageLoss(Protocol):
 def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
     """Term of a loss that a user may have written, checked, of images ``(rows, columns)``.
 
-    Raises
-    ------
-    RecipeError
-        If the loss fails, returns no Term, or one of another size or not finite.
+    Raises ``RecipeError`` if the loss fails, returns no Term, or one of another size or not finite.
 
     Examples
     --------
@@ -67,10 +64,7 @@ def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
 def checked_call(loss: Callable[..., Any], images: tuple[Image, ...]) -> Term:
     """Term of a loss of these images, checked; the density is the first, colours are the second.
 
-    Raises
-    ------
-    RecipeError
-        As for :func:`checked_term`.
+    Raises ``RecipeError`` as for :func:`checked_term`.
 
     Examples
     --------
@@ -149,10 +143,8 @@ class PoseLoss(Protocol):
 def checked_pose_term(loss: PoseLoss, placed: PosedItems) -> PoseTerm:
     """Term of a loss of poses that a user may have written, checked.
 
-    Raises
-    ------
-    RecipeError
-        If the loss fails, returns no PoseTerm, or one of another size or not finite.
+    Raises ``RecipeError`` if the loss fails, returns no PoseTerm, or one of another size or not
+    finite.
 
     Examples
     --------
@@ -234,9 +226,6 @@ class SeenInColour:
     def __call__(self, density: Image, colour: Image, container: Image) -> Term:
         """Checked term of the loss, of images ``(rows, columns)``.
 
-        Raises
-        ------
-        RecipeError
-            If the loss fails, or returns no such term.
+        Raises ``RecipeError`` if the loss fails, or returns no such term.
         """
         return checked_call(self.loss, (density, colour, container))

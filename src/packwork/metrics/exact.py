@@ -77,10 +77,7 @@ def exact_metrics(outlines: Sequence[Outline], container: Outline) -> ExactMetri
     Outlines whose rings cross are repaired first. Areas are good to rounding, about
     1e-12 of the container's area.
 
-    Raises
-    ------
-    ShapeError
-        If the container has no area.
+    Raises ``ShapeError`` if the container has no area.
 
     Examples
     --------
@@ -110,10 +107,7 @@ def exact_metrics(outlines: Sequence[Outline], container: Outline) -> ExactMetri
 def exact_coverage(outlines: Sequence[Outline], container: Outline) -> float:
     """Share of the container that outlines cover, such as the ink of all items.
 
-    Raises
-    ------
-    ShapeError
-        If the container has no area.
+    Raises ``ShapeError`` if the container has no area.
 
     Examples
     --------
@@ -136,7 +130,6 @@ def _container_region(container: Outline) -> Region:
 
 
 def _regions(outlines: Sequence[Outline]) -> _Regions:
-    """Valid regions."""
     regions = np.empty(len(outlines), dtype=object)
     regions[:] = [valid(outline.region) for outline in outlines]
     return regions
@@ -169,7 +162,6 @@ def _merged(regions: _Regions, pairs: IntArray) -> _Regions:
 
 
 def _covered_and_outside(merged: _Regions, whole: Region) -> tuple[float, float]:
-    """Area of the merged regions inside and outside the container."""
     within = shapely.covers(whole, merged)
     crossing = merged[~within]
     # Both are computed, not one taken off the other: a sliver would drown in rounding.

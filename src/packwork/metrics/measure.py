@@ -121,7 +121,6 @@ def _by_pixels(layout: Layout) -> tuple[PixelMetrics, ShapeMetrics]:
 
 
 def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
-    """Share of the container that is really drawn."""
     if all(item.ink is item.outline for item in layout.items):
         return exact.coverage
     container = layout.container.outline
@@ -139,7 +138,6 @@ def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
 
 
 def _area_inside(item: Item) -> float | None:
-    """Area of an item's ink, if that lies in its outline."""
     if item.ink is item.outline:
         return item.outline.area
     ink, outline = item.ink.region, item.outline.region

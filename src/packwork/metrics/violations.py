@@ -133,7 +133,6 @@ class ViolationSet:
             self._look(np.array(changed))
 
     def _look(self, changed: IntArray) -> None:
-        """Note what changed items are in conflict with."""
         numbers = np.array(list(self._regions))
         everything = _array(self._regions.values())
         regions = _array(self._regions[int(k)] for k in changed)

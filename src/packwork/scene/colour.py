@@ -29,10 +29,7 @@ def css_colour(text: str) -> Colour:
 
     Channels out of range are clamped, as CSS says.
 
-    Raises
-    ------
-    ValueError
-        If the text is none of these.
+    Raises ``ValueError`` if the text is none of these.
 
     Examples
     --------
@@ -58,10 +55,7 @@ def css_colour(text: str) -> Colour:
 def parse_colour(key: str, text: str) -> Colour:
     """Colour that an option names, as :func:`css_colour` reads it.
 
-    Raises
-    ------
-    RecipeError
-        About the option ``key``, if the text is no colour.
+    Raises ``RecipeError`` about the option ``key``, if the text is no colour.
 
     Examples
     --------

@@ -202,7 +202,6 @@ def shade(colour: str, light: float) -> FloatArray:
 
 
 def _linear(colour: str) -> FloatArray:
-    """Red, green and blue as light."""
     return light_of(np.array(css_colour(colour)[:3]) / 255)
 
 

@@ -61,10 +61,7 @@ class Label:
     ``link``: where a click leads: http, https, mailto, or relative to the file.
     ``title``: what is shown when a pointer rests on it.
 
-    Raises
-    ------
-    RecipeError
-        Under the field's name, if a text is too long or a link leads elsewhere.
+    Raises ``RecipeError`` under the field's name, if a text is too long or a link leads elsewhere.
 
     Examples
     --------

@@ -57,10 +57,7 @@ _COMMA = re.compile(r",(?![^(]*\))")
 def palette_colours(value: object) -> tuple[str, ...]:
     """Colours of a named palette, of ``red,#457b9d``, a list or a dict, each as ``#rrggbb``.
 
-    Raises
-    ------
-    ValueError
-        If there is no such palette or colour.
+    Raises ``ValueError`` if there is no such palette or colour.
 
     Examples
     --------
@@ -88,10 +85,7 @@ def _parts_of(text: str) -> list[str]:
 def colours_by_name(value: object) -> dict[str, str] | None:
     """Colours of ``bear=red,fox=#457b9d`` or a dict of them; None if they are given to no names.
 
-    Raises
-    ------
-    ValueError
-        If a name has no colour, or one that there is not.
+    Raises ``ValueError`` if a name has no colour, or one that there is not.
 
     Examples
     --------
@@ -117,10 +111,7 @@ def own_colours(palette: object) -> dict[str, str]:
 def check_named(palette: Mapping[str, str], column: str, values: Iterable[str]) -> None:
     """Tell of names that have a colour and that no value of a column has.
 
-    Raises
-    ------
-    RecipeError
-        If none has.
+    Raises ``RecipeError`` if none has.
     """
     known = {value.casefold(): value for value in values}
     vain = [name for name in palette if name.casefold() not in known]

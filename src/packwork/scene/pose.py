@@ -13,7 +13,6 @@ from packwork.geometry import affine
 
 
 def _column(values: npt.ArrayLike, count: int, name: str) -> FloatArray:
-    """As many numbers as there are items."""
     numbers = np.asarray(values, dtype=np.float64)
     if numbers.shape == (count,):
         return numbers

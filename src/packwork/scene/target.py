@@ -18,10 +18,7 @@ class TargetPicture:
     ``light``: ``(rows, columns, 3)`` red, green and blue as light, 0..1.
     ``px_per_cu``: pixels of it per canvas unit.
 
-    Raises
-    ------
-    ShapeError
-        If it is of another form.
+    Raises ``ShapeError`` if it is of another form.
 
     Examples
     --------

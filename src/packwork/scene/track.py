@@ -169,10 +169,7 @@ class Leaving:
     ``poses``: where they were, as large as they ever are: as many as items.
     ``track``: their way, in place of that: as of words that come and go within a series.
 
-    Raises
-    ------
-    ShapeError
-        If there are not as many poses as items.
+    Raises ``ShapeError`` if there are not as many poses as items.
 
     Examples
     --------

@@ -144,7 +144,6 @@ class FreeRoom:
         return None
 
     def _by_pair(self, radius: float, item: int, heights: HeightOf) -> FloatArray | None:
-        """The lowest place at which two discs are touched."""
         rings = self._discs + np.array([0.0, 0.0, radius + self._gap])
         points = _crossings(rings[self._pairs[:, 0]], rings[self._pairs[:, 1]])
         if len(points) == 0:

@@ -206,7 +206,6 @@ class _Pile:
             self.settle(room, self.first_trust)
 
     def _gather_round(self, arrangement: Arrangement) -> bool:
-        """Put all into a small circle, if it is wanted and there is room for it."""
         if self._centre is None:
             return False
         rng = np.random.default_rng(self._options.seed)
@@ -362,7 +361,6 @@ class _Pile:
 
 
 def _moved(poses: Poses, items: IntArray, places: FloatArray) -> Poses:
-    """Poses of which some have gone to places of x, y and turn."""
     x, y, turn, _ = places.T
     some = poses.subset(items)
     return poses.with_some(items, replace(some, x=x, y=y, angle=some.angle + turn))

@@ -98,7 +98,6 @@ def pour(
 
 
 def _send_away(settling: Settling) -> None:
-    """Put all items where they touch nothing."""
     arrangement = settling.arrangement
     left, top, right, bottom = arrangement.container.bounds
     places = arrangement.places.copy()

@@ -164,7 +164,6 @@ class Settling:
         return before - self._cost(now, self.active)
 
     def _lows(self, now: Pull) -> FloatArray:
-        """Height of each active item, by its area."""
         return np.asarray(now.parts / self.areas[self.active])
 
     def _farthest(self) -> float:

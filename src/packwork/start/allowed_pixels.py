@@ -67,7 +67,6 @@ def around(
 
 
 def _nearest(mask: BoolArray, away: FloatArray) -> BoolArray:
-    """The pixels of a mask that are least far away."""
     least = np.where(mask, away, np.inf).min(initial=np.inf)
     return np.asarray(mask & (away <= least))
 

@@ -158,7 +158,6 @@ def _places(
     rng: np.random.Generator,
     own: AllowedPixels | None = None,
 ) -> tuple[FloatArray, FloatArray, Placing]:
-    """Places for discs, and how they were found."""
     method: Placing = "distance-field"
     if options.method in {"medial-axis", "scatter"}:
         method = options.method

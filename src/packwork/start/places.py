@@ -109,8 +109,7 @@ def distance_field(
 
 
 AXIS_ELBOW_ROOM = 1.5
-"""As for the distance field; closer, because items on a line have two neighbours only.
-Tried."""
+"""As for the distance field; closer, as items on a line have two neighbours only. Tried."""
 
 
 def medial_axis(

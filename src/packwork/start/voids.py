@@ -112,7 +112,6 @@ def copies_for_voids(
 
 
 def _free_pixels(container: Container, placed: Sequence[Outline], px_per_cu: float) -> BoolArray:
-    """Pixels whose centre is in the container and in no item."""
     shape = image_shape(container.width, container.height, RESOLUTION)
     region, starts = joined([container.outline])
     free = centre_count(region * px_per_cu, starts, shape) > 0

@@ -72,10 +72,7 @@ def solved(
 ) -> Solved:
     """Layouts of all steps, at the largest scale found at which each is exact.
 
-    Raises
-    ------
-    PackworkError
-        If there is none, or it was stopped.
+    Raises ``PackworkError`` if there is none, or it was stopped.
     """
     first = int(np.argmax([step.area for step in steps])) if order == "fullest" else 0
     with threads.using(steps[0].job.recipe.threads):
@@ -91,7 +88,6 @@ def solved(
 
 
 def _alone(step: SeriesStep, stop: Stop) -> tuple[Poses, float]:
-    """Poses of a step by itself, and its scale."""
     run = pipeline.run(step.job, NOBODY, stop)
     _check(stop)
     if not run.is_as_asked:

@@ -68,12 +68,9 @@ def word_steps(
 
     ``weights``: by step, then by word.
 
-    Raises
-    ------
-    RecipeError
-        If an option has no meaning, in a series or at all.
-    ReadError
-        If the container or a font cannot be read, or a step has no word that could be set.
+    Raises ``RecipeError`` if an option has no meaning, in a series or at all.
+    Raises ``ReadError`` if the container or a font cannot be read, or a step has no word that could
+    be set.
 
     Examples
     --------
@@ -101,12 +98,8 @@ def chart_steps(container: str, data: object, column: str, **options: Any) -> li
 
     ``column``: of steps; with the option ``by_step`` so many of its numbers go together.
 
-    Raises
-    ------
-    RecipeError
-        If an option has no meaning, in a series or at all.
-    ReadError
-        If the container, the table or a mark cannot be read.
+    Raises ``RecipeError`` if an option has no meaning, in a series or at all.
+    Raises ``ReadError`` if the container, the table or a mark cannot be read.
 
     Examples
     --------
@@ -128,10 +121,7 @@ def chart_steps(container: str, data: object, column: str, **options: Any) -> li
 def check_idle(options: Mapping[str, Any]) -> None:
     """Refuse options that a series cannot keep.
 
-    Raises
-    ------
-    RecipeError
-        Naming the first.
+    Raises ``RecipeError`` naming the first.
     """
     for key, idle in IDLE.items():
         if options.get(key) and options[key] not in idle:
@@ -185,12 +175,9 @@ def step_files(templates: Sequence[str], column: str, labels: Sequence[str]) -> 
     ``templates``: names with a place for the column, as ``out/{year}.svg``; ``{row}`` is a step's
     number.
 
-    Raises
-    ------
-    RecipeError
-        If a name lacks the column, or a step cannot be part of one, or two steps have one file.
-    WriteError
-        If the ending of a file is none of ours.
+    Raises ``RecipeError`` if a name lacks the column, or a step cannot be part of one, or two steps
+    have one file.
+    Raises ``WriteError`` if the ending of a file is none of ours.
     """
     for template in templates:
         if not is_session(template):

@@ -71,9 +71,7 @@ AFTER_ROUGH = Grain(60, 600, 600, 6, 300, 0.5, 1.02, 1.01)
 """Of the same, once a size is known that fits on the coarser image."""
 
 UPRIGHT = Grain(17.5, 600, 1_000, 3, 96, 0.5, 1.06, 1.01)
-"""Of so many items of one angle, few pixels each, that the coarser image says too little.
-
-With 600 px at most 3,000 words left .30 of ink in place of .34."""
+"""Of so many items of one angle, few pixels each, that the coarser image says too little."""
 
 MOST_ROUGH = 144
 """How many items begin on the coarser image. Larger begins many with a size far off. Chosen."""
@@ -245,7 +243,6 @@ class _Fitting:
         return tight
 
     def _put_all(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
-        """Poses of all items at one size; None if not all found a place."""
         scales = np.where(self._is_sized, self._scales, self._scales * factor)
         stencils = self._stencils(scales, stop)
         if stencils is None:
@@ -311,7 +308,6 @@ class _Fitting:
     def _best(
         self, occupancy: Occupancy, item: int, stencils: Sequence[Stencil], is_loose: bool
     ) -> tuple[int, int, int] | None:
-        """Best stencil of an item, with its row and column."""
         is_drawn = self._near is not None or len(self._fields) > 0
         is_everywhere = is_loose or self._homes[item] is not None or is_drawn
         worth = self._worth(item)

@@ -231,7 +231,6 @@ class GreedyBoard:
         return stencil_of(mask, (origin[0] + down, origin[1] + across), REACH)
 
     def _is_larger(self, outline_px: Outline) -> bool:
-        """Whether an outline is higher or wider than the image."""
         left, top, right, bottom = outline_px.bounds
         height, width = self._occupancy.shape
         return bool(right - left > width or bottom - top > height)
@@ -252,7 +251,6 @@ class GreedyBoard:
         return self._inward, inward if is_drawn else 0.0, is_drawn
 
     def _take(self, mask: BoolArray, row: int, column: int) -> None:
-        """Take the pixels of an item and of its half of the margin."""
         self._occupancy.take(mask, row, column)
         self._bareness.cover(mask, row, column)
         self._left -= int(mask.sum())
