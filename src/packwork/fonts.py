@@ -66,11 +66,8 @@ _OTHER_GENERIC = frozenset(
 class FontChoice:
     """Fonts that the letters of a document are set in.
 
-    Parameters
-    ----------
-    serif, sans_serif, monospace
-        Families that the generic names stand for; ``serif`` also stands in for a family
-        that is not there and like no other.
+    Families stand for the generic names; ``serif`` also stands in for a family that is not there
+    and like no other.
     """
 
     files: tuple[str, ...]
@@ -82,10 +79,7 @@ class FontChoice:
 def fonts_of(document: str) -> FontChoice | None:
     """Fonts for whatever text there is in an SVG document; None if there is none.
 
-    Parameters
-    ----------
-    document
-        One of ours or a cleaned one: families stand in attributes, no text in another.
+    It is one of ours or a cleaned one: families stand in attributes, no text in another.
 
     >>> fonts_of("<svg><text font-family='Inter Display'>a</text></svg>").files[-1]
     '...InterDisplay-Black.otf'
@@ -101,18 +95,10 @@ def fonts_of(document: str) -> FontChoice | None:
 
 
 def fonts_for(wishes: Iterable[str], letters: str) -> FontChoice:
-    """Fonts for lists of families as ``font-family`` writes them.
+    """Fonts for lists of families as ``font-family`` writes them, one for each style of a document.
 
-    Of each list the first family that is installed; where nothing is, the bundled font. If
-    there are letters that few fonts have, all fonts, for the renderer to choose from.
-
-    Parameters
-    ----------
-    wishes
-        One list of families for each style of the document.
-
-    >>> fonts_for(["Inter Display"], "abc").files[-1]
-    '...InterDisplay-Black.otf'
+    Of each list the first family that is installed; where nothing is, the bundled font. If there
+    are letters that few fonts have, all fonts, for the renderer to choose from.
     """
     installed = installed_families()
     generic = {name: _first(names, installed) for name, names in _GENERIC.items()}
@@ -237,11 +223,7 @@ def _is_generic(name: str) -> bool:
 
 
 def bundled_file() -> str:
-    """Place of the bundled font.
-
-    >>> bundled_file()
-    '...InterDisplay-Black.otf'
-    """
+    """Place of the bundled font."""
     folder = resources.files("packwork.bundled").joinpath("fonts")
     return str(folder.joinpath("InterDisplay-Black.otf"))
 

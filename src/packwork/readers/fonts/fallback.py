@@ -130,11 +130,7 @@ def open_fonts(names: Sequence[str], weight: int = 700, language: str = "") -> F
 
 
 def is_font_file(name: str) -> bool:
-    """Whether a name is meant as that of a file, be it there or not.
-
-    >>> is_font_file("no such.ttf"), is_font_file("Inter Display")
-    (True, False)
-    """
+    """Whether a name is meant as that of a file, be it there or not."""
     return exists(name) or Path(name[-20:]).suffix.lower() in FONT_ENDINGS
 
 

@@ -87,11 +87,7 @@ def referenced_ids(element: ET.Element) -> Iterator[tuple[str, str]]:
 
 
 def paint_server(value: str) -> str | None:
-    """Id of the gradient or pattern that a paint names, None for a colour.
-
-    >>> paint_server("url(#a) red"), paint_server("red")
-    ('a', None)
-    """
+    """Id of the gradient or pattern that a paint names, None for a colour."""
     match = _URL.match(value)
     return None if match is None else match.group(1)
 
