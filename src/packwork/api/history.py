@@ -90,13 +90,7 @@ class History:
 
 
 class HistoryKeeper:
-    """Observer that keeps the losses of a run.
-
-    Parameters
-    ----------
-    every
-        Epochs between two moments that are kept.
-    """
+    """Observer that keeps the losses of a run, of each ``every``-th epoch."""
 
     def __init__(self, every: int) -> None:
         self.every = every
@@ -140,11 +134,6 @@ class HistoryKeeper:
 
 def keeper(history: bool | int) -> HistoryKeeper | None:
     """Keeper of a history, as it is asked for; None if it is not.
-
-    Raises
-    ------
-    RecipeError
-        If that is no number of epochs.
 
     Examples
     --------

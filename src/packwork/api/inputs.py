@@ -36,14 +36,7 @@ VECTORS = ("embeddings",)
 
 @contextmanager
 def handed_over(y_up: bool | None = None, columns: Columns | None = None) -> Iterator[Handed]:
-    """Names for what is handed over; readers find it by them inside the block.
-
-    Examples
-    --------
-    >>> with handed_over() as handed:
-    ...     handed.name_of(b"<svg/>", "items")
-    'memory:drawing.svg'
-    """
+    """Names for what is handed over; readers find it by them inside the block."""
     with memory_in_use() as memory:
         yield Handed(memory, y_up, columns)
 

@@ -19,14 +19,7 @@ OF_PLACES = ("metrics", "certified", "changed", "filling", "beside", "pile")
 
 
 class ReadOnly(dict[str, Any]):
-    """A dict that nobody changes, tables in it neither.
-
-    Examples
-    --------
-    >>> ReadOnly({"LC": 0.8, "exact": {}})["exact"].update(OO=0)
-    Traceback (most recent call last):
-    TypeError: a layout's numbers are read-only; dict(...) gives a copy to change
-    """
+    """A dict that nobody changes, tables in it neither."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         super().__init__(
@@ -55,15 +48,7 @@ class Manifest(ReadOnly):
 
 
 def manifest_of(values: Mapping[str, Any], parts: tuple[Any, ...]) -> Manifest:
-    """The manifest of a layout; without what was measured of one whose parts are others.
-
-    Examples
-    --------
-    >>> here, there = (Poses([1], [1]),), (Poses([2], [1]),)
-    >>> first = manifest_of({"seed": 1, "certified": True}, here)
-    >>> manifest_of(first, there), manifest_of(first, here)
-    ({'seed': 1}, {'seed': 1, 'certified': True})
-    """
+    """The manifest of a layout; without what was measured of one whose parts are others."""
     if not isinstance(values, Manifest):
         return Manifest(values, parts)
     if all(mine is one for mine, one in zip(values.parts, parts, strict=True)):
@@ -83,16 +68,7 @@ def frozen(array: FloatArray) -> FloatArray:
 def checked_poses(poses: Poses) -> Poses:
     """The poses themselves, if all of them can be drawn.
 
-    Raises
-    ------
-    ShapeError
-        If a number is none, or a scale or stretch is not positive.
-
-    Examples
-    --------
-    >>> checked_poses(Poses([1], [2], scale=-1))
-    Traceback (most recent call last):
-    packwork.errors.ShapeError: poses: scale must be finite and positive; that of item 0 is -1.0
+    A ShapeError if a number is none, or a scale or stretch is not positive.
     """
     for column in fields(Poses):
         numbers = getattr(poses, column.name)
@@ -108,14 +84,7 @@ def checked_poses(poses: Poses) -> Poses:
 
 
 def frozen_poses(poses: Poses) -> Poses:
-    """Poses whose arrays nobody changes; the same, if they are such.
-
-    Examples
-    --------
-    >>> still = frozen_poses(Poses([1], [1]))
-    >>> still.x.flags.writeable, frozen_poses(still) is still
-    (False, True)
-    """
+    """Poses whose arrays nobody changes; the same, if they are such."""
     columns = [getattr(poses, column.name) for column in fields(Poses)]
     if not any(column.flags.writeable for column in columns):
         return poses

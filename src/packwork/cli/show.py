@@ -134,8 +134,6 @@ def filling_line(filling: Mapping[str, Any]) -> str:
 
     Examples
     --------
-    >>> filling_line({"added": 40, "covered": 0.94, "target": 0.94, "ending": "94 % are covered"})
-    '40 smaller items fill voids; 94.00 % covered: 94 % are covered'
     >>> filling_line({"added": 2, "covered": 0.9, "target": 0.94, "ending": "no void is left"})
     '2 smaller items fill voids; 90.00 % covered, not 94 %: no void is left'
     """

@@ -11,16 +11,7 @@ _BEGAN = time.perf_counter() - time.process_time()
 
 
 class StartUp:
-    """Seconds by the clock from a process' beginning, told once.
-
-    Examples
-    --------
-    >>> start_up = StartUp()
-    >>> start_up.end()
-    >>> first = start_up.told()
-    >>> first > 0, start_up.told()
-    (True, 0.0)
-    """
+    """Seconds by the clock from a process' beginning, told once."""
 
     def __init__(self) -> None:
         self._seconds = 0.0

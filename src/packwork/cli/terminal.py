@@ -45,13 +45,7 @@ def prepare_streams() -> None:
 
 
 def printable(text: str) -> str:
-    r"""Text whose control characters are written out, as a name from a stranger may hold some.
-
-    Examples
-    --------
-    >>> printable("bear\x1b[2J.svg"), printable("Bär, 熊\n")
-    ('bear\\x1b[2J.svg', 'Bär, 熊\\n')
-    """
+    r"""Text whose control characters are written out, as a name from a stranger may hold some."""
     return "".join(_escaped(letter) if _is_obeyed(letter) else letter for letter in text)
 
 

@@ -37,8 +37,8 @@ PATIENCE = 10
 short words that would still fit. Chosen."""
 
 MOST_HELD = 300
-"""Words up to which those in the middle leave room for the last. Of thousands, hundreds of specks
-come in place of words that fill: .27 of ink in place of .38 in a picture of 2,000."""
+"""Words up to which those in the middle leave room for the last; of thousands, the last would be
+specks in place of words that fill. Tried."""
 
 UPRIGHT = 10
 """Words, the first, that are not turned where most are not: one large turned word is what is seen
@@ -46,12 +46,11 @@ first. By eye."""
 
 REGAINED = 0.7
 """How much of what a word lacks at its size, since no larger one found a place, later ones have
-again. With 0 one long phrase makes specks of all that follows; with 1 emoji come out alike. Tried:
-.188 of ink in that example with .7, .206 with 1, .125 with 0; largest over median 15, 11, 19."""
+again. With 0 one long phrase makes specks of what follows, with 1 emoji come out alike. Tried."""
 
 LEAST_PX, MOST_PX = 800, 1_200
-"""Sides of the image on which places are sought, at least and at most. Smaller lose ink, .565 with
-700 in place of .579, .505 with at most 1,000 in place of .530; larger take longer. Tried."""
+"""Sides of the image on which places are sought, at least and at most. Smaller lose ink, larger
+take longer. Tried."""
 
 WHOLE = 1.75
 """How many pixels of that image one of the canvas is worth from which on they are a whole number,
@@ -280,15 +279,7 @@ Colour = tuple[int, int, int, int]
 
 
 def paint(picture: Image.Image, words: Iterable[tuple[Outline, Colour]], scale: float) -> None:
-    """Lay words over a picture (RGBA), ``scale`` of its pixels to one unit of theirs.
-
-    Examples
-    --------
-    >>> picture = Image.new("RGBA", (2, 1))
-    >>> paint(picture, [(Outline.box(0, 0, 1.5, 1), (255, 0, 0, 255))], 1.0)
-    >>> [picture.getpixel((x, 0)) for x in (0, 1)]
-    [(255, 0, 0, 255), (255, 0, 0, 128)]
-    """
+    """Lay words over a picture (RGBA), ``scale`` of its pixels to one unit of theirs."""
     for outline, colour in words:
         seen = outline.mapped(similarity(0.0, 0.0, 0.0, scale))
         left, top = (max(math.floor(v), 0) for v in seen.bounds[:2])

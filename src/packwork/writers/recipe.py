@@ -13,11 +13,6 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
     """TOML of a recipe's plain options, files named as seen from ``folder``.
 
     Options that are not set are left out, in tables too; TOML has no null.
-
-    Examples
-    --------
-    >>> print(recipe_bytes({"container": "heart", "count": None}, Path(".")).decode(), end="")
-    container = "heart"
     """
     import tomli_w
 

@@ -80,17 +80,7 @@ def shaded(item: Item, colour: str) -> Item:
 
 
 def in_palette(item: Item, palette: Sequence[str]) -> Item:
-    """Item whose colours have each become the palette's nearest; dark and light grey ones stay.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> ink = Outline.from_rings([[[0, 0], [9, 0], [9, 9], [0, 9]]])
-    >>> markup = '<path fill="#c00" d="M0 0h9v9H0z"/><path fill="#fff" d="M1 1h2v2z"/>'
-    >>> item = Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3)))
-    >>> 'fill="#ee6677"' in in_palette(item, ("#4477aa", "#ee6677")).art.markup
-    True
-    """
+    """Item whose colours have each become the palette's nearest; dark and light grey ones stay."""
     targets = np.array([css_colour(colour)[:3] for colour in palette]) / 255
     labs = oklabs(targets)
 

@@ -35,13 +35,6 @@ def paint(item: Item) -> dict[str, str]:
     """Attributes that colour one copy; arts with colours of their own need none.
 
     Opacity is written apart, as few tools read ``#rrggbbaa``.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
-    >>> paint(Item("glass", "", ink, ink, FlatArt("#ff000080")))
-    {'fill': '#ff0000', 'fill-opacity': '0.502'}
     """
     if not isinstance(item.art, FlatArt):
         return {}
@@ -149,13 +142,7 @@ def item_ids(items: Sequence[Item]) -> list[str]:
 
 
 def labelled(drawn: str, label: Label) -> str:
-    """An item's element with its tooltip, inside its link; as it is if it has neither.
-
-    Examples
-    --------
-    >>> labelled("<use/>", Label(link="a.html?x=1&y=2", title="1 < 2"))
-    '<a href="a.html?x=1&amp;y=2"><title>1 &lt; 2</title><use/></a>'
-    """
+    """An item's element with its tooltip, inside its link; as it is if it has neither."""
     title = f"<title>{xml_text(label.title)}</title>" if label.title else ""
     if label.link:
         return f"<a{attributes({'href': label.link})}>{title}{drawn}</a>"
