@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from packwork.cli.terminal import Notices, joined
+from packwork.cli.terminal import Notices, joined_notices
 from packwork.errors import ReadError
 
 Command = Callable[..., Result]
@@ -18,21 +18,21 @@ Command = Callable[..., Result]
 
 def test_few_of_a_kind_have_their_own_lines() -> None:
     two = [("a.svg", "left out: is empty"), ("b.svg", "left out: is empty")]
-    assert joined(two) == ["left out a.svg: is empty", "left out b.svg: is empty"]
+    assert joined_notices(two) == ["left out a.svg: is empty", "left out b.svg: is empty"]
 
 
 def test_many_of_a_kind_are_counted_and_some_named() -> None:
     many = [(f"{k}.svg", "left out: is empty") for k in range(12)]
     other = [("x.svg", "its page was left out")]
-    assert joined(many + other) == [
+    assert joined_notices(many + other) == [
         "12 files left out: is empty (0.svg, 1.svg, 2.svg and 9 more)",
         "x.svg: its page was left out",
     ]
-    assert joined(many[:3]) == ["3 files left out: is empty (0.svg, 1.svg, 2.svg)"]
+    assert joined_notices(many[:3]) == ["3 files left out: is empty (0.svg, 1.svg, 2.svg)"]
 
 
 def test_notices_about_nothing_in_particular_are_said_once() -> None:
-    assert joined([("", "a word has no font")] * 3) == ["a word has no font"]
+    assert joined_notices([("", "a word has no font")] * 3) == ["a word has no font"]
 
 
 def test_what_was_held_is_said_also_if_reading_fails(capsys: pytest.CaptureFixture[str]) -> None:

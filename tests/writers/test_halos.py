@@ -12,7 +12,7 @@ from packwork.scene.item import FlatArt, Item, LiveText, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import small_png
 from packwork.writers import halos
-from packwork.writers.halos import faint_items, faint_told, haloed
+from packwork.writers.halos import faint_items, faint_message, haloed
 from packwork.writers.registry import encoded, write_options
 from scenes import box
 
@@ -60,12 +60,12 @@ def test_words_and_what_has_a_halo_are_not_looked_at(layout: Layout) -> None:
 
 
 def test_what_is_said_names_them_and_what_would_do(layout: Layout) -> None:
-    told = faint_told(layout, None)
+    told = faint_message(layout, None)
     assert told.startswith("1 item is hardly to be seen on white (ghost); --background '#")
     assert told.endswith("or --halo faint would show them")
     proposed = told.split("'")[1]
     assert not faint_items(layout, proposed)
-    assert faint_told(layout, "teal") == ""
+    assert faint_message(layout, "teal") == ""
 
 
 @pytest.mark.parametrize("dark", ["#000", "#111", "#12181f"])
@@ -75,7 +75,7 @@ def test_black_on_a_dark_ground_is_faint_and_sent_to_one_that_shows_it(
     items = [flat("coal", "#000"), flat("navy", "#000022")]
     layout = make_layout(items, [20.0, 50.0], [30.0, 30.0], scale=[4.0, 4.0])
     assert names(faint_items(layout, dark)) == ["coal", "navy"]
-    assert faint_told(layout, dark).split("'")[1] == "#2f3e55"
+    assert faint_message(layout, dark).split("'")[1] == "#2f3e55"
     assert all(item.halo for item in haloed(layout, "faint", dark).items)
 
 
@@ -83,7 +83,7 @@ def test_a_ground_on_which_others_are_faint_is_not_proposed(make_layout: LayoutM
     items = [flat(ground, ground) for ground in halos.GROUNDS]
     xs = [10.0 * k for k in range(len(items))]
     layout = make_layout(items, xs, [30.0] * len(items))
-    assert "; --halo faint would show them" in faint_told(layout, None)
+    assert "; --halo faint would show them" in faint_message(layout, None)
 
 
 @pytest.mark.parametrize(

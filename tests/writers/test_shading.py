@@ -19,7 +19,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.contrast import oklab
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 from packwork.uses.words.recipe import words_recipe
-from packwork.writers.recolour_drawings import APART, in_palette, shaded
+from packwork.writers.recolour_drawings import APART, in_palette, in_shades_of
 from scenes import box
 
 BLUE = "#0072b2"
@@ -63,7 +63,7 @@ def hue(colour: str) -> float:
 
 
 def test_shades_are_of_one_hue_and_keep_their_order() -> None:
-    found = markup(shaded(drawn(APPLE), BLUE))
+    found = markup(in_shades_of(drawn(APPLE), BLUE))
     black, red, green, white = colours(found)
     assert (black, white) == ("#000000", "#ffffff")
     assert [hue(red), hue(green)] == pytest.approx([hue(BLUE)] * 2, abs=0.15)
@@ -72,7 +72,7 @@ def test_shades_are_of_one_hue_and_keep_their_order() -> None:
 
 
 def test_what_says_no_colour_is_black() -> None:
-    assert colours(markup(shaded(drawn(APPLE), BLUE)))[0] == "#000000"
+    assert colours(markup(in_shades_of(drawn(APPLE), BLUE)))[0] == "#000000"
 
 
 def test_gradients_and_lines_are_shaded_too() -> None:
@@ -80,7 +80,7 @@ def test_gradients_and_lines_are_shaded_too() -> None:
         '<defs><linearGradient id="g"><stop stop-color="red"/><stop stop-color="#400"/>'
         '</linearGradient></defs><path fill="url(#g)" stroke="lime" d="M0 0h9v9z"/>'
     )
-    found = markup(shaded(drawn(text), BLUE))
+    found = markup(in_shades_of(drawn(text), BLUE))
     assert len(colours(found)) == 4
     assert "red" not in found
     assert "lime" not in found
@@ -92,15 +92,15 @@ def test_masks_keep_their_colours_and_opacity_stays() -> None:
         '<mask id="m"><path fill="white" d="M0 0h5v9z"/></mask>'
         '<path mask="url(#m)" fill="#ff000080" d="M0 0h9v9z"/><path fill="blue" d="M0 0h2v2z"/>'
     )
-    found = markup(shaded(drawn(text), "#00aa00"))
+    found = markup(in_shades_of(drawn(text), "#00aa00"))
     assert '<path fill="white"' in found
     assert re.search(r'fill="#[0-9a-f]{6}80"', found)
 
 
 def test_one_colour_becomes_that_colour() -> None:
-    assert BLUE in markup(shaded(drawn('<path fill="red" d="M0 0h9v9z"/>'), BLUE))
+    assert BLUE in markup(in_shades_of(drawn('<path fill="red" d="M0 0h9v9z"/>'), BLUE))
     flat = replace(drawn(""), art=FlatArt("red"))
-    assert shaded(flat, BLUE).art == FlatArt(BLUE)
+    assert in_shades_of(flat, BLUE).art == FlatArt(BLUE)
 
 
 def test_each_colour_becomes_the_nearest() -> None:
@@ -108,7 +108,9 @@ def test_each_colour_becomes_the_nearest() -> None:
     assert colours(found) == ["#000000", "#d55e00", "#009e73", "#ffffff"]
 
 
-@pytest.mark.parametrize("change", [lambda i: shaded(i, BLUE), lambda i: in_palette(i, (BLUE,))])
+@pytest.mark.parametrize(
+    "change", [lambda i: in_shades_of(i, BLUE), lambda i: in_palette(i, (BLUE,))]
+)
 def test_pictures_and_pictures_in_drawings_alike(change: Callable[[Item], Item]) -> None:
     item = pictured([[[200, 30, 30, 255], [255, 255, 255, 255], [90, 10, 10, 100]]])
     after = pixels(change(item))

@@ -19,7 +19,7 @@ from packwork.scene.track import Track
 from packwork.writers.film.animated_svg import animated_svg_bytes
 from packwork.writers.film.film import Film
 from packwork.writers.film.options import FilmOptions
-from packwork.writers.pictures import SPARE, printed, printed_on_paper
+from packwork.writers.pictures import SPARE, with_fine_photos, with_photos_for_paper
 from packwork.writers.registry import encoded, write_options
 from packwork.writers.svg import svg_text
 
@@ -50,7 +50,7 @@ def two_copies(unit: str = "in") -> tuple[Layout, Original]:
 
 def test_a_photo_is_developed_once_for_its_largest_copy() -> None:
     layout, original = two_copies()
-    again = printed(layout, 300.0)
+    again = with_fine_photos(layout, 300.0)
     assert original.asked == [pytest.approx(30.0)]
     assert all(item.art is ART for item in again.items)
     assert [item.name for item in again.items] == ["photo", "again"]
@@ -58,7 +58,7 @@ def test_a_photo_is_developed_once_for_its_largest_copy() -> None:
 
 def test_paper_counts_in_inches() -> None:
     layout, original = two_copies("mm")
-    printed_on_paper(layout, 254.0)
+    with_photos_for_paper(layout, 254.0)
     assert original.asked == [pytest.approx(1.0)]
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from packwork import writers
 from packwork.batches.pool import results, worker_count
 from packwork.batches.task import RowOutcome, Task, failed, is_done, make, record_path
-from packwork.batches.templates import RECIPE, ROW, columns_of, filled, identity_of, path_of
+from packwork.batches.templates import RECIPE, ROW, columns_of, fill_template, identity_of, path_of
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.phrasing import enumerated
 from packwork.progress import Stop, never
@@ -183,7 +183,7 @@ def _check(request: BatchRequest) -> None:
 
 
 def _task(request: BatchRequest, template: Template, row: Mapping[str, Any], name: str) -> Task:
-    options = with_paths(filled(template.options, row), found_from(template.home))
+    options = with_paths(fill_template(template.options, row), found_from(template.home))
     if not request.allows_code:
         # A cell may have made code of what was none.
         check_no_code(options)
@@ -269,9 +269,9 @@ def run_batch(
     if scheduler is None or not now.to_do:
         made_by = results(now.to_do, make, worker_count(workers, len(now.to_do)), stop)
     else:
-        from packwork.batches.cluster import clustered
+        from packwork.batches.cluster import run_on_cluster
 
-        made_by = clustered(now.to_do, scheduler, in_place=in_place, stop=stop)
+        made_by = run_on_cluster(now.to_do, scheduler, in_place=in_place, stop=stop)
     for task, made in made_by:
         outcome = failed(task.row, task.name, made) if isinstance(made, Exception) else made
         found.append(outcome)

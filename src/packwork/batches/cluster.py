@@ -60,7 +60,7 @@ class Parcel:
     version: str
 
 
-def clustered(
+def run_on_cluster(
     tasks: Sequence[Task], address: str, *, in_place: bool = False, stop: Stop = never
 ) -> Iterator[tuple[Task, RowOutcome | Exception]]:
     """Outcomes of tasks by the workers of a cluster, as they come.

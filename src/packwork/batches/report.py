@@ -38,18 +38,18 @@ def rows_of(outcomes: Iterable[RowOutcome]) -> list[dict[str, Any]]:
             "seconds": round(one.seconds, 3),
             "said": one.said,
             "files": "; ".join(path.as_posix() for path in one.outputs),
-            **flat(one.metrics),
+            **flat_metrics(one.metrics),
         }
         for one in outcomes
     ]
 
 
-def flat(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+def flat_metrics(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
     """Metrics by one name each: ``{"exact": {"LC": 2}}`` is ``{"exact_LC": 2}``."""
     found: dict[str, Any] = {}
     for key, value in metrics.items():
         if isinstance(value, Mapping):
-            found |= flat(value, f"{before}{key}_")
+            found |= flat_metrics(value, f"{before}{key}_")
         else:
             found[before + key] = value
     return found

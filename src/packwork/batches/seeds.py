@@ -8,7 +8,7 @@ from typing import Any
 
 from packwork import pipeline, threads, uses
 from packwork.batches.pool import results, worker_count
-from packwork.batches.report import flat
+from packwork.batches.report import flat_metrics
 from packwork.batches.task import collecting_notices
 from packwork.errors import PackworkError, RecipeError
 from packwork.metrics.measure import ExactShares, Metrics
@@ -108,5 +108,5 @@ def score_of(run: Run, by: str) -> float:
     """Score of a run, more is better."""
     check_metric(by)
     meant = _MEANT.get(by, by)
-    value = float(flat(run.metrics.as_dict())[meant.removeprefix("-")])
+    value = float(flat_metrics(run.metrics.as_dict())[meant.removeprefix("-")])
     return -value if meant.startswith("-") else value

@@ -37,7 +37,7 @@ _SIZE = re.compile(
 )
 
 
-def shown_of(outputs: Iterable[Path]) -> Path | None:
+def pictured_file(outputs: Iterable[Path]) -> Path | None:
     """The file of a row that a sheet shows; None if it has none such."""
     by_ending = {path.suffix.lower(): path for path in outputs}
     return next((by_ending[ending] for ending in SEEN if ending in by_ending), None)

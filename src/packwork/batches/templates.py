@@ -34,7 +34,7 @@ def columns_of(template: Any) -> Iterator[str]:
         yield from (found[1] for found in _PLACE.finditer(template) if found[1] is not None)
 
 
-def filled(template: Any, row: Mapping[str, Any]) -> Any:
+def fill_template(template: Any, row: Mapping[str, Any]) -> Any:
     """A template with the cells of a row.
 
     What is a column and nothing else is the cell as it is, a number where it is one; an empty one
@@ -42,14 +42,15 @@ def filled(template: Any, row: Mapping[str, Any]) -> Any:
 
     Examples
     --------
-    >>> filled({"container": "text:{name}", "count": "{n}", "seed": "{s}"}, {"name": "Ann", "n": 9})
+    >>> template = {"container": "text:{name}", "count": "{n}", "seed": "{s}"}
+    >>> fill_template(template, {"name": "Ann", "n": 9})
     {'container': 'text:Ann', 'count': 9}
     """
     if isinstance(template, Mapping):
-        pairs = ((key, filled(value, row)) for key, value in template.items())
-        return {filled(key, row): value for key, value in pairs if value is not None}
+        pairs = ((key, fill_template(value, row)) for key, value in template.items())
+        return {fill_template(key, row): value for key, value in pairs if value is not None}
     if isinstance(template, list | tuple):
-        found = [filled(value, row) for value in template]
+        found = [fill_template(value, row) for value in template]
         return [value for value in found if value is not None]
     if not isinstance(template, str):
         return template
@@ -103,8 +104,8 @@ def path_of(template: str, row: Mapping[str, Any]) -> Path:
     packwork.errors.RecipeError: name: '../Ann' holds '/', which no file's name may hold; ...
     """
     for column in columns_of(template):
-        _check_part(column, str(filled("{" + column + "}", row) or ""))
-    path = Path(str(filled(template, row)))
+        _check_part(column, str(fill_template("{" + column + "}", row) or ""))
+    path = Path(str(fill_template(template, row)))
     if any(_DEVICE.fullmatch(part) for part in path.parts[1 if path.anchor else 0 :]):
         raise RecipeError("output", f"{path.name!r} is a device on Windows; use another name")
     if path.name != path.name.rstrip(". ") or len(os.fsencode(path.name)) > LONGEST:

@@ -166,23 +166,23 @@ class BatchFiles:
 
     def check_plan(self, plan: BatchPlan) -> None:
         """Refuse files that rows have too, and a sheet of what shows nothing."""
-        from packwork.batches.sheet import SEEN, shown_of
+        from packwork.batches.sheet import SEEN, pictured_file
         from packwork.batches.templates import identity_of
 
         taken = {identity_of(path) for task in plan.tasks for path in task.outputs}
         for path in self.paths:
             if identity_of(path) in taken:
                 raise WriteError(path, "is a row's file too; use another name")
-        if self.contact_sheet and plan.tasks and shown_of(plan.tasks[0].outputs) is None:
+        if self.contact_sheet and plan.tasks and pictured_file(plan.tasks[0].outputs) is None:
             raise RecipeError("contact_sheet", f"needs rows' files of {enumerated(SEEN, 9)}")
 
     def write(self, found: Sequence[RowOutcome]) -> list[Path]:
         """Write what is asked for; which files these are."""
         from packwork import writers
         from packwork.batches.report import index_bytes, report_bytes
-        from packwork.batches.sheet import sheet_bytes, shown_of
+        from packwork.batches.sheet import pictured_file, sheet_bytes
 
-        shown = [file for one in found if (file := shown_of(one.outputs)) is not None]
+        shown = [file for one in found if (file := pictured_file(one.outputs)) is not None]
         made = []
         if self.report is not None:
             made.append((self.report, report_bytes(self.report, found)))

@@ -81,9 +81,14 @@ class Outputs:
         if self.keeps_files:
             writers.check_new(self.every)
 
-    def told(self, layout: Layout) -> Layout:
-        """The layout, its manifest saying how it is drawn."""
-        return told(layout, self.options.svg.background, self.drawing)
+    def with_drawing(self, layout: Layout) -> Layout:
+        """The layout, its manifest saying how it is drawn, for files that are gone on with."""
+        background = self.options.svg.background
+        asked = {key: self.drawing[key] for key in GONE_ON_WITH if self.drawing.get(key)}
+        said = {} if background is None else {"ground": hex_colour(parse_colour("", background))}
+        if not asked and not said:
+            return layout
+        return replace(layout, manifest={**layout.manifest, **said, "drawing": asked})
 
     def saved_recipe(self, recipe: Recipe) -> list[tuple[Path, bytes]]:
         """The recipe's file, if one is asked for, and its bytes."""
@@ -178,15 +183,6 @@ def check_bleed(files: Iterable[Path], bleed: str | None) -> None:
     files = list(files)
     if bleed is not None and not any(file.suffix.lower() == ".pdf" for file in files):
         raise WriteError(files[0], "has no bleed; --bleed is for a PDF, such as -o print.pdf")
-
-
-def told(layout: Layout, background: str | None, drawing: Mapping[str, Any]) -> Layout:
-    """The layout, its manifest saying how it is drawn, for files that are gone on with."""
-    asked = {key: drawing[key] for key in GONE_ON_WITH if drawing.get(key)}
-    said = {} if background is None else {"ground": hex_colour(parse_colour("", background))}
-    if not asked and not said:
-        return layout
-    return replace(layout, manifest={**layout.manifest, **said, "drawing": asked})
 
 
 @contextlib.contextmanager

@@ -19,7 +19,7 @@ from packwork.cli.files import Choosing
 from packwork.cli.outputs import Outputs, check_room, outputs_asked, saving, with_room
 from packwork.cli.show import Paper, printing, show_results
 from packwork.cli.start_up import START_UP
-from packwork.cli.terminal import MOST_LINES, NOTICES, joined, printable, say
+from packwork.cli.terminal import MOST_LINES, NOTICES, joined_notices, printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.progress import NOBODY
@@ -77,7 +77,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             films = _filmed(run, outputs, bar, interrupt)
         was_stopped = was_cut_short or len(films) < len(outputs.films)
         drawn, undrawn = _drawn(run, outputs)
-        run = held_against_files(run, drawn, outputs.options)
+        run = certify_files(run, drawn, outputs.options)
         if tried:
             seed = run.layout.manifest["seed"]
             saved = outputs.saved_recipe(recipe.model_copy(update={"seed": seed}))
@@ -90,10 +90,10 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
         )
         results["advice"] += on_trust_in(drawn, run.layout) if run.certified else []
-        results["painted"] = None if was_cut_short else painted_in(run, drawn, results["advice"])
+        results["painted"] = None if was_cut_short else painting(run, drawn, results["advice"])
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
-        with saving(outputs.told(run.layout), outputs.files) as sessions:
+        with saving(outputs.with_drawing(run.layout), outputs.files) as sessions:
             written += sessions
             replaced = {path for path, _ in written if os.path.lexists(path)}
             writers.write_all(written)
@@ -180,7 +180,7 @@ def _drawn(
 
     One format that fails takes none of the others with it.
     """
-    layout, options = outputs.told(run.layout), outputs.options
+    layout, options = outputs.with_drawing(run.layout), outputs.options
     makers: list[tuple[Path, Callable[[], bytes]]] = [
         (path, partial(writers.encoded, layout, path, options))
         for path in outputs.files
@@ -210,12 +210,14 @@ def _hard_to_see(run: pipeline.Run, outputs: Outputs) -> list[str]:
     is_drawn = any(path.suffix.lower() in DRAWN for path in outputs.files)
     if options.halo != "none" or not is_drawn or run.layout.ground:
         return []
-    told = writers.faint_told(run.layout, options.svg.background)
+    told = writers.faint_message(run.layout, options.svg.background)
     return [told] if told else []
 
 
 def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
-    lines = joined([(f"{u.item} (item {u.index + 1})", u.reason) for u in run.unplaced], "items")
+    lines = joined_notices(
+        [(f"{u.item} (item {u.index + 1})", u.reason) for u in run.unplaced], "items"
+    )
     for line in lines[:MOST_LINES]:
         say(f"not placed: {line}")
     if len(lines) < len(run.unplaced) or len(lines) > MOST_LINES:
@@ -275,7 +277,7 @@ def on_trust_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str
     ]
 
 
-def held_against_files(
+def certify_files(
     run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], options: writers.WriteOptions
 ) -> pipeline.Run:
     """A run that is certified if the texts of its files are, measured by themselves."""
@@ -285,7 +287,7 @@ def held_against_files(
     return replace(run, certified=False, broken=(*run.broken, *faults)) if faults else run
 
 
-def painted_in(
+def painting(
     run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], advice: list[str]
 ) -> dict[str, int] | None:
     """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""

@@ -83,7 +83,7 @@ def _carry_out(
     series = _made(steps, quiet)
     written = _write(series, outputs, files)
     if not quiet:
-        typer.echo(printable(told(series, kind)))
+        typer.echo(printable(summary(series, kind)))
         typer.echo(printable(f"wrote {number_of(len(written), 'file')}: {_named(written)}"))
     for step, run in zip(series.steps, series.runs, strict=True):
         for lack in (*run.broken, *(f"{one.item}: {one.reason}" for one in run.unplaced)):
@@ -133,7 +133,7 @@ def _write(series: Solved, outputs: Outputs, steps: Sequence[Sequence[Path]]) ->
         pairs.append((outputs.report, writers.json_bytes(report(series))))
     with contextlib.ExitStack() as saved:
         for files, run in zip(steps, series.runs, strict=True):
-            pairs += saved.enter_context(saving(outputs.told(run.layout), files))
+            pairs += saved.enter_context(saving(outputs.with_drawing(run.layout), files))
         writers.write_all(pairs)
     for run in series.runs:
         tell_coarse(run.layout, options.dpi)
@@ -161,7 +161,7 @@ def _made(steps: Sequence[SeriesStep], quiet: bool) -> Solved:
     return series
 
 
-def told(series: Solved, kind: str) -> str:
+def summary(series: Solved, kind: str) -> str:
     """Summary of a series in one line; ``kind`` is what its items are called."""
     certified = sum(run.certified for run in series.runs)
     many = len(series.runs)

@@ -107,20 +107,20 @@ class Notices(logging.Handler):
             yield
         finally:
             held, self._held = self._held, None
-            for line in joined(held):
+            for line in joined_notices(held):
                 say(line)
 
 
-def joined(notices: Sequence[tuple[str, str]], things: str = "files") -> list[str]:
+def joined_notices(notices: Sequence[tuple[str, str]], things: str = "files") -> list[str]:
     """Lines for notices, each a name and what is said of it; those of one kind together.
 
     Of one kind are those that differ in their numbers alone.
 
     Examples
     --------
-    >>> joined([("a.svg", "left out: is empty"), ("b.svg", "has 3 texts")])
+    >>> joined_notices([("a.svg", "left out: is empty"), ("b.svg", "has 3 texts")])
     ['left out a.svg: is empty', 'b.svg: has 3 texts']
-    >>> joined([(f"{k}.svg", f"has {k} texts") for k in range(1, 6)])
+    >>> joined_notices([(f"{k}.svg", f"has {k} texts") for k in range(1, 6)])
     ['5 files: has 1 texts (1.svg, 2.svg, 3.svg and 2 more)']
     """
     kinds: dict[str, list[tuple[str, str]]] = {}

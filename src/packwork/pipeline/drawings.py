@@ -26,7 +26,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import representative_colour
-from packwork.writers.recolour_drawings import in_palette, shaded
+from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
 
 def with_drawings(layout: Layout, folder: Path) -> tuple[Layout, tuple[str, ...]]:
@@ -122,7 +122,7 @@ def _coloured(drawing: Item, fill: str, recipe: Mapping[str, Any]) -> Item:
         palette = palette_colours(recipe["palette"]) if recipe.get("palette") else ()
     except ValueError:
         palette = ()
-    ways = [shaded(drawing, colour) for colour in palette]
+    ways = [in_shades_of(drawing, colour) for colour in palette]
     ways += [in_palette(drawing, palette)] if palette else []
     # Of a rule's colour all of it is.
     return next(

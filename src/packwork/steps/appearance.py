@@ -31,7 +31,7 @@ from packwork.scene.notation import matrix_text
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import mean_lights, representative_colour
-from packwork.writers.recolour_drawings import in_palette, shaded
+from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
 
 def beside(layout: Layout) -> IntArray:
@@ -106,7 +106,7 @@ def _dressed(
     if colour is not None:
         key = (item.art, item.ink, colour, tinted)
         if key not in arts:
-            arts[key] = (shaded if tinted else recoloured)(item, colour).art
+            arts[key] = (in_shades_of if tinted else recoloured)(item, colour).art
         item = replace(item, art=arts[key])
     return item if label is None else replace(item, label=label)
 

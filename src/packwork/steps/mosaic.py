@@ -21,7 +21,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.recolour import tinted_photo
 from packwork.scene.swatch import ShownLight, mean_lights, shown_light
 from packwork.scene.target import TargetPicture, blurred
-from packwork.writers.recolour_drawings import averaging
+from packwork.writers.recolour_drawings import with_mean_colour
 
 STEPS, STEP = 24, 1.2
 """Steps towards the colours, and how far each goes over what is missing at an item. More change
@@ -205,7 +205,7 @@ def _tinted(
     mixed = between((_hex(own), colour), share) if share < 1 else colour
     if item.text is not None:
         mixed = readable(mixed, ground, READ)
-    return averaging(item, mixed, shown.of(item))
+    return with_mean_colour(item, mixed, shown.of(item))
 
 
 def _channels(colour: str) -> FloatArray:

@@ -56,7 +56,7 @@ def faults_in_file(
         return ()
     if ending != ".pdf":
         return _broken_in(data, path, layout)
-    text, bleed = writers.printed_drawing(layout, options)
+    text, bleed = writers.pdf_drawing(layout, options)
     drawing = text.encode()
     return (
         *_broken_in(drawing, Path(path).with_suffix(".svg"), layout),

@@ -127,7 +127,7 @@ def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) ->
     return placed_container("mask", "mask", traced.region, canvas, float(max(width, height)))
 
 
-def enlarged(layout: Layout, scale: float) -> Layout:
+def scaled_layout(layout: Layout, scale: float) -> Layout:
     """The same layout on a canvas ``scale`` times as large."""
     canvas, poses = layout.container, layout.poses
     larger = replace(
@@ -152,7 +152,7 @@ def relative_steps(frequencies: Sequence[float], scaling: float) -> FloatArray:
     return np.concatenate([[1.0], scaling * known[1:] / known[:-1] + 1 - scaling])
 
 
-def placed(
+def place_words(
     asked: CloudSettings, words: Sequence[str], steps: FloatArray, random: Random
 ) -> PlacedWords:
     """Words one after another, each as large as it finds a place, none larger than one before.
@@ -163,7 +163,7 @@ def placed(
     --------
     >>> from packwork.readers.fonts.fallback import open_fonts
     >>> asked = CloudSettings(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
-    >>> found = placed(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
+    >>> found = place_words(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
     >>> (found.poses.scale * EM_PX).tolist()
     [20.0, 10.0]
     """

@@ -38,10 +38,10 @@ from packwork.wordcloud.engine import (
     CloudSettings,
     PlacedWords,
     container_of_mask,
-    enlarged,
     paint,
-    placed,
+    place_words,
     relative_steps,
+    scaled_layout,
 )
 from packwork.wordcloud.tokenization import STOPWORDS, process_tokens, tokens, unigrams_and_bigrams
 from packwork.writers.atomic import write_atomic
@@ -165,7 +165,7 @@ class WordCloud:
         steps = relative_steps([share for _, share in entries], float(self.relative_scaling))
         largest = max_font_size or self.max_font_size
         random = self.random_state or Random()
-        found = placed(self._setting(largest), [word for word, _ in entries], steps, random)
+        found = place_words(self._setting(largest), [word for word, _ in entries], steps, random)
         self._say_what_is_missing(len(entries), found)
         self._placed = found
         drawn = chances(self.color_func, random)
@@ -235,7 +235,7 @@ class WordCloud:
         self._check_generated()
         if Path(filename).suffix.lower() in {".svg", ".pdf", ".dxf", ".geojson"}:
             options = writers.write_options(background=self._css_background())
-            writers.write(enlarged(self.layout, float(self.scale)), str(filename), options)
+            writers.write(scaled_layout(self.layout, float(self.scale)), str(filename), options)
         else:
             write_atomic(str(filename), self._encoded(filename))
         return self
@@ -275,7 +275,7 @@ class WordCloud:
             _warn_once("optimize_embedded_font has no effect: only letters in use are embedded")
         text: TextChoice = "live" if embed_font else "outlines"
         return svg_text(
-            enlarged(self.layout, float(self.scale)),
+            scaled_layout(self.layout, float(self.scale)),
             SvgOptions(background=self._css_background(), text=text),
         )
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
     from packwork.writers.geojson import geojson_text, json_bytes
-    from packwork.writers.halos import faint_told
+    from packwork.writers.halos import faint_message
     from packwork.writers.recipe import recipe_bytes
     from packwork.writers.registry import (
         WRITERS,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
         check_output,
         check_picture_size,
         encoded,
-        printed_drawing,
+        pdf_drawing,
         write,
         write_options,
     )
@@ -50,12 +50,12 @@ __all__ = [
     "check_writable",
     "diagnose_png",
     "encoded",
-    "faint_told",
+    "faint_message",
     "film_bytes",
     "geojson_text",
     "json_bytes",
+    "pdf_drawing",
     "png_bytes",
-    "printed_drawing",
     "recipe_bytes",
     "svg_text",
     "tell_nobody",
@@ -71,12 +71,12 @@ _HOMES = {
     "film.film": ("Film", "tell_nobody"),
     "film.registry": ("FILMS", "check_film", "film_bytes"),
     "geojson": ("geojson_text", "json_bytes"),
-    "halos": ("faint_told",),
+    "halos": ("faint_message",),
     "bitmaps": ("png_bytes",),
     "recipe": ("recipe_bytes",),
     "registry": (
         "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded",
-        "printed_drawing", "write", "write_options",
+        "pdf_drawing", "write", "write_options",
     ),
     "svg": ("SvgOptions", "svg_text"),
 }  # fmt: skip

@@ -102,9 +102,9 @@ def cut_rings(layout: Layout, options: CutOptions) -> list[FloatArray]:
     shapes = [silhouette(outline.region) for outline in layout.outlines]
     if options.kiss is not None:
         offset = kiss_cut(options.kiss, layout.container.unit, layout.container.side)
-        shapes = _apart([buffered(shape, offset, quad_segs=QUADRANT) for shape in shapes])
+        shapes = _merge_crossing([buffered(shape, offset, quad_segs=QUADRANT) for shape in shapes])
     if options.line != "outlines":
-        shapes = _joined(shapes)
+        shapes = _join_parts(shapes)
     return [ring for shape in shapes for ring in oriented_rings(silhouette(shape))]
 
 
@@ -128,7 +128,7 @@ def cut_group(layout: Layout, options: CutOptions, digits: int) -> list[str]:
     return [f"<g{head}>", *drawn, "</g>"]
 
 
-def _apart(shapes: Sequence[Region]) -> list[Region]:
+def _merge_crossing(shapes: Sequence[Region]) -> list[Region]:
     """Shapes of which none overlap: those that do become one, in the place of the first."""
     pairs = shapely.STRtree(shapes).query(shapes, predicate="intersects").T
     if not any(a != b for a, b in pairs):
@@ -137,7 +137,7 @@ def _apart(shapes: Sequence[Region]) -> list[Region]:
     return polygon_parts(union(list(shapes)))
 
 
-def _joined(shapes: Sequence[Region]) -> list[Region]:
+def _join_parts(shapes: Sequence[Region]) -> list[Region]:
     """Each shape as one part, where that meets no other shape."""
     joined = list(shapes)
     left = 0
@@ -145,14 +145,14 @@ def _joined(shapes: Sequence[Region]) -> list[Region]:
         if len(polygon_parts(shape)) == 1:
             continue
         others = shapely.STRtree([one for n, one in enumerate(joined) if n != k])
-        left += not _join(joined, k, others)
+        left += not _join_one(joined, k, others)
     if left:
         many = number_of(left, "item in several parts has", "items in several parts have")
         _LOG.warning("%s a cut line round each part", many)
     return joined
 
 
-def _join(joined: list[Region], k: int, others: shapely.STRtree) -> bool:
+def _join_one(joined: list[Region], k: int, others: shapely.STRtree) -> bool:
     left, top, right, bottom = joined[k].bounds
     for share in _JOINS:
         reach = share * max(right - left, bottom - top)

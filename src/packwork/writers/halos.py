@@ -90,7 +90,7 @@ def haloed(layout: Layout, choice: HaloChoice, background: str | None) -> Layout
     return replace(layout, items=items)
 
 
-def faint_told(layout: Layout, background: str | None) -> str:
+def faint_message(layout: Layout, background: str | None) -> str:
     """One sentence that names items hard to see, and what would do; empty if there are none."""
     faint = faint_items(layout, background)
     if not faint:

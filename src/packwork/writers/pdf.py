@@ -21,7 +21,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.notation import number, sound_text
 from packwork.units import convert, parse_length
 from packwork.writers.cutting import HAIRLINE_PT, SPOT, cut_rings
-from packwork.writers.pictures import DPI, pictured
+from packwork.writers.pictures import DPI, as_picture
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
 PICTURE_DPI = 2 * DPI
@@ -114,18 +114,18 @@ def without_text(layout: Layout) -> Layout:
     scales = layout.poses.axis_scales.max(axis=1).tolist()
     for item, scale in zip(layout.items, scales, strict=True):
         largest[item] = max(largest.get(item, 0.0), scale)
-    pictured = {
-        item: _pictured(item, largest[item] * px_per_cu)
+    as_picture = {
+        item: _as_picture(item, largest[item] * px_per_cu)
         for item in layout.items
         if isinstance(item.art, VectorArt) and "<text" in item.art.markup
     }
-    items = tuple(pictured.get(item, item) for item in layout.items)
-    return replace(layout, items=items) if pictured else layout
+    items = tuple(as_picture.get(item, item) for item in layout.items)
+    return replace(layout, items=items) if as_picture else layout
 
 
-def _pictured(item: Item, px_per_unit: float) -> Item:
+def _as_picture(item: Item, px_per_unit: float) -> Item:
     try:
-        return replace(item, art=pictured(item, px_per_unit))
+        return replace(item, art=as_picture(item, px_per_unit))
     except ValueError as error:
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({error})") from error
 

@@ -23,7 +23,7 @@ _MARGIN_PX = 2
 """Free edge of such a picture: soft edges reach a pixel beyond the ink."""
 
 
-def pictured(item: Item, px_per_unit: float) -> PictureArt:
+def as_picture(item: Item, px_per_unit: float) -> PictureArt:
     """An item's drawing as a picture, no finer than ``MAX_PICTURE_PX`` allows.
 
     Its ink says how far it reaches. A ValueError if it cannot be rendered.
@@ -33,7 +33,7 @@ def pictured(item: Item, px_per_unit: float) -> PictureArt:
     >>> from packwork.geometry.outline import Outline
     >>> from packwork.scene.item import FlatArt
     >>> ink = Outline.from_rings([[[-2, -1], [2, -1], [2, 1], [-2, 1]]])
-    >>> picture = pictured(Item("tile", "", ink, ink, FlatArt("red")), 10.0)
+    >>> picture = as_picture(Item("tile", "", ink, ink, FlatArt("red")), 10.0)
     >>> picture.width, picture.height
     (44, 24)
     """
@@ -64,7 +64,7 @@ SPARE = 1.2
 softens what has no more than one. Larger takes longer and more memory. Tried by eye."""
 
 
-def printed(layout: Layout, px_per_cu: float) -> Layout:
+def with_fine_photos(layout: Layout, px_per_cu: float) -> Layout:
     """Layout whose photos have that many pixels per canvas unit, if there are as many.
 
     One photo at a time is in memory; what stays of it is a file in text. A ReadError if one is no
@@ -100,6 +100,6 @@ def _with_backdrop(layout: Layout, px_per_cu: float) -> Layout:
     return replace(layout, container=replace(container, backdrop=behind))
 
 
-def printed_on_paper(layout: Layout, dpi: float) -> Layout:
+def with_photos_for_paper(layout: Layout, dpi: float) -> Layout:
     """The same layout, its photos with that many pixels per inch of the canvas."""
-    return printed(layout, dpi * convert(1.0, layout.container.unit, "in"))
+    return with_fine_photos(layout, dpi * convert(1.0, layout.container.unit, "in"))

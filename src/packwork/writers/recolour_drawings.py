@@ -47,7 +47,7 @@ Repaint: TypeAlias = Callable[[FloatArray], FloatArray]
 """New colours, ``(n, 3)`` of 0..1, of old ones."""
 
 
-def shaded(item: Item, colour: str) -> Item:
+def in_shades_of(item: Item, colour: str) -> Item:
     """Item in one hue: its colours become tints and shades of it, by their lightness.
 
     What is as light as most of the drawing gets the colour itself; white and black stay.
@@ -57,7 +57,8 @@ def shaded(item: Item, colour: str) -> Item:
     >>> from packwork.geometry.outline import Outline
     >>> ink = Outline.from_rings([[[0, 0], [9, 0], [9, 9], [0, 9]]])
     >>> markup = '<path fill="#c00" d="M0 0h9v9H0z"/><path fill="#fff" d="M1 1h2v2z"/>'
-    >>> art = shaded(Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3))), "#0000ff").art
+    >>> item = Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3)))
+    >>> art = in_shades_of(item, "#0000ff").art
     >>> 'fill="#0000ff"' in art.markup, 'fill="#ffffff"' in art.markup
     (True, True)
     """
@@ -73,10 +74,10 @@ def shaded(item: Item, colour: str) -> Item:
     def repaint(rgb: FloatArray) -> FloatArray:
         light = lightness(oklabs(rgb)[:, 0])
         if len(rgb) <= MOST_APART:
-            light = _apart(light, own)
+            light = _spread_lightness(light, own)
         return np.array([shade(colour, value) for value in light])
 
-    return _repainted(item, repaint, colour)
+    return _with_paints(item, repaint, colour)
 
 
 def in_palette(item: Item, palette: Sequence[str]) -> Item:
@@ -91,10 +92,10 @@ def in_palette(item: Item, palette: Sequence[str]) -> Item:
         stays = (chroma < NEUTRAL) & ((own[:, 0] < DARK) | (own[:, 0] > LIGHT))
         return np.where(stays[:, None], rgb, targets[away.argmin(axis=1)])
 
-    return _repainted(item, repaint, palette[0])
+    return _with_paints(item, repaint, palette[0])
 
 
-def averaging(item: Item, colour: str, shown: ShownLight | None) -> Item:
+def with_mean_colour(item: Item, colour: str, shown: ShownLight | None) -> Item:
     """Item in lighter and darker colours of one, which is their mean as it is seen from afar.
 
     Examples
@@ -104,7 +105,7 @@ def averaging(item: Item, colour: str, shown: ShownLight | None) -> Item:
     >>> ink = Outline.from_rings([[[0, 0], [9, 0], [9, 9], [0, 9]]])
     >>> markup = '<path fill="#c00" d="M0 0h9v9H0z"/><path fill="#fff" d="M0 0h3v9H0z"/>'
     >>> tile = Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3)))
-    >>> item = averaging(tile, "#406080", shown_light(tile))
+    >>> item = with_mean_colour(tile, "#406080", shown_light(tile))
     >>> 'fill="#557da6"' in item.art.markup, mean_light(item).round(2).tolist()
     (True, [0.05, 0.12, 0.22])
     """
@@ -124,10 +125,10 @@ def averaging(item: Item, colour: str, shown: ShownLight | None) -> Item:
         gain = factor * (light_of(rgb) @ LUMINANCE + DIM) ** contrast
         return channels_of(aim * gain[:, None])
 
-    return _repainted(item, repaint, colour)
+    return _with_paints(item, repaint, colour)
 
 
-def _repainted(item: Item, repaint: Repaint, colour: str) -> Item:
+def _with_paints(item: Item, repaint: Repaint, colour: str) -> Item:
     if isinstance(item.art, VectorArt):
         return replace(item, art=_vector(item.art, repaint, colour))
     if isinstance(item.art, PictureArt):
@@ -204,7 +205,7 @@ def _picture(png: bytes, repaint: Repaint) -> bytes:
     return encoded_picture(Image.fromarray(pixels), "PNG")
 
 
-def _apart(light: FloatArray, own: float) -> FloatArray:
+def _spread_lightness(light: FloatArray, own: float) -> FloatArray:
     """Lightnesses that differ by ``APART`` at least, as far as there is room; ``own`` stays."""
     order = np.argsort(light, kind="stable")
     spread = light[order].copy()

@@ -28,7 +28,7 @@ from packwork.writers.geojson import geojson_text
 from packwork.writers.halos import haloed
 from packwork.writers.options import DrawingOptions, HaloChoice
 from packwork.writers.pdf import bleed_pt, drawing_text, pdf_bytes
-from packwork.writers.pictures import DPI, SPARE, printed, printed_on_paper
+from packwork.writers.pictures import DPI, SPARE, with_fine_photos, with_photos_for_paper
 from packwork.writers.svg import SvgOptions, svg_text
 
 MOST_DPI = 2_400
@@ -72,12 +72,12 @@ class WriteOptions:
     def on_paper(self, layout: Layout) -> Layout:
         """Layout whose photos are as fine as paper needs, with halos."""
         seen = haloed(layout, self.halo, self.svg.background)
-        return printed_on_paper(seen, self.dpi or DPI)
+        return with_photos_for_paper(seen, self.dpi or DPI)
 
     def on_screen(self, layout: Layout) -> Layout:
         """Layout whose photos are as fine as a PNG or JPEG needs, with halos."""
         seen = haloed(layout, self.halo, self.png.background)
-        return printed(seen, SPARE * self.side_px(layout) / layout.container.side)
+        return with_fine_photos(seen, SPARE * self.side_px(layout) / layout.container.side)
 
 
 Encoder: TypeAlias = Callable[[Layout, WriteOptions], bytes]
@@ -188,7 +188,7 @@ def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = Non
     return encoder(layout, (options or WriteOptions()).on_ground(layout))
 
 
-def printed_drawing(layout: Layout, options: WriteOptions | None = None) -> tuple[str, float]:
+def pdf_drawing(layout: Layout, options: WriteOptions | None = None) -> tuple[str, float]:
     """SVG that :func:`encoded` puts on a PDF's page, and the bleed around it in points.
 
     Cut lines are among it; photos are their small copies.

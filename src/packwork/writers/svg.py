@@ -141,7 +141,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
         *_backdrop(layout.container.backdrop),
         *_halos(layout, digits),
         *_container(layout, options.show_container, digits),
-        f'<g id="items"{attributes(_said(layout))}>',
+        f'<g id="items"{attributes(_promise_attributes(layout))}>',
         *_copies(layout, shapes, digits, live, flatten=options.flatten),
         "</g>",
         *_notes(layout),
@@ -279,7 +279,7 @@ def _note(note: Note) -> str:
     return f"<g>{title}{path}</g>" if title else path
 
 
-def _said(layout: Layout) -> dict[str, str]:
+def _promise_attributes(layout: Layout) -> dict[str, str]:
     """Promises about the items that ``packwork measure`` cannot see."""
     gap, shares = promised(layout)
     return {
@@ -305,7 +305,7 @@ def _copies(
         if live.has(item):
             drawn = live.element(item, own, place)
         elif flatten:
-            drawn = _in_full(item, own, place, shape, k + 1)
+            drawn = _whole_copy(item, own, place, shape, k + 1)
         else:
             drawn = _use(own, place, shape)
         copies.append(labelled(drawn, item.label))
@@ -317,7 +317,7 @@ def _use(own: dict[str, str], place: str, shape: _Shape) -> str:
     return f"<use{head}/>"
 
 
-def _in_full(item: Item, own: dict[str, str], place: str, shape: _Shape, count: int) -> str:
+def _whole_copy(item: Item, own: dict[str, str], place: str, shape: _Shape, count: int) -> str:
     if isinstance(item.art, VectorArt):
         markup = with_fresh_ids(item.art.markup, f"-{count}")
         item = replace(item, art=replace(item.art, markup=markup))

@@ -96,15 +96,16 @@ def text_element(text: LiveText, fonts: Mapping[FontFile, Embedded]) -> str:
     language = {"lang": text.language, "xml:lang": text.language}
     if len(text.runs) == 1:
         (run,) = text.runs
-        head = attributes({**language, **_placed(run, fonts)})
+        head = attributes({**language, **_run_attributes(run, fonts)})
         return f"<text{head}>{xml_text(run.text)}</text>"
     spans = (
-        f"<tspan{attributes(_placed(run, fonts))}>{xml_text(run.text)}</tspan>" for run in text.runs
+        f"<tspan{attributes(_run_attributes(run, fonts))}>{xml_text(run.text)}</tspan>"
+        for run in text.runs
     )
     return f"<text{attributes(language)}>{''.join(spans)}</text>"
 
 
-def _placed(run: TextRun, fonts: Mapping[FontFile, Embedded]) -> dict[str, str]:
+def _run_attributes(run: TextRun, fonts: Mapping[FontFile, Embedded]) -> dict[str, str]:
     """Attributes of a run; text that runs leftward begins at its right end."""
     start = run.x + run.advance * run.size if run.is_leftward else run.x
     return {
@@ -139,7 +140,7 @@ _FAILURES = (
 """What fontTools raises on damaged tables, beside errors of its own."""
 
 
-_Said: TypeAlias = tuple[TextRun, str]
+_RunText: TypeAlias = tuple[TextRun, str]
 """A run and its language."""
 
 
@@ -153,7 +154,7 @@ class Embedded:
 
 def embedded_fonts(texts: Iterable[LiveText]) -> tuple[dict[FontFile, Embedded], dict[str, str]]:
     """Parts of all fonts that texts are set in, and why some cannot be embedded, by name."""
-    runs: dict[FontFile, list[_Said]] = {}
+    runs: dict[FontFile, list[_RunText]] = {}
     for text in texts:
         for run in text.runs:
             runs.setdefault(run.font, []).append((run, text.language))
@@ -161,7 +162,7 @@ def embedded_fonts(texts: Iterable[LiveText]) -> tuple[dict[FontFile, Embedded],
     refused: dict[str, str] = {}
     for number, (font, several) in enumerate(runs.items(), start=1):
         try:
-            found[font] = _embedded(f"words-{number}", font, several)
+            found[font] = _embed(f"words-{number}", font, several)
         except WriteError as error:
             refused[font.name] = error.problem
     return found, refused
@@ -174,17 +175,17 @@ def may_be_embedded(fs_type: int) -> bool:
     return not fs_type & RESTRICTED or bool(fs_type & _PERMITTED)
 
 
-def _embedded(family: str, font: FontFile, runs: Sequence[_Said]) -> Embedded:
+def _embed(family: str, font: FontFile, runs: Sequence[_RunText]) -> Embedded:
     try:
         with _bounded_programs():
-            part = _part(font, _characters(run.text for run, _ in runs))
+            part = _font_part(font, _characters(run.text for run, _ in runs))
     except _FAILURES as error:
         raise WriteError(
             font.name, f"its tables cannot be cut down ({type(error).__name__})"
         ) from None
     if not all(_is_same(part, run, language) for run, language in runs):
         raise WriteError(font.name, "a part of it would set the words otherwise")
-    data = base64.b64encode(_packed(part)).decode("ascii")
+    data = base64.b64encode(_as_woff(part)).decode("ascii")
     source = f'url(data:font/woff;base64,{data})format("woff")'
     return Embedded(family, f'@font-face{{font-family:"{family}";src:{source}}}')
 
@@ -220,7 +221,7 @@ def _characters(texts: Iterable[str]) -> str:
     return "".join(unicodedata.normalize(form, text) for form in ("NFC", "NFD", "NFKD"))
 
 
-def _part(font: FontFile, characters: str) -> bytes:
+def _font_part(font: FontFile, characters: str) -> bytes:
     """The font's glyphs of some characters, at one weight."""
     from fontTools.subset import Options, Subsetter  # type: ignore[import-untyped]
     from fontTools.ttLib import TTFont, TTLibError  # type: ignore[import-untyped]
@@ -248,7 +249,7 @@ def _location(font: Any, weight: float | None) -> Mapping[str, float]:
     return place if weight is None else {**place, "wght": weight}
 
 
-def _packed(part: bytes) -> bytes:
+def _as_woff(part: bytes) -> bytes:
     """The same as WOFF: about half the size, and all browsers know it."""
     from fontTools.ttLib import TTFont
 

@@ -61,7 +61,7 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
     '<path id="a" transform="scale(2)" fill-rule="evenodd" d="M-1 -1 2 -1 -1 2Z"/>'
     """
     art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
-    told = _told(item, art, digits)
+    told = _unseen_outline(item, art, digits)
     if isinstance(art, VectorArt):
         head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})
         return f"<g{head}>{art.markup}</g>"
@@ -72,7 +72,9 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
     return f'<path{head} fill-rule="evenodd" d="{path_data(item.ink, digits)}"/>'
 
 
-def _told(item: Item, art: FlatArt | VectorArt | PictureArt, digits: int) -> dict[str, str]:
+def _unseen_outline(
+    item: Item, art: FlatArt | VectorArt | PictureArt, digits: int
+) -> dict[str, str]:
     """Part of an item's outline that its drawing does not show, in the units of its markup."""
     matrix = affine.identity() if isinstance(art, FlatArt) else art.matrix
     finer = max(0, math.ceil(math.log10(np.linalg.norm(matrix[:, :2], 2))))

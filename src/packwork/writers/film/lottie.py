@@ -24,7 +24,7 @@ from packwork.scene.track import poses_of
 from packwork.writers.film.animated_svg import TOLERANCE
 from packwork.writers.film.film import Film, Tell, item_knots, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame
-from packwork.writers.pictures import pictured
+from packwork.writers.pictures import as_picture
 from packwork.writers.svg import CONTAINER_STROKE, CONTAINER_STROKE_SHARE
 from packwork.writers.svg_symbols import shape_key
 
@@ -92,7 +92,7 @@ class _Scene:
         if key not in self._anchors:
             fineness = FINENESS * self._largest[key] * self._frame.px_per_cu
             try:
-                art = pictured(item, fineness)
+                art = as_picture(item, fineness)
             except ValueError as error:
                 raise WriteError("Lottie", f"an item cannot be rendered ({error})") from error
             origin = affine.inverse(art.matrix)[:, 2]

@@ -21,7 +21,7 @@ from packwork.scene.layout import without_items
 from packwork.scene.track import poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame
-from packwork.writers.pictures import pictured
+from packwork.writers.pictures import as_picture
 from packwork.writers.svg import sheet_of, svg_document
 from packwork.writers.svg_symbols import paint, shape_key
 
@@ -92,7 +92,7 @@ def _key(item: Item) -> tuple[Hashable, str]:
 def _texture(item: Item, px_per_unit: float) -> Texture:
     left, top, right, bottom = item.ink.bounds
     least = _SMALLEST_PX / max(right - left, bottom - top)
-    art = pictured(item, FINENESS * max(px_per_unit, least))
+    art = as_picture(item, FINENESS * max(px_per_unit, least))
     return texture_of(_pixels(art.png), affine.inverse(art.matrix))
 
 
