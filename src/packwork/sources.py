@@ -70,7 +70,7 @@ class MemoryStore:
 
 @dataclass(frozen=True)
 class Sources:
-    """Where readers look before they look on the disk: values by name, and a folder."""
+    """Values by name and a folder, in which readers look before they look on the disk."""
 
     memory: MemoryStore = field(default_factory=MemoryStore)
     mirror: Path | None = None

@@ -12,7 +12,7 @@ from enum import Enum, auto
 
 
 class Told(Enum):
-    """What a finding is told as."""
+    """Kind of a finding: a fault, advice, a remark, or part of another."""
 
     FAULT = auto()  # asked, and does not hold
     ADVICE = auto()  # poor, and what would do

@@ -55,7 +55,7 @@ FINENESS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class Window:
+class CoverWindow:
     """Share of each pixel that an item covers, in the rows and columns that it reaches."""
 
     rows: slice
@@ -131,7 +131,7 @@ def best_ground(target: TargetPicture, covered: float) -> str:
     return _hex(light_of(min(grounds, key=missed)))
 
 
-def windows_of(layout: Layout, target: TargetPicture) -> list[Window]:
+def windows_of(layout: Layout, target: TargetPicture) -> list[CoverWindow]:
     """Pixels of a picture that the items of a layout cover, one of each."""
     found = []
     shape = np.array(target.light.shape[1::-1])
@@ -142,11 +142,11 @@ def windows_of(layout: Layout, target: TargetPicture) -> list[Window]:
         (left, top), (right, bottom) = first, last
         size = (int(bottom - top), int(right - left))
         shares = coverage(points - first, ink.starts, size, np.float64)
-        found.append(Window(slice(top, bottom), slice(left, right), np.clip(shares, 0, 1)))
+        found.append(CoverWindow(slice(top, bottom), slice(left, right), np.clip(shares, 0, 1)))
     return found
 
 
-def _covered(windows: Sequence[Window], target: TargetPicture) -> float:
+def _covered(windows: Sequence[CoverWindow], target: TargetPicture) -> float:
     """Share of what lies about the items that they cover."""
     image = np.zeros((*target.light.shape[:2], 1))
     for one in windows:
@@ -157,7 +157,7 @@ def _covered(windows: Sequence[Window], target: TargetPicture) -> float:
 
 def _wanted(
     target: TargetPicture,
-    windows: Sequence[Window],
+    windows: Sequence[CoverWindow],
     own: FloatArray,
     tints: FloatArray,
     ground: FloatArray,

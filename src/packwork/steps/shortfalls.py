@@ -1,4 +1,4 @@
-"""What a result lacks: sizes not met, specks, a container's shape that does not show."""
+"""Shortfalls of a result: sizes not met, specks, a container's shape that does not show."""
 
 from __future__ import annotations
 
