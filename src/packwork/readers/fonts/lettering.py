@@ -48,9 +48,8 @@ class GlyphPicture:
 def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> GlyphPicture:
     """Picture of a glyph whose origin stands there, its font's units that large.
 
-    >>> made = BytesIO()
-    >>> Image.new("RGBA", (4, 2), "teal").save(made, format="png")
-    >>> picture = picture_of(Bitmap(made.getvalue(), 0, -100, 200, 0), (10.0, 0.0), 1.0)
+    >>> png = png_of_pixels(np.full((2, 4, 4), 255, np.uint8))
+    >>> picture = picture_of(Bitmap(png, 0, -100, 200, 0), (10.0, 0.0), 1.0)
     >>> [round(side) for side in picture.region.bounds]
     [10, -100, 210, 0]
     """
