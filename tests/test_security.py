@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import re
 import subprocess
 import sys
@@ -78,8 +79,13 @@ def test_what_is_promised_is_tried(said: str) -> None:
         assert name in _names(file), f"{test} is gone; what tries: {said}"
 
 
-def _imports() -> Iterator[tuple[str, str]]:
+@functools.cache
+def imports() -> list[tuple[str, str]]:
     """Modules of ours, and what they import."""
+    return sorted(set(_imports()))
+
+
+def _imports() -> Iterator[tuple[str, str]]:
     for path in SOURCE.rglob("*.py"):
         module = ".".join(path.relative_to(SOURCE.parent).with_suffix("").parts)
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -89,12 +95,9 @@ def _imports() -> Iterator[tuple[str, str]]:
                 yield module, node.module
 
 
-IMPORTS = sorted(set(_imports()))
-
-
 def test_only_the_studio_and_the_cluster_open_connections() -> None:
     nets = {"socket", "ssl", "urllib.request", "http.client", "requests", "uvicorn", "distributed"}
-    found = {module for module, other in IMPORTS if other in nets or other.split(".")[0] in nets}
+    found = {module for module, other in imports() if other in nets or other.split(".")[0] in nets}
     # Of a socket pair inside one process: a way to hear of signals.
     found.discard("packwork.cli.failure")
     assert found <= {f"packwork.studio.{name}" for name in ("serving", "connections")} | {
@@ -104,7 +107,7 @@ def test_only_the_studio_and_the_cluster_open_connections() -> None:
 
 def test_only_kernels_are_unpickled() -> None:
     risky = {"pickle", "marshal", "shelve", "cloudpickle", "joblib", "dill"}
-    assert {m for m, other in IMPORTS if other.split(".")[0] in risky} == {
+    assert {m for m, other in imports() if other.split(".")[0] in risky} == {
         "packwork.compiled.cache"
     }
     for path in SOURCE.rglob("*.py"):
@@ -115,7 +118,7 @@ def test_what_is_measured_shares_no_code_with_what_places() -> None:
     placing = {"solve", "start", "finish", "settle", "compaction", "forces", "losses", "pipeline"}
     found = {
         (module, other)
-        for module, other in IMPORTS
+        for module, other in imports()
         if module.startswith("packwork.metrics") and other.split(".")[1:2]
         and other.split(".")[0] == "packwork" and other.split(".")[1] in placing
     }  # fmt: skip

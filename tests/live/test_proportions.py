@@ -8,7 +8,7 @@ import packwork as pw
 from packwork.live.refilling import MOST_RUINED
 
 QUICK = {"effort": "draft"}
-WEIGHTS = {f"word{k}": 30.0 / (k + 3) for k in range(40)}
+WEIGHTS = {f"word{k}": 30.0 / (k + 3) for k in range(24)}
 
 
 def covered(layout: pw.Layout) -> float:
@@ -23,7 +23,7 @@ def test_a_move_of_the_largest_leaves_the_container_full_and_certified(
     if what == "cloud":
         layout = pw.words("heart", WEIGHTS, sizes="shared", seed=seed, **QUICK)
     else:
-        layout = pw.fill("heart", "icons", count=25, sizes="shared", seed=seed, **QUICK)
+        layout = pw.fill("heart", "icons", count=15, sizes="shared", seed=seed, **QUICK)
     session = layout.edit()
     session.move(0, "50%", "60%")
     session.settle()
