@@ -1,0 +1,114 @@
+"""Instances of strip packing in the JSON that jagua-rs and sparrow read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+import shapely
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from shapely.geometry import Polygon
+
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.readers.files import read_text, stem
+from packwork.readers.json_text import parsed
+from packwork.readers.reading import UnfitError, reading_file
+from packwork.scene.item import Item
+
+MAX_INSTANCE_BYTES = 16_000_000
+"""Thousands of parts with hundreds of corners each."""
+
+MAX_COUNT = 10_000
+"""Parts of one kind."""
+
+_Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
+
+
+class _Shape(BaseModel):
+    type: Literal["simple_polygon"]
+    data: Annotated[list[tuple[_Number, _Number]], Field(min_length=3, max_length=10_000)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+
+    id: int
+    demand: Annotated[int, Field(ge=0, le=MAX_COUNT)]
+    allowed_orientations: list[_Number] | None = None
+    shape: _Shape
+
+
+class _Instance(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+
+    name: str = ""
+    strip_height: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
+    items: Annotated[list[_Part], Field(min_length=1, max_length=10_000)]
+
+
+@dataclass(frozen=True)
+class InstancePart:
+    """An item, how many of it, and the angles in degrees at which it may lie; None: any."""
+
+    item: Item
+    count: int
+    angles: tuple[float, ...] | None
+
+
+@dataclass(frozen=True)
+class Instance:
+    """A strip of a height, which is to be as short as possible, and the parts that go on it."""
+
+    name: str
+    height: float
+    parts: tuple[InstancePart, ...]
+
+
+def is_instance(path: str | Path) -> bool:
+    """True for a file name that an instance may have.
+
+    Examples
+    --------
+    >>> is_instance("swim.json"), is_instance("600x400mm")
+    (True, False)
+    """
+    return Path(path).suffix.lower() == ".json"
+
+
+def read_instance(path: str | Path) -> Instance:
+    """Instance of a file; a part is named by its ``id``.
+
+    Raises
+    ------
+    ReadError
+        If there is none in the file, naming the first thing that is wrong.
+    """
+    with reading_file(str(path)):
+        try:
+            said = _Instance.model_validate(parsed(read_text(path, MAX_INSTANCE_BYTES)))
+        except ValidationError as error:
+            first = error.errors()[0]
+            place = ".".join(str(part) for part in first["loc"]) or "it"
+            message = f"is no strip packing instance: {place}: {first['msg'].lower()}"
+            raise UnfitError(message) from None
+        return Instance(
+            said.name or stem(path), said.strip_height,
+            tuple(_part(one, str(path)) for one in said.items if one.demand),
+        )  # fmt: skip
+
+
+def _part(said: _Part, source: str) -> InstancePart:
+    polygon = Polygon(said.shape.data)
+    if not polygon.is_valid or polygon.area <= 0.0:
+        why = shapely.is_valid_reason(polygon) if polygon.area else "it has no area"
+        raise UnfitError(f"part {said.id} is no simple polygon: {why}")
+    outline = Outline.of(polygon)
+    x, y = outline.centroid
+    centred = outline.mapped(affine.similarity(-x, -y, 0.0, 1.0))
+    turns = said.allowed_orientations
+    return InstancePart(
+        Item(f"part {said.id}", source, centred, art="#8fb48c"), said.demand,
+        None if turns is None else tuple(turns),
+    )  # fmt: skip

@@ -1,0 +1,165 @@
+"""Parts as the search sees them: edges, poles, and spans of pixel rows at each allowed turn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from packwork.geometry.polygon import Region
+
+Floats = npt.NDArray[np.float64]
+
+MOST_CORNERS = 64
+"""Outlines with more are simplified, outward, for the search."""
+
+COARSENESS = 5e-4
+"""Largest distance of a simplified outline from the true one, over the diameter."""
+
+FREE_TURNS = 32
+"""Turns at which a part that may lie at any angle is drawn; coarser ones propose worse places."""
+
+POLE_CELLS = 100
+"""Cells of the longer side of the grid on which poles are sought."""
+
+MOST_POLES, FEWEST_POLES, POLE_COVER = 21, 16, 0.8
+"""Poles stop when they cover that share of a part; more are dearer, fewer tell depth worse."""
+
+DECAY_SHARE = 0.01
+"""Depth below which the price of an overlap falls off slowly, over a part's diameter."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """A region of fixed size, how many of it are wanted, and at which angles it may lie.
+
+    It is turned about its own origin.
+    """
+
+    region: Region
+    count: int = 1
+    turns: tuple[float, ...] | None = (0.0,)
+    """Allowed angles in radians, clockwise on screen; None: any."""
+
+
+class Shapes(NamedTuple):
+    """Edges (ax, ay, bx, by) and poles (x, y, radius) of all shapes, and where each begins."""
+
+    edges: Floats
+    poles: Floats
+    edge_at: npt.NDArray[np.int64]
+    pole_at: npt.NDArray[np.int64]
+
+
+class Turns(NamedTuple):
+    """Rows cosine, sine and angle of all turns; of each turn, spans (row, from, to) in pixels."""
+
+    turns: Floats
+    turn_at: npt.NDArray[np.int64]
+    is_free: npt.NDArray[np.bool_]
+    span_at: npt.NDArray[np.int64]
+    spans: npt.NDArray[np.int64]
+
+
+def spare(region: Region, gap: float) -> Region:
+    """A region with few corners that holds all within half the gap of another one."""
+    offset = gap / 2.0
+    if shapely.get_num_coordinates(region) <= MOST_CORNERS:
+        return region.buffer(offset, join_style="mitre") if offset else region
+    x0, y0, x1, y1 = region.bounds
+    off = COARSENESS * math.hypot(x1 - x0, y1 - y0)
+    return region.simplify(off).buffer(off + offset, join_style="mitre", mitre_limit=2.0)
+
+
+def rings_of(region: Region) -> list[Floats]:
+    """All rings of a region, closed, ``(n, 2)`` each."""
+    parts = shapely.get_parts(region)
+    return [
+        np.asarray(ring.coords)[:, :2]
+        for part in parts
+        for ring in (part.exterior, *part.interiors)
+    ]
+
+
+def edges_of(region: Region) -> Floats:
+    """All edges of its rings as columns (ax, ay, bx, by)."""
+    return np.vstack([np.hstack([ring[:-1], ring[1:]]) for ring in rings_of(region)]).T.copy()
+
+
+def poles_of(region: Region) -> Floats:
+    """Circles inside a region that do not overlap, each the largest that is left (greedily)."""
+    x0, y0, x1, y1 = region.bounds
+    cell = max(x1 - x0, y1 - y0) / POLE_CELLS
+    x, y = (one.ravel() for one in np.meshgrid(np.arange(x0 + cell / 2, x1, cell),
+                                               np.arange(y0 + cell / 2, y1, cell)))  # fmt: skip
+    inside = shapely.contains_xy(region, x, y)
+    x, y = x[inside], y[inside]
+    room = shapely.distance(region.boundary, shapely.points(x, y))
+    poles: list[tuple[float, float, float]] = []
+    covered = 0.0
+    while len(room) and len(poles) < MOST_POLES:
+        k = int(np.argmax(room))
+        radius = float(room[k])
+        is_enough = len(poles) >= FEWEST_POLES and covered > POLE_COVER * region.area
+        if radius < cell / 2 or is_enough:
+            break
+        poles.append((float(x[k]), float(y[k]), radius))
+        covered += math.pi * radius**2
+        room = np.minimum(room, np.hypot(x - x[k], y - y[k]) - radius)
+    if not poles:
+        # Thinner than a cell.
+        inner = region.representative_point()
+        poles.append((inner.x, inner.y, float(shapely.distance(region.boundary, inner))))
+    return np.array(poles).T.copy()
+
+
+def spans_of(edges: Floats, pixel: float) -> npt.NDArray[np.int64]:
+    """Pixels (row, from, before) that a shape covers on the middle lines of rows."""
+    ax, ay, bx, by = edges
+    found: list[tuple[int, int, int]] = []
+    for row in range(math.ceil(edges[1].min() / pixel), math.floor(edges[1].max() / pixel) + 1):
+        y = row * pixel
+        met = (ay > y) != (by > y)
+        cuts = np.sort(ax[met] + (y - ay[met]) / (by[met] - ay[met]) * (bx[met] - ax[met]))
+        for start, end in zip(cuts[::2], cuts[1::2], strict=True):
+            first = round(float(start) / pixel)
+            found.append((row, first, max(round(float(end) / pixel), first + 1)))
+    if not found:
+        first = round(float(edges[0].min()) / pixel)
+        found.append((0, first, max(round(float(edges[0].max()) / pixel), first + 1)))
+    return np.array(found, dtype=np.int64).T.copy()
+
+
+def tables(parts: Sequence[Part], pixel: float) -> tuple[Shapes, Turns]:
+    """All that the kernels read of parts, which never changes."""
+    edges, poles = ([of(part.region) for part in parts] for of in (edges_of, poles_of))
+    angles = [
+        np.asarray(part.turns) if part.turns is not None
+        else np.arange(FREE_TURNS) * (2 * math.pi / FREE_TURNS)
+        for part in parts
+    ]  # fmt: skip
+    every = np.concatenate(angles)
+    cosine, sine = (np.round(f(every), 15) for f in (np.cos, np.sin))
+    spans = []
+    for own, allowed in zip(edges, angles, strict=True):
+        for angle in allowed:
+            c, s = round(math.cos(angle), 15), round(math.sin(angle), 15)
+            turned = np.vstack([c * own[0] - s * own[1], s * own[0] + c * own[1],
+                                c * own[2] - s * own[3], s * own[2] + c * own[3]])  # fmt: skip
+            spans.append(spans_of(turned, pixel))
+    shapes = Shapes(np.hstack(edges), np.hstack(poles), starts(edges), starts(poles))
+    turns = Turns(
+        np.vstack([cosine, sine, every]), starts([one[None] for one in angles]),
+        np.array([part.turns is None for part in parts]), starts(spans), np.hstack(spans),
+    )  # fmt: skip
+    return shapes, turns
+
+
+def starts(arrays: Sequence[npt.NDArray[Any]]) -> npt.NDArray[np.int64]:
+    """Columns at which each of several arrays begins in all of them side by side, and the end."""
+    return np.concatenate([[0], np.cumsum([one.shape[1] for one in arrays])]).astype(np.int64)

@@ -1,0 +1,135 @@
+"""Where all parts lie, and what their overlaps cost: one worker's arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from packwork.separation.kernels.collision import DECAY, PENALTY
+from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
+from packwork.separation.shapes import DECAY_SHARE, Floats, Part, starts, tables
+
+ROWS = 96
+"""Rows of the image that proposes places. Half as many miss gaps that thin parts fit into: three
+points of density in 20 s on shirts, one on swim; twice as many take four times as long."""
+
+MOST, LEAST, FALL = 2.0, 1.2, 0.95
+"""Factors of weights in a pass: of the worst pair, of the least, and of pairs that are apart."""
+
+
+class Problem:
+    """Parts, each with a number, on a sheet of a given height; all that no move changes."""
+
+    def __init__(self, parts: Sequence[Part], height: float) -> None:
+        self.parts, self.height = tuple(parts), height
+        self.pixel = height / ROWS
+        self.shapes, self.turns = tables(parts, self.pixel)
+        self.shape_of = np.repeat(np.arange(len(parts)), [part.count for part in parts])
+        self.areas = np.array([part.region.area for part in parts])[self.shape_of]
+        self.hulls = np.array([part.region.convex_hull.area for part in parts])[self.shape_of]
+        wide = [np.ptp(shapely.get_coordinates(part.region), axis=0).max() for part in parts]
+        self.decays = np.array(wide)[self.shape_of] * DECAY_SHARE
+
+    def __len__(self) -> int:
+        """Number of parts, each of a kind as often as it is wanted."""
+        return len(self.shape_of)
+
+    @property
+    def area(self) -> float:
+        """Sum of all areas, in square units."""
+        return float(self.areas.sum())
+
+
+@dataclass
+class Layout:
+    """Poses (x, y, angle) of all parts, weights of pairs and losses of pairs."""
+
+    problem: Problem
+    sheet: Floats
+    arrays: tuple[Any, ...]
+    weights: Floats
+    losses: Floats
+    turned: tuple[Floats, Floats]
+    scratch: tuple[Any, ...]
+    random: npt.NDArray[np.uint64]
+    image: npt.NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0), np.float32))
+    scores: npt.NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0), np.float32))
+
+    @classmethod
+    def of(cls, problem: Problem, length: float, poses: Floats, seed: int) -> Layout:
+        """Parts at poses on a sheet of a length."""
+        count, (edges, poles, edge_at, pole_at) = len(problem), problem.shapes
+        own = [edges[:, edge_at[s] : edge_at[s + 1]] for s in problem.shape_of]
+        inner = [poles[:, pole_at[s] : pole_at[s + 1]] for s in problem.shape_of]
+        items, index = np.zeros((count, 9)), np.zeros((count, 6), np.int64)
+        items[:, PENALTY], items[:, DECAY] = problem.hulls**0.25, problem.decays
+        index[:, 0], index[:, 1] = starts(own)[:-1], starts(own)[1:]
+        index[:, 2], index[:, 3] = starts(inner)[:-1], starts(inner)[1:]
+        index[:, 4] = problem.shape_of
+        most, many = np.diff(edge_at).max() + 1, np.diff(pole_at).max()
+        layout = cls(
+            problem, np.array([length, problem.height]),
+            (items, index, np.hstack(own), np.hstack(inner)),
+            np.ones((count, count)), np.zeros((count, count)),
+            (np.empty((4, most)), np.empty((3, many))),
+            (np.empty((4, most)), np.empty((2, many)), np.empty(count, np.int64),
+             np.empty(count), np.empty(most, np.int64), np.empty(4)),
+            np.array([seed], np.uint64),
+        )  # fmt: skip
+        layout.set_length(length, poses)
+        return layout
+
+    def set_length(self, length: float, poses: Floats) -> None:
+        """Make the sheet that long, with parts at these poses."""
+        pixel = self.problem.pixel
+        columns = int(np.ceil(length / pixel))
+        if self.image.shape[1] != columns + 1:
+            self.image = np.zeros((ROWS, columns + 1), np.float32)
+            self.scores = np.zeros((3, columns + 2), np.float32)
+        self.sheet[0] = length
+        self.put(poses)
+
+    def put(self, poses: Floats) -> None:
+        """Lay all parts at poses, and work all losses out anew."""
+        put_all(poses, self.arrays, self.problem.shapes, self.problem.turns, self.weights,
+                self.losses, self.sheet, self.turned, self.scratch)  # fmt: skip
+
+    def take(self, other: Layout) -> None:
+        """Become a copy of another worker's layout; the random numbers stay one's own."""
+        for own, theirs in zip(self.arrays, other.arrays, strict=True):
+            own[:] = theirs
+        self.weights[:], self.losses[:] = other.weights, other.losses
+
+    @property
+    def poses(self) -> Floats:
+        """A copy of x, y and angle of all parts."""
+        return np.array(self.arrays[0][:, 6:9])
+
+    @property
+    def loss(self) -> float:
+        """Sum of all losses without weights; 0 where nothing overlaps or sticks out."""
+        return float((self.losses.sum() + np.trace(self.losses)) / 2)
+
+    @property
+    def weighted(self) -> float:
+        """Sum of all losses with their weights."""
+        both = self.losses * self.weights
+        return float((both.sum() + np.trace(both)) / 2)
+
+    def move(self) -> int:
+        """Run one pass over all parts that collide; returns how many places were priced."""
+        problem = self.problem
+        return int(
+            move_pass(self.random, self.arrays, self.weights, self.losses, problem.shapes,
+                      problem.turns, self.sheet, problem.pixel, self.image, self.scores,
+                      self.turned, self.scratch)
+        )  # fmt: skip
+
+    def raise_weights(self) -> None:
+        """Make pairs that collide dearer, and the others cheaper."""
+        raise_weights(self.weights, self.losses, MOST, LEAST, FALL)

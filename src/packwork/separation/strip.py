@@ -1,0 +1,216 @@
+"""A strip of given height, as short as possible: ever shorter, then compressed."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from packwork.separation.kernels.collision import X1
+from packwork.separation.shapes import Floats, Part
+from packwork.separation.state import Layout, Problem
+
+START = 0.55
+"""Density of the first strip: parts that are strewn on it come apart at once."""
+
+PATIENCE, PATIENCE_AT_END = 200, 100
+"""Passes without a lower loss after which an attempt counts as a strike."""
+
+STRIKES = 3
+PROGRESS = 0.98
+"""Share of the lowest loss so far below which a pass counts as progress."""
+
+SHRINKS = ((3, 0.01), (15, 0.004), (math.inf, 0.001))
+"""By how much a strip is shortened, by the passes that the one before took."""
+
+EXPLORED = 0.8
+"""Share of the work after which strips are only compressed."""
+
+CLOSEST, FINEST = 0.0005, 0.00001
+"""Shares of its length by which a strip is compressed at first, and at last."""
+
+LARGE_QUANTILE = 0.75
+"""Parts that are exchanged to leave a dead end have hulls above that quantile of all area."""
+
+SPREAD = 0.25
+"""How far down the list of failures a new attempt reaches, in deviations of its length."""
+
+
+@dataclass
+class Clock:
+    """Work that a search may do: passes, or seconds, whichever ends first."""
+
+    passes: float = math.inf
+    seconds: float = math.inf
+    begun: float = field(default_factory=time.perf_counter)
+    done: int = 0
+
+    @property
+    def share(self) -> float:
+        """How much of the work is done."""
+        return max(self.done / self.passes, (time.perf_counter() - self.begun) / self.seconds)
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Poses (x, y, angle) of all parts, none of which overlaps another, and the strip's length."""
+
+    length: float
+    poses: Floats
+    density: float
+
+
+class StripSearch:
+    """Search over strips of one problem, by workers that start each pass from the same layout."""
+
+    def __init__(
+        self, parts: Sequence[Part], height: float, *, seed: int = 0, workers: int = 2,
+        clock: Clock, found: Callable[[Strip], None] = lambda _: None,
+        stop: Callable[[], bool] = lambda: False,
+    ) -> None:  # fmt: skip
+        self.problem = Problem(parts, height)
+        self.random = np.random.default_rng(seed)
+        self.clock, self.found, self.stop = clock, found, stop
+        length = self.problem.area / height / START
+        widest = max(part.region.bounds[2] - part.region.bounds[0] for part in parts)
+        length = max(length, 1.05 * widest)
+        poses = self._strewn(length)
+        self.workers = [
+            Layout.of(self.problem, length, poses, int(word))
+            for word in self.random.integers(1, 2**63, workers)
+        ]
+        self.pool = ThreadPoolExecutor(workers)
+        self.best: Strip | None = None
+
+    def _strewn(self, length: float) -> Floats:
+        count, parts = len(self.problem), self.problem.parts
+        turns = [
+            parts[s].turns or tuple(np.arange(32) * math.pi / 16) for s in self.problem.shape_of
+        ]
+        angles = [own[self.random.integers(len(own))] for own in turns]
+        x = self.random.uniform(0.0, length, count)
+        return np.column_stack([x, self.random.uniform(0.0, self.problem.height, count), angles])
+
+    @property
+    def layout(self) -> Layout:
+        """That of the first worker, which all start from."""
+        return self.workers[0]
+
+    def step(self) -> None:
+        """Run one pass in each worker; all go on from the one of the lowest weighted loss."""
+        list(self.pool.map(Layout.move, self.workers))
+        best = min(range(len(self.workers)), key=lambda k: (self.workers[k].weighted, k))
+        for k, worker in enumerate(self.workers):
+            if k != best:
+                worker.take(self.workers[best])
+        for worker in self.workers:
+            worker.raise_weights()
+        self.clock.done += 1
+
+    def put(self, length: float, poses: Floats, *, fresh: bool = False) -> None:
+        """Give all workers a length and poses; ``fresh``: and weights of 1."""
+        for worker in self.workers:
+            if fresh:
+                worker.weights[:] = 1.0
+            worker.set_length(length, poses)
+
+    def separate(self, patience: int, until: float) -> tuple[float, Floats, int]:
+        """Move parts until none overlaps, or for some strikes.
+
+        Returns the lowest loss that was met, its poses, and how many passes it took.
+        """
+        lowest, poses, passes, strikes = self.layout.loss, self.layout.poses, 0, 0
+        while strikes < STRIKES and lowest > 0.0 and not self.is_over(until):
+            begun, waited = lowest, 0
+            while waited < patience and lowest > 0.0 and not self.is_over(until):
+                self.step()
+                passes += 1
+                loss = self.layout.loss
+                waited = 0 if loss < PROGRESS * lowest else waited + 1
+                if loss < lowest:
+                    lowest, poses = loss, self.layout.poses
+            if lowest > 0.0:
+                self.put(self.layout.sheet[0], poses)
+            strikes = 0 if lowest < PROGRESS * begun else strikes + 1
+        if lowest == 0.0:
+            # Worked out anew, from the poses alone.
+            self.put(self.layout.sheet[0], poses)
+            lowest = self.layout.loss
+        return lowest, poses, passes
+
+    def keep(self, poses: Floats) -> Strip:
+        """Remember a layout without overlaps, on a strip no longer than need be."""
+        length = float(self.layout.arrays[0][:, X1].max())
+        best = Strip(length, poses, self.problem.area / (length * self.problem.height))
+        self.best = best
+        self.found(best)
+        return best
+
+    def shorter(self, best: Strip, share: float) -> None:
+        """Cut a share of the strip's length out at a random line; what lies right of it moves."""
+        cut = best.length * share
+        poses = best.poses.copy()
+        poses[poses[:, 0] > self.random.uniform(0.0, best.length), 0] -= cut
+        self.put(best.length - cut, poses, fresh=True)
+
+    def explore(self, until: float) -> None:
+        """Shorten the strip again and again; from a dead end, go on from an earlier failure."""
+        failures: list[tuple[float, Floats]] = []
+        while not self.is_over(until):
+            loss, poses, passes = self.separate(PATIENCE, until)
+            if loss == 0.0:
+                failures = []
+                share = next(share for most, share in SHRINKS if passes <= most)
+                self.shorter(self.keep(poses), share)
+                continue
+            if self.best is None:
+                length = self.layout.sheet[0] * 1.1
+                self.put(length, self._strewn(length), fresh=True)
+                continue
+            failures.append((loss, poses))
+            failures.sort(key=lambda one: one[0])
+            far = min(abs(self.random.normal(0.0, SPREAD)), 0.999)
+            start = failures[int(far * len(failures))][1]
+            self.put(self.layout.sheet[0], self.disrupted(start), fresh=True)
+
+    def disrupted(self, poses: Floats) -> Floats:
+        """Exchange two large parts of different shape."""
+        hulls = self.problem.hulls
+        order = np.argsort(hulls)
+        above = np.cumsum(hulls[order]) >= (1.0 - LARGE_QUANTILE) * hulls.sum()
+        large = self.random.permutation(order[above])
+        kinds = self.problem.shape_of[large]
+        others = large[kinds != kinds[0]]
+        poses = poses.copy()
+        first, second = large[0], (others[0] if len(others) else large[-1])
+        poses[[first, second], :2] = poses[[second, first], :2]
+        return poses
+
+    def compress(self, best: Strip) -> Strip:
+        """Shorten a strip by ever less, and take back what does not succeed."""
+        begun = self.clock.share
+        while not self.is_over(1.0):
+            done = (self.clock.share - begun) / max(1.0 - begun, 1e-9)
+            self.shorter(best, CLOSEST * (FINEST / CLOSEST) ** min(done, 1.0))
+            loss, poses, _ = self.separate(PATIENCE_AT_END, 1.0)
+            if loss == 0.0:
+                best = self.keep(poses)
+        return best
+
+    def run(self) -> Strip:
+        """Explore, compress, and give the shortest strip that was met.
+
+        Where the work ends before there is any, it goes on until there is one.
+        """
+        with self.pool:
+            while self.best is None:
+                self.explore(EXPLORED)
+            return self.compress(self.best)
+
+    def is_over(self, until: float) -> bool:
+        """Whether a share of the work is done and there is something to show for it."""
+        return self.best is not None and (self.clock.share >= until or self.stop())

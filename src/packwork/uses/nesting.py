@@ -1,0 +1,155 @@
+"""Nesting: parts of true size on as little of a strip or sheet as possible."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.metrics.certificate import HAIR, Promise, broken, unclean
+from packwork.metrics.measure import LayoutMetrics, measure
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.separation.shapes import Part, rings_of, spare
+from packwork.separation.strip import Clock, Strip, StripSearch
+from packwork.units import Unit
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """An item of true size, how many of it, and the angles at which it may lie."""
+
+    item: Item
+    count: int = 1
+    angles: tuple[float, ...] | None = (0.0,)
+    """In radians, clockwise on screen; None: any."""
+
+    scale: float = 1.0
+    """Sheet units of one of the item's own."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheet:
+    """What parts lie on: a strip of a height, and of a length that need not be used up."""
+
+    height: float
+    length: float = math.inf
+    unit: Unit = "px"
+    name: str = "sheet"
+
+
+@dataclass(frozen=True)
+class Nest:
+    """Layout of all parts, on a container that is as long as they need."""
+
+    layout: Layout
+    metrics: LayoutMetrics
+    faults: tuple[str, ...]
+    certified: bool
+    strip: Strip
+
+    @property
+    def length(self) -> float:
+        """Used length, in the sheet's unit."""
+        return self.layout.container.width
+
+    def report(self) -> dict[str, Any]:
+        """Plain numbers and texts for a report file."""
+        return {
+            **self.layout.manifest["nest"],
+            "metrics": self.metrics.as_dict(), "faults": list(self.faults),
+            "certified": self.certified,
+        }  # fmt: skip
+
+
+def nest(
+    pieces: Sequence[Piece], sheet: Sheet, *, gap: float = 0.0, seed: int = 0, workers: int = 2,
+    clock: Clock, found: Callable[[Strip], None] = lambda _: None,
+    stop: Callable[[], bool] = lambda: False,
+) -> Nest:  # fmt: skip
+    """Lay all pieces on as short a part of a sheet as the search finds.
+
+    Parameters
+    ----------
+    gap
+        Smallest distance between pieces, and of them from the sheet's edge, in its unit.
+    clock
+        How long it searches.
+    found
+        Told of each shorter strip.
+    stop
+        Asked after each pass whether to end with the best so far.
+
+    Raises
+    ------
+    RecipeError
+        If a piece is higher than the sheet at every angle that it may have, or there is none.
+    """
+    longest = max((one.item.outline.radius * one.scale for one in pieces), default=0.0)
+    least = gap + 2.0 * HAIR * max(sheet.height, longest * 2.0)
+    parts = [_part(one, sheet, least) for one in pieces]
+    if not sum(part.count for part in parts):
+        raise RecipeError("items", "there is nothing to nest; name parts")
+    # A gap's half lies around each part; the other half to the edge is the sheet's.
+    inner = sheet.height - least
+    search = StripSearch(parts, inner, seed=seed, workers=workers, clock=clock, found=found,
+                         stop=stop)  # fmt: skip
+    strip = search.run()
+    items = tuple(one.item for one in pieces for _ in range(one.count))
+    scales = [one.scale for one in pieces for _ in range(one.count)]
+    x, y, angle = strip.poses.T
+    poses = Poses(x + least / 2.0, y + least / 2.0, angle, scales)
+    placed = Layout(_sheet_of(sheet, strip.length + least), items, poses, np.ones(len(items)))
+    area = float(placed.areas.sum())
+    promise = Promise(gap)
+    about = {
+        "length": placed.container.width, "height": sheet.height, "unit": sheet.unit,
+        "sheet_length": sheet.length if math.isfinite(sheet.length) else None,
+        "parts": len(items), "density": area / (placed.container.width * sheet.height),
+        "passes": clock.done, "seed": seed, "workers": workers,
+    }  # fmt: skip
+    layout = Layout(
+        placed.container, items, poses, placed.weights,
+        manifest={"promised": asdict(promise), "nest": about, "seed": seed},
+    )  # fmt: skip
+    metrics = measure(layout)
+    faults = tuple(broken(promise, layout, metrics.exact))
+    certified = not faults and not unclean(promise, layout, metrics.exact)
+    return Nest(layout, metrics, faults, certified, strip)
+
+
+def _part(piece: Piece, sheet: Sheet, gap: float) -> Part:
+    region = shapely.transform(piece.item.outline.region, lambda points: points * piece.scale)
+    part = Part(region=spare(region, gap), count=piece.count, turns=piece.angles)
+    if _least_height(part) > sheet.height - gap:
+        raise RecipeError(
+            "items",
+            f"{piece.item.name} is {_least_height(part):.4g} {sheet.unit} high with its gap, and "
+            f"the sheet {sheet.height:.4g} {sheet.unit}; allow other angles or take a larger sheet",
+        )
+    return part
+
+
+def _least_height(part: Part) -> float:
+    """Smallest height of a part over the angles that it may have."""
+    points = np.vstack(rings_of(part.region.convex_hull))
+    turns = np.arange(0.0, math.pi, 0.01) if part.turns is None else np.asarray(part.turns)
+    heights = np.ptp(
+        np.outer(np.sin(turns), points[:, 0]) + np.outer(np.cos(turns), points[:, 1]), axis=1
+    )
+    return float(heights.min())
+
+
+def _sheet_of(sheet: Sheet, length: float) -> Container:
+    return Container(
+        sheet.name, sheet.name, Outline.box(0.0, 0.0, length, sheet.height), length, sheet.height,
+        sheet.unit,
+    )  # fmt: skip

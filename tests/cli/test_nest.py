@@ -1,0 +1,124 @@
+"""The verb ``nest``: real files in, certified sheets out, one clear line for what cannot be."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import shapely
+from typer.testing import Result
+
+import packwork as pw
+
+Command = Callable[..., Result]
+
+BRACKET = """<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="50mm" viewBox="0 0 80 50">
+<path d="M0 0h80v15h-60v35h-20z"/></svg>"""
+DISC = """<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="30mm" viewBox="0 0 30 30">
+<circle cx="15" cy="15" r="15"/></svg>"""
+SQUARES = {
+    "name": "squares",
+    "strip_height": 4.001,
+    "items": [
+        {"id": 0, "demand": 6, "allowed_orientations": [0.0, 90.0],
+         "shape": {"type": "simple_polygon", "data": [[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]]}},
+        {"id": 1, "demand": 2,
+         "shape": {"type": "simple_polygon", "data": [[0, 0], [1, 0], [0.5, 1]]}},
+    ],
+}  # fmt: skip
+
+
+@pytest.fixture
+def shop(folder: Path) -> Path:
+    (folder / "bracket.svg").write_text(BRACKET, encoding="utf-8")
+    (folder / "disc.svg").write_text(DISC, encoding="utf-8")
+    (folder / "squares.json").write_text(json.dumps(SQUARES), encoding="utf-8")
+    return folder
+
+
+def test_parts_lie_on_the_sheet_in_true_size_at_the_distance_of_the_tool(
+    shop: Path, packwork: Command
+) -> None:
+    line = "nest 300x200mm bracket.svg*8 disc.svg*3 --kerf 2mm --passes 150 -o a.geojson -o a.dxf"
+    result = packwork(f"{line} --report a.json")
+    assert result.exit_code == 0, result.output
+    assert "certified" in result.output
+    layout = pw.Layout.load(shop / "a.geojson")
+    assert layout.container.unit == "mm"
+    assert sorted(placed.name for placed in layout) == ["bracket"] * 8 + ["disc"] * 3
+    outlines = [outline.region for outline in layout.outlines]
+    areas = sorted({round(region.area) for region in outlines})
+    assert areas == [round(outlines[-1].area), 80 * 15 + 20 * 35]
+    assert min(
+        a.distance(b) for k, a in enumerate(outlines) for b in outlines[:k]
+    ) > 2 - 1e-9  # fmt: skip
+    sheet = shapely.box(0, 0, layout.container.width, 200)
+    assert all(sheet.buffer(-2 + 1e-9, join_style="mitre").covers(region) for region in outlines)
+    said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
+    assert (said["parts"], said["certified"], said["sheet_length"]) == (11, True, 300)
+    assert said["length"] == layout.container.width < 200
+    assert packwork("measure a.dxf").exit_code == 0
+
+
+def test_the_same_passes_give_the_same_bytes(shop: Path, packwork: Command) -> None:
+    for name in ("a", "b"):
+        packwork(f"nest squares.json --passes 40 --seed 2 -o {name}.svg -q")
+    assert (shop / "a.svg").read_bytes() == (shop / "b.svg").read_bytes()
+
+
+def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Command) -> None:
+    assert packwork("nest squares.json --passes 120 -o a.geojson").exit_code == 0
+    layout = pw.Layout.load(shop / "a.geojson")
+    assert [placed.name for placed in layout].count("part 0") == 6
+    assert 6.0 < layout.container.width < 8.6
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("nest 300x40mm bracket.svg --rotate 90,270", "bracket is 80 mm high"),
+        ("nest 300mm", "there is nothing to nest"),
+        ("nest wide bracket.svg", "canvas"),
+        ("nest squares.json bracket.svg", "an instance holds its parts"),
+        ("nest none.json", "no such file"),
+        ("nest 300mm nowhere.svg*3", "no such file"),
+        ("nest 300mm bracket.svg --rotate round", "rotate"),
+        ("nest 300mm bracket.svg --kerf wide", "wide"),
+        ("nest 300mm bracket.svg -o a.doc", "a.doc"),
+    ],
+)
+def test_what_cannot_be_is_one_line(shop: Path, packwork: Command, line: str, said: str) -> None:
+    result = packwork(line)
+    assert result.exit_code == 2
+    assert said in " ".join(result.output.split())
+    assert not (shop / "nest.svg").exists()
+
+
+def test_parts_that_need_more_than_the_sheet_are_told(shop: Path, packwork: Command) -> None:
+    result = packwork("nest 90x80mm bracket.svg*6 --passes 30 -o a.svg")
+    assert result.exit_code == 1
+    assert "the parts need" in result.output
+    assert (shop / "a.svg").exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"strip_height": -1}, "strip_height"),
+        ({"items": []}, "items"),
+        ({"items": [{**SQUARES["items"][0], "demand": 10**9}]}, "demand"),
+        ({"items": [{**SQUARES["items"][0], "shape": {"type": "circle"}}]}, "shape"),
+        ({"items": [{"id": 4, "demand": 1, "shape": {
+            "type": "simple_polygon", "data": [[0, 0], [2, 2], [2, 0], [0, 2]]}}]}, "part 4"),
+    ],
+)  # fmt: skip
+def test_an_instance_that_is_none_is_one_line(
+    shop: Path, packwork: Command, change: dict, said: str
+) -> None:
+    (shop / "bad.json").write_text(json.dumps({**SQUARES, **change}), encoding="utf-8")
+    result = packwork("nest bad.json")
+    assert result.exit_code == 2
+    assert said in result.output
+    assert result.output.count("\n") == 1
