@@ -19,17 +19,17 @@ from shapely.affinity import rotate, translate
 
 from benchmarks.peers.peering import version
 from packwork.readers.instances import Instance, read_instance
-from packwork.separation.strip import Clock
-from packwork.uses.nesting import Nest, Piece, Sheet, nest
+from packwork.separation.strip import WorkBound
+from packwork.uses.nesting import Nest, Sheet, SheetPart, nest
 
 MOST_OVERLAP = 1e-9
 """Share of the parts' area that rounding may make of touching ones."""
 
 
-def pieces_of(instance: Instance) -> list[Piece]:
+def sheet_parts(instance: Instance) -> list[SheetPart]:
     """Parts of an instance as they are nested."""
     return [
-        Piece(item=one.item, count=one.count,
+        SheetPart(item=one.item, count=one.count,
               angles=None if one.angles is None else tuple(map(math.radians, one.angles)))
         for one in instance.parts
     ]  # fmt: skip
@@ -39,7 +39,7 @@ def ours(instance: Instance, seconds: float, seed: int, workers: int) -> float:
     """Density of our nest, 0 if it does not hold."""
     sheet = Sheet(height=instance.height, name=instance.name)
     made: Nest = nest(
-        pieces_of(instance), sheet, seed=seed, workers=workers, clock=Clock(seconds=seconds)
+        sheet_parts(instance), sheet, seed=seed, workers=workers, clock=WorkBound(seconds=seconds)
     )
     regions = [outline.region for outline in made.layout.outlines]
     return _checked(regions, made.length, instance.height)

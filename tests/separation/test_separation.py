@@ -14,8 +14,8 @@ import shapely.affinity
 from packwork.separation.kernels.field import draw_others, score_row
 from packwork.separation.kernels.moves import put_all
 from packwork.separation.shapes import Part, poles_of, rings_of, spare
-from packwork.separation.state import ROWS, Layout, Problem
-from packwork.separation.strip import Clock, Strip, StripSearch
+from packwork.separation.state import ROWS, Problem, WorkerState
+from packwork.separation.strip import Strip, StripSearch, WorkBound
 
 pytestmark = pytest.mark.compiled
 
@@ -57,7 +57,7 @@ def overlap(polygons: Sequence[shapely.Polygon]) -> float:
 def search(
     parts: Sequence[Part], height: float, passes: int, seed: int = 0
 ) -> tuple[Problem, Strip]:
-    one = StripSearch(parts, height, seed=seed, clock=Clock(passes=passes))
+    one = StripSearch(parts, height, seed=seed, clock=WorkBound(passes=passes))
     return one.problem, one.run()
 
 
@@ -115,7 +115,7 @@ def test_what_collides_is_what_overlaps(seed: int) -> None:
              Part(region=TRIANGLE, count=4, turns=None)]  # fmt: skip
     problem = Problem(parts, 16.0)
     poses = np.column_stack([rng.uniform(0, 16, 9), rng.uniform(0, 16, 9), rng.uniform(0, 6, 9)])
-    layout = Layout.of(problem, 16.0, poses, 1)
+    layout = WorkerState.of(problem, 16.0, poses, 1)
     polygons = placed(problem, poses)
     for i, a in enumerate(polygons):
         for j, b in enumerate(polygons):
@@ -134,7 +134,7 @@ def test_losses_kept_up_by_moves_are_those_of_the_poses() -> None:
     problem = Problem(parts, 9.0)
     rng = np.random.default_rng(0)
     poses = np.column_stack([rng.uniform(0, 12, 14), rng.uniform(0, 9, 14), np.zeros(14)])
-    layout = Layout.of(problem, 12.0, poses, 5)
+    layout = WorkerState.of(problem, 12.0, poses, 5)
     for _ in range(5):
         layout.move()
         layout.raise_weights()
@@ -149,7 +149,7 @@ def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
     problem = Problem(parts, 12.0)
     rng = np.random.default_rng(2)
     poses = np.column_stack([rng.uniform(2, 18, 7), rng.uniform(2, 10, 7), np.zeros(7)])
-    layout = Layout.of(problem, 20.0, poses, 1)
+    layout = WorkerState.of(problem, 20.0, poses, 1)
     layout.weights[:] = rng.uniform(1, 3, (7, 7))
     turns, moved = problem.turns, 6
     image = layout.image.copy()

@@ -16,7 +16,7 @@ from packwork.options import offered
 from packwork.recipe import Recipe
 
 if TYPE_CHECKING:
-    from packwork.uses.nesting import Piece, Sheet
+    from packwork.uses.nesting import Sheet, SheetPart
 
 DEFAULT_OUTPUT = Path("nest.svg")
 
@@ -71,7 +71,7 @@ def nest(
         from packwork import writers
         from packwork.cli.show import Paper
         from packwork.cli.terminal import say
-        from packwork.separation.strip import Clock
+        from packwork.separation.strip import WorkBound
         from packwork.sources import check_no_input
         from packwork.units import parse_length
         from packwork.uses.nesting import nest as nest_parts
@@ -85,7 +85,7 @@ def nest(
         writers.check_outputs(every)
         if no_clobber:
             writers.check_new(every)
-        ground, pieces = _asked(sheet, parts or [], rotate)
+        ground, counted = _asked(sheet, parts or [], rotate)
         try:
             gap = parse_length(kerf, ground.unit, ground.height)
         except ValueError as error:
@@ -93,11 +93,11 @@ def nest(
         for path in every:
             check_no_input(path)
         console = Paper(quiet)
-        clock = Clock(seconds=seconds) if passes is None else Clock(passes=passes)
+        clock = WorkBound(seconds=seconds) if passes is None else WorkBound(passes=passes)
         interrupt = Interrupt()
         with interrupt.listening():
             found = nest_parts(
-                pieces, ground, gap=gap, seed=seed,
+                counted, ground, gap=gap, seed=seed,
                 clock=clock, stop=interrupt,
             )  # fmt: skip
         drawn = [(path, writers.encoded(found.layout, path)) for path in files]
@@ -125,25 +125,25 @@ def nest(
     raise typer.Exit(SHORTFALL if is_too_long or not found.certified else 0)
 
 
-def _asked(sheet: str, parts: list[str], rotate: str) -> tuple[Sheet, list[Piece]]:
-    """Sheet and pieces of a command line."""
+def _asked(sheet: str, named: list[str], rotate: str) -> tuple[Sheet, list[SheetPart]]:
+    """Sheet and parts of a command line."""
     from packwork.readers.instances import is_instance, read_instance
     from packwork.readers.items import read_items
     from packwork.recipe.rules import Rotation
     from packwork.units import canvas_size, convert
-    from packwork.uses.nesting import Piece, Sheet
+    from packwork.uses.nesting import Sheet, SheetPart
 
     if is_instance(sheet):
-        if parts:
+        if named:
             raise RecipeError("items", "an instance holds its parts; name none besides")
         instance = read_instance(sheet)
-        pieces = [
-            Piece(item=one.item, count=one.count,
+        parts = [
+            SheetPart(item=one.item, count=one.count,
                   angles=None if one.angles is None else tuple(map(math.radians, one.angles)))
             for one in instance.parts
         ]  # fmt: skip
-        return Sheet(height=instance.height, name=instance.name), pieces
-    if not parts:
+        return Sheet(height=instance.height, name=instance.name), parts
+    if not named:
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.svg*12")
     size = canvas_size(sheet)
     turned = Rotation.parse(rotate)
@@ -152,12 +152,12 @@ def _asked(sheet: str, parts: list[str], rotate: str) -> tuple[Sheet, list[Piece
         steps = WITHIN_LIMIT if turned.limit > 0 else 0
         angles = tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
     length, height = (math.inf, size.width) if size.height is None else (size.width, size.height)
-    pieces = []
-    for text in parts:
+    parts = []
+    for text in named:
         met = _TIMES.fullmatch(text)
         source, count = (met["source"], int(met["count"])) if met else (text, 1)
-        pieces += [
-            Piece(item=item, count=count, angles=angles, scale=convert(1.0, "px", size.unit))
+        parts += [
+            SheetPart(item=item, count=count, angles=angles, scale=convert(1.0, "px", size.unit))
             for item in read_items(source, holes="keep").items
         ]
-    return Sheet(height=height, length=length, unit=size.unit), pieces
+    return Sheet(height=height, length=length, unit=size.unit), parts

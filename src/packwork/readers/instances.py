@@ -26,26 +26,26 @@ MAX_COUNT = 10_000
 _Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
 
 
-class _Shape(BaseModel):
+class _PolygonModel(BaseModel):
     type: Literal["simple_polygon"]
     data: Annotated[list[tuple[_Number, _Number]], Field(min_length=3, max_length=10_000)]
 
 
-class _Part(BaseModel):
+class _PartModel(BaseModel):
     model_config = ConfigDict(extra="ignore")
 
     id: int
     demand: Annotated[int, Field(ge=0, le=MAX_COUNT)]
     allowed_orientations: list[_Number] | None = None
-    shape: _Shape
+    shape: _PolygonModel
 
 
-class _Instance(BaseModel):
+class _InstanceModel(BaseModel):
     model_config = ConfigDict(extra="ignore")
 
     name: str = ""
     strip_height: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
-    items: Annotated[list[_Part], Field(min_length=1, max_length=10_000)]
+    items: Annotated[list[_PartModel], Field(min_length=1, max_length=10_000)]
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def read_instance(path: str | Path) -> Instance:
     """
     with reading_file(str(path)):
         try:
-            said = _Instance.model_validate(parsed(read_text(path, MAX_INSTANCE_BYTES)))
+            said = _InstanceModel.model_validate(parsed(read_text(path, MAX_INSTANCE_BYTES)))
         except ValidationError as error:
             first = error.errors()[0]
             place = ".".join(str(part) for part in first["loc"]) or "it"
@@ -99,7 +99,7 @@ def read_instance(path: str | Path) -> Instance:
         )  # fmt: skip
 
 
-def _part(said: _Part, source: str) -> InstancePart:
+def _part(said: _PartModel, source: str) -> InstancePart:
     polygon = Polygon(said.shape.data)
     if not polygon.is_valid or polygon.area <= 0.0:
         why = shapely.is_valid_reason(polygon) if polygon.area else "it has no area"

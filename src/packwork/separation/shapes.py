@@ -22,7 +22,7 @@ COARSENESS = 5e-4
 """Largest distance of a simplified outline from the true one, over the diameter."""
 
 FREE_TURNS = 32
-"""Turns at which a part that may lie at any angle is drawn; coarser ones propose worse places."""
+"""Angles at which a part that may lie at any is drawn; fewer propose worse places."""
 
 POLE_CELLS = 100
 """Cells of the longer side of the grid on which poles are sought."""
@@ -47,7 +47,7 @@ class Part:
     """Allowed angles in radians, clockwise on screen; None: any."""
 
 
-class Shapes(NamedTuple):
+class ShapeTable(NamedTuple):
     """Edges (ax, ay, bx, by) and poles (x, y, radius) of all shapes, and where each begins."""
 
     edges: Floats
@@ -56,7 +56,7 @@ class Shapes(NamedTuple):
     pole_at: npt.NDArray[np.int64]
 
 
-class Turns(NamedTuple):
+class TurnTable(NamedTuple):
     """Rows cosine, sine and angle of all turns; of each turn, spans (row, from, to) in pixels."""
 
     turns: Floats
@@ -135,7 +135,7 @@ def spans_of(edges: Floats, pixel: float) -> npt.NDArray[np.int64]:
     return np.array(found, dtype=np.int64).T.copy()
 
 
-def tables(parts: Sequence[Part], pixel: float) -> tuple[Shapes, Turns]:
+def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
     """All that the kernels read of parts, which never changes."""
     edges, poles = ([of(part.region) for part in parts] for of in (edges_of, poles_of))
     angles = [
@@ -152,8 +152,8 @@ def tables(parts: Sequence[Part], pixel: float) -> tuple[Shapes, Turns]:
             turned = np.vstack([c * own[0] - s * own[1], s * own[0] + c * own[1],
                                 c * own[2] - s * own[3], s * own[2] + c * own[3]])  # fmt: skip
             spans.append(spans_of(turned, pixel))
-    shapes = Shapes(np.hstack(edges), np.hstack(poles), starts(edges), starts(poles))
-    turns = Turns(
+    shapes = ShapeTable(np.hstack(edges), np.hstack(poles), starts(edges), starts(poles))
+    turns = TurnTable(
         np.vstack([cosine, sine, every]), starts([one[None] for one in angles]),
         np.array([part.turns is None for part in parts]), starts(spans), np.hstack(spans),
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Where all parts lie, and what their overlaps cost: one worker's arrays."""
+"""Poses of all parts and prices of their overlaps: the arrays of one worker."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Problem:
 
 
 @dataclass
-class Layout:
+class WorkerState:
     """Poses (x, y, angle) of all parts, weights of pairs and losses of pairs."""
 
     problem: Problem
@@ -61,7 +61,7 @@ class Layout:
     scores: npt.NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0), np.float32))
 
     @classmethod
-    def of(cls, problem: Problem, length: float, poses: Floats, seed: int) -> Layout:
+    def of(cls, problem: Problem, length: float, poses: Floats, seed: int) -> WorkerState:
         """Parts at poses on a sheet of a length."""
         count, (edges, poles, edge_at, pole_at) = len(problem), problem.shapes
         own = [edges[:, edge_at[s] : edge_at[s + 1]] for s in problem.shape_of]
@@ -99,7 +99,7 @@ class Layout:
         put_all(poses, self.arrays, self.problem.shapes, self.problem.turns, self.weights,
                 self.losses, self.sheet, self.turned, self.scratch)  # fmt: skip
 
-    def take(self, other: Layout) -> None:
+    def take(self, other: WorkerState) -> None:
         """Become a copy of another worker's layout; the random numbers stay one's own."""
         for own, theirs in zip(self.arrays, other.arrays, strict=True):
             own[:] = theirs

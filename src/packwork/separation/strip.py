@@ -12,7 +12,7 @@ import numpy as np
 
 from packwork.separation.kernels.collision import X1
 from packwork.separation.shapes import Floats, Part
-from packwork.separation.state import Layout, Problem
+from packwork.separation.state import Problem, WorkerState
 
 START = 0.55
 """Density of the first strip: parts that are strewn on it come apart at once."""
@@ -41,7 +41,7 @@ SPREAD = 0.25
 
 
 @dataclass
-class Clock:
+class WorkBound:
     """Work that a search may do: passes, or seconds, whichever ends first."""
 
     passes: float = math.inf
@@ -51,7 +51,7 @@ class Clock:
 
     @property
     def share(self) -> float:
-        """How much of the work is done."""
+        """Share of the work that is done."""
         return max(self.done / self.passes, (time.perf_counter() - self.begun) / self.seconds)
 
 
@@ -69,7 +69,7 @@ class StripSearch:
 
     def __init__(
         self, parts: Sequence[Part], height: float, *, seed: int = 0, workers: int = 2,
-        clock: Clock, found: Callable[[Strip], None] = lambda _: None,
+        clock: WorkBound, found: Callable[[Strip], None] = lambda _: None,
         stop: Callable[[], bool] = lambda: False,
     ) -> None:  # fmt: skip
         self.problem = Problem(parts, height)
@@ -80,7 +80,7 @@ class StripSearch:
         length = max(length, 1.05 * widest)
         poses = self._strewn(length)
         self.workers = [
-            Layout.of(self.problem, length, poses, int(word))
+            WorkerState.of(self.problem, length, poses, int(word))
             for word in self.random.integers(1, 2**63, workers)
         ]
         self.pool = ThreadPoolExecutor(workers)
@@ -96,13 +96,13 @@ class StripSearch:
         return np.column_stack([x, self.random.uniform(0.0, self.problem.height, count), angles])
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> WorkerState:
         """That of the first worker, which all start from."""
         return self.workers[0]
 
     def step(self) -> None:
         """Run one pass in each worker; all go on from the one of the lowest weighted loss."""
-        list(self.pool.map(Layout.move, self.workers))
+        list(self.pool.map(WorkerState.move, self.workers))
         best = min(range(len(self.workers)), key=lambda k: (self.workers[k].weighted, k))
         for k, worker in enumerate(self.workers):
             if k != best:

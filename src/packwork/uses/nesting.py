@@ -19,12 +19,12 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.separation.shapes import Part, rings_of, spare
-from packwork.separation.strip import Clock, Strip, StripSearch
+from packwork.separation.strip import Strip, StripSearch, WorkBound
 from packwork.units import Unit
 
 
 @dataclass(frozen=True, kw_only=True)
-class Piece:
+class SheetPart:
     """An item of true size, how many of it, and the angles at which it may lie."""
 
     item: Item
@@ -38,7 +38,7 @@ class Piece:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """What parts lie on: a strip of a height, and of a length that need not be used up."""
+    """Strip of a height, and of a length that need not be used up, on which parts lie."""
 
     height: float
     length: float = math.inf
@@ -71,16 +71,16 @@ class Nest:
 
 
 def nest(
-    pieces: Sequence[Piece], sheet: Sheet, *, gap: float = 0.0, seed: int = 0, workers: int = 2,
-    clock: Clock, found: Callable[[Strip], None] = lambda _: None,
+    parts: Sequence[SheetPart], sheet: Sheet, *, gap: float = 0.0, seed: int = 0, workers: int = 2,
+    clock: WorkBound, found: Callable[[Strip], None] = lambda _: None,
     stop: Callable[[], bool] = lambda: False,
 ) -> Nest:  # fmt: skip
-    """Lay all pieces on as short a part of a sheet as the search finds.
+    """Lay all parts on as short a part of a sheet as the search finds.
 
     Parameters
     ----------
     gap
-        Smallest distance between pieces, and of them from the sheet's edge, in its unit.
+        Smallest distance between parts, and of them from the sheet's edge, in its unit.
     clock
         How long it searches.
     found
@@ -91,20 +91,20 @@ def nest(
     Raises
     ------
     RecipeError
-        If a piece is higher than the sheet at every angle that it may have, or there is none.
+        If a part is higher than the sheet at every angle that it may have, or there is none.
     """
-    longest = max((one.item.outline.radius * one.scale for one in pieces), default=0.0)
+    longest = max((one.item.outline.radius * one.scale for one in parts), default=0.0)
     least = gap + 2.0 * HAIR * max(sheet.height, longest * 2.0)
-    parts = [_part(one, sheet, least) for one in pieces]
-    if not sum(part.count for part in parts):
+    regions = [_part(one, sheet, least) for one in parts]
+    if not sum(part.count for part in regions):
         raise RecipeError("items", "there is nothing to nest; name parts")
     # A gap's half lies around each part; the other half to the edge is the sheet's.
     inner = sheet.height - least
-    search = StripSearch(parts, inner, seed=seed, workers=workers, clock=clock, found=found,
+    search = StripSearch(regions, inner, seed=seed, workers=workers, clock=clock, found=found,
                          stop=stop)  # fmt: skip
     strip = search.run()
-    items = tuple(one.item for one in pieces for _ in range(one.count))
-    scales = [one.scale for one in pieces for _ in range(one.count)]
+    items = tuple(one.item for one in parts for _ in range(one.count))
+    scales = [one.scale for one in parts for _ in range(one.count)]
     x, y, angle = strip.poses.T
     poses = Poses(x + least / 2.0, y + least / 2.0, angle, scales)
     placed = Layout(_sheet_of(sheet, strip.length + least), items, poses, np.ones(len(items)))
@@ -126,14 +126,16 @@ def nest(
     return Nest(layout, metrics, faults, certified, strip)
 
 
-def _part(piece: Piece, sheet: Sheet, gap: float) -> Part:
-    region = shapely.transform(piece.item.outline.region, lambda points: points * piece.scale)
-    part = Part(region=spare(region, gap), count=piece.count, turns=piece.angles)
-    if _least_height(part) > sheet.height - gap:
+def _part(asked: SheetPart, sheet: Sheet, gap: float) -> Part:
+    """The part as the search takes it, with half the gap about it."""
+    region = shapely.transform(asked.item.outline.region, lambda points: points * asked.scale)
+    part = Part(region=spare(region, gap), count=asked.count, turns=asked.angles)
+    height = _least_height(part)
+    if height > sheet.height - gap:
         raise RecipeError(
             "items",
-            f"{piece.item.name} is {_least_height(part):.4g} {sheet.unit} high with its gap, and "
-            f"the sheet {sheet.height:.4g} {sheet.unit}; allow other angles or take a larger sheet",
+            f"{asked.item.name} is {height:.4g} {sheet.unit} high with its gap, and the sheet "
+            f"{sheet.height:.4g} {sheet.unit}; allow other angles or take a larger sheet",
         )
     return part
 

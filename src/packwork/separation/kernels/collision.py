@@ -1,4 +1,4 @@
-"""How much a part at a trial pose collides, weighted by pair; exact in what collides."""
+"""Price of a part's collisions at a trial pose, weighted by pair; exact in what collides."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def _side(ax, ay, bx, by, px, py):
 
 @helper
 def _holds(edges, first, last, px, py):
-    """Whether a point lies inside rings, by the even-odd rule."""
+    """True for a point inside rings, by the even-odd rule."""
     inside = False
     for k in range(first, last):
         ay, by = edges[1, k], edges[3, k]
@@ -79,7 +79,7 @@ def _holds(edges, first, last, px, py):
 
 @helper
 def _touch(own, count, box, edges, first, last, other, close):
-    """Whether two parts touch or overlap, both in absolute coordinates.
+    """True for two parts that touch or overlap, both in absolute coordinates.
 
     ``own``: edges of the one; ``close``: scratch for those in the boxes' intersection.
     """
