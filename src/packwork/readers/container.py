@@ -48,7 +48,7 @@ def read_container(
     Parameters
     ----------
     canvas
-        Its size, as ``scene.canvas`` reads it. None: that of an SVG in real units,
+        Its size, as ``units.canvas_size`` reads it. None: that of an SVG in real units,
         else 600 px on the longer side.
     font
         Font file or installed family for ``text:WORD``; the bundled one if None.

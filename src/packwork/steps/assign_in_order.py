@@ -1,9 +1,9 @@
 """Items in an order along a way: by weight, hue, lightness, name or the numbers of a file.
 
 First places are given out anew by an optimal assignment (Crouse 2016, as in
-``steps.seating``): each item has a share along the way, that of the area of all that come before
-it, and so has each place; their squared difference is least in sum. Levels and finish then keep
-every item about there.
+``steps.assign_by_colour``): each item has a share along the way, that of the area of all that come
+before it, and so has each place; their squared difference is least in sum. Levels and finish then
+keep every item about there.
 """
 
 from __future__ import annotations

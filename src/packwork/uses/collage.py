@@ -1,7 +1,7 @@
 """Lists of steps that icons, words, photographs and charts share.
 
 Whoever asks what happens in a run reads :func:`placing` and :func:`reporting`. A new start, a new
-assignment or a new finish is one file in :mod:`packwork.steps` and a line here.
+assignment or a new finish is one class in :mod:`packwork.steps` and a line here.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias, get_args
 
 from pydantic import Field, TypeAdapter
 
@@ -55,6 +55,7 @@ COMMANDS: TypeAdapter[AnyCommand] = TypeAdapter(AnyCommand)
 """Reads a command from plain values and refuses what is none."""
 
 KINDS: Mapping[str, type[Command]] = {
-    one.model_fields["kind"].default: one for one in Command.__subclasses__()
+    one.model_fields["kind"].default: one
+    for one in (*get_args(get_args(SingleCommand)[0]), Together, Grab, Drop)
 }
-"""Commands by what logs call them."""
+"""Commands by what logs call them: those that a log can be read with, and no other."""
