@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from typer.testing import Result
 
 import packwork as pw
+from packwork.errors import ReadError
+from packwork.readers.instances import read_instance
 
 Command = Callable[..., Result]
 
@@ -78,11 +84,13 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("nest 300x40mm bracket.svg --rotate 90,270", "bracket is 80 mm high"),
+        ("nest 300x40mm bracket.svg --rotate 90,270", "bracket is 80.00"),
         ("nest 300mm", "there is nothing to nest"),
-        ("nest wide bracket.svg", "canvas"),
+        ("nest wide bracket.svg", "wide: "),
         ("nest squares.json bracket.svg", "an instance holds its parts"),
         ("nest none.json", "no such file"),
+        ("nest 300mm bracket.svg*0", "there is nothing to nest"),
+        ("nest 300mm bracket.svg*2001", "2,001 parts are more than 2,000"),
         ("nest 300mm nowhere.svg*3", "no such file"),
         ("nest 300mm bracket.svg --rotate round", "rotate"),
         ("nest 300mm bracket.svg --kerf wide", "wide"),
@@ -108,6 +116,7 @@ def test_parts_that_need_more_than_the_sheet_are_told(shop: Path, packwork: Comm
     [
         ({"strip_height": -1}, "strip_height"),
         ({"items": []}, "items"),
+        ({"items": [{**SQUARES["items"][0], "allowed_orientations": []}]}, "allowed_orientations"),
         ({"items": [{**SQUARES["items"][0], "demand": 10**9}]}, "demand"),
         ({"items": [{**SQUARES["items"][0], "shape": {"type": "circle"}}]}, "shape"),
         ({"items": [{"id": 4, "demand": 1, "shape": {
@@ -122,3 +131,38 @@ def test_an_instance_that_is_none_is_one_line(
     assert result.exit_code == 2
     assert said in result.output
     assert result.output.count("\n") == 1
+
+
+def test_a_strip_far_longer_than_high_is_certified(shop: Path, packwork: Command) -> None:
+    result = packwork("nest 55mm bracket.svg*14 --rotate none --passes 3 -o a.svg")
+    assert result.exit_code == 0, result.output
+    assert pw.Layout.load(shop / "a.svg").container.width > 10 * 55
+
+
+def test_a_part_that_is_wanted_zero_times_stands_in_no_way(shop: Path, packwork: Command) -> None:
+    assert packwork("nest 35mm disc.svg*3 bracket.svg*0 --passes 3 -o a.svg").exit_code == 0
+
+
+def test_a_file_that_was_not_written_as_measured_is_not_certified(
+    shop: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.cli.running.verify.faults_in_file", lambda *_: ["moved"])
+    result = packwork("nest 100mm disc.svg --passes 3 -o a.svg --report a.json")
+    assert result.exit_code == 1
+    assert "a.svg: moved" in result.output
+    assert not json.loads((shop / "a.json").read_text(encoding="utf-8"))["certified"]
+
+
+@given(st.binary(max_size=200) | st.recursive(
+    st.none() | st.booleans() | st.floats() | st.text(max_size=5) | st.integers(),
+    lambda inner: st.lists(inner, max_size=4)
+    | st.dictionaries(st.sampled_from(["items", "strip_height", "demand", "shape", "id"]), inner),
+    max_leaves=20,
+).map(lambda value: json.dumps(value).encode()))  # fmt: skip
+@settings(deadline=None, max_examples=60)
+def test_any_bytes_are_an_instance_or_refused(data: bytes) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "any.json")
+        path.write_bytes(data)
+        with contextlib.suppress(ReadError):
+            assert read_instance(path).parts

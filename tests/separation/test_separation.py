@@ -103,7 +103,7 @@ def test_a_part_lies_in_the_hole_of_another_where_there_is_no_room_besides() -> 
 
 def test_squares_that_fit_exactly_once_are_laid_in_a_row() -> None:
     _, strip = search([Part(region=shapely.box(-1, -1, 1, 1), count=5)], 2.001, 200)
-    assert 10.0 < strip.length < 10.1
+    assert 10.0 <= strip.length < 10.1
     assert strip.density == pytest.approx(20 / (strip.length * 2.001))
 
 
@@ -185,3 +185,12 @@ def test_a_simplified_outline_holds_the_true_one_and_its_gap() -> None:
     assert few.covers(true.buffer(0.1 - 1e-9, quad_segs=100))
     assert sum(map(len, rings_of(few))) < 100
     assert few.area < 1.06 * true.area
+
+
+def test_a_search_that_is_stopped_at_once_has_a_strip_all_the_same() -> None:
+    parts = [Part(region=L_SHAPE, count=30, turns=QUARTERS), Part(region=RING, count=9, turns=None)]
+    one = StripSearch(parts, 14.0, clock=WorkBound(passes=10**6), stop=lambda: True)
+    strip = one.run()
+    polygons = placed(one.problem, strip.poses)
+    assert overlap(polygons) < 1e-9
+    assert shapely.total_bounds(np.array(polygons))[3] < 14.0 + 1e-9

@@ -11,21 +11,18 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
-from packwork.errors import RecipeError
-from packwork.options import offered
-from packwork.recipe import Recipe
+from packwork.errors import ReadError, RecipeError
+from packwork.phrasing import number_of
 
 if TYPE_CHECKING:
     from packwork.uses.nesting import Sheet, SheetPart
 
 DEFAULT_OUTPUT = Path("nest.svg")
 
-_HELP = {option.name: option.help for option in offered(Recipe)}
-
 WITHIN_LIMIT = 4
 """Angles tried to each side where parts may turn within a limit."""
 
-_TIMES = re.compile(r"(?P<source>.+)\*(?P<count>\d+)")
+_TIMES = re.compile(r"(?P<source>.+)\*(?P<count>[0-9]{1,6})")
 
 
 @shared.by_name
@@ -42,19 +39,27 @@ def nest(
         list[str] | None,
         typer.Argument(metavar="PART...", help="SVG files or folders; part.svg*12 for twelve."),
     ] = None,
-    rotate: Annotated[str, typer.Option(help=_HELP["rotate"])] = "0,90,180,270",
+    rotate: Annotated[
+        str,
+        typer.Option(
+            help="Angles in degrees: the only ones, as 0,180; free; none; 30: nine up to 30 off."
+        ),
+    ] = "0,90,180,270",
     kerf: Annotated[
         str,
         typer.Option(
             help="Distance of parts, and from the sheet's edge, as 2mm: the tool's width."
         ),
     ] = "0",
-    seconds: Annotated[float, typer.Option("--time", min=0.1, help=_HELP["time"])] = 20.0,
+    seconds: Annotated[
+        float,
+        typer.Option("--time", min=0.1, help="Seconds to search; results depend on the machine."),
+    ] = 20.0,
     passes: Annotated[
         int | None,
         typer.Option(min=1, help="Passes to search, in place of seconds: the same bytes again."),
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help=_HELP["seed"])] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Another one gives another nest.")] = 0,
     *,
     output: tuple[Path, ...],
     report: Path | None,
@@ -69,6 +74,7 @@ def nest(
     """
     with clear_errors():
         from packwork import writers
+        from packwork.cli.running import faults_in
         from packwork.cli.show import Paper
         from packwork.cli.terminal import say
         from packwork.separation.strip import WorkBound
@@ -101,17 +107,20 @@ def nest(
                 clock=clock, stop=interrupt,
             )  # fmt: skip
         drawn = [(path, writers.encoded(found.layout, path)) for path in files]
+        faults = [*found.faults, *faults_in(drawn, found.layout, writers.WriteOptions())]
+        certified = found.certified and not faults
         if report is not None:
-            drawn.append((report, writers.json_bytes(found.report())))
+            said = {**found.report(), "certified": certified, "faults": faults}
+            drawn.append((report, writers.json_bytes(said)))
         writers.write_all(drawn)
         about, unit = found.layout.manifest["nest"], ground.unit
         console.print(
-            f"{about['parts']} parts on {about['length']:.6g} x {about['height']:.6g} {unit}, "
-            f"{about['density']:.1%} of it covered; "
-            f"{'certified' if found.certified else 'not certified'}"
+            f"{number_of(about['parts'], 'part')} on {about['length']:.6g} x {about['height']:.6g} "
+            f"{unit}, {about['density']:.1%} of it covered; "
+            f"{'certified' if certified else 'not certified'}"
         )
         console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
-        for fault in found.faults:
+        for fault in faults:
             say(fault)
         if interrupt.pressed:
             say("stopped by Ctrl-C; this is the shortest so far")
@@ -122,11 +131,12 @@ def nest(
                 f"the parts need {about['length']:.6g} {unit}, there are {ground.length:.6g}; "
                 "take a longer sheet, fewer parts or more time"
             )
-    raise typer.Exit(SHORTFALL if is_too_long or not found.certified else 0)
+    raise typer.Exit(SHORTFALL if is_too_long or not certified else 0)
 
 
 def _asked(sheet: str, named: list[str], rotate: str) -> tuple[Sheet, list[SheetPart]]:
     """Sheet and parts of a command line."""
+    from packwork.readers.files import exists
     from packwork.readers.instances import is_instance, read_instance
     from packwork.readers.items import read_items
     from packwork.recipe.rules import Rotation
@@ -145,7 +155,10 @@ def _asked(sheet: str, named: list[str], rotate: str) -> tuple[Sheet, list[Sheet
         return Sheet(height=instance.height, name=instance.name), parts
     if not named:
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.svg*12")
-    size = canvas_size(sheet)
+    try:
+        size = canvas_size(sheet)
+    except RecipeError as error:
+        raise ReadError(sheet, str(error).removeprefix("canvas: ")) from None
     turned = Rotation.parse(rotate)
     angles = turned.choices
     if turned.limit is not None:
@@ -154,7 +167,7 @@ def _asked(sheet: str, named: list[str], rotate: str) -> tuple[Sheet, list[Sheet
     length, height = (math.inf, size.width) if size.height is None else (size.width, size.height)
     parts = []
     for text in named:
-        met = _TIMES.fullmatch(text)
+        met = None if exists(text) else _TIMES.fullmatch(text)
         source, count = (met["source"], int(met["count"])) if met else (text, 1)
         parts += [
             SheetPart(item=item, count=count, angles=angles, scale=convert(1.0, "px", size.unit))

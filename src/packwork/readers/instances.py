@@ -36,7 +36,9 @@ class _PartModel(BaseModel):
 
     id: int
     demand: Annotated[int, Field(ge=0, le=MAX_COUNT)]
-    allowed_orientations: list[_Number] | None = None
+    allowed_orientations: Annotated[list[_Number], Field(min_length=1, max_length=360)] | None = (
+        None
+    )
     shape: _PolygonModel
 
 
@@ -90,9 +92,9 @@ def read_instance(path: str | Path) -> Instance:
             said = _InstanceModel.model_validate(parsed(read_text(path, MAX_INSTANCE_BYTES)))
         except ValidationError as error:
             first = error.errors()[0]
-            place = ".".join(str(part) for part in first["loc"]) or "it"
-            message = f"is no strip packing instance: {place}: {first['msg'].lower()}"
-            raise UnfitError(message) from None
+            place = ".".join(str(part) for part in first["loc"])
+            why = f"{place}: {first['msg'].lower()}" if place else "it holds no object"
+            raise UnfitError(f"is no strip packing instance: {why}") from None
         return Instance(
             said.name or stem(path), said.strip_height,
             tuple(_part(one, str(path)) for one in said.items if one.demand),

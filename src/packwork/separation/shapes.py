@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
+from packwork.geometry.overlay import buffered, simplify
 from packwork.geometry.polygon import Region
 
 Floats = npt.NDArray[np.float64]
@@ -70,10 +71,20 @@ def spare(region: Region, gap: float) -> Region:
     """A region with few corners that holds all within half the gap of another one."""
     offset = gap / 2.0
     if shapely.get_num_coordinates(region) <= MOST_CORNERS:
-        return region.buffer(offset, join_style="mitre") if offset else region
+        return buffered(region, offset, join_style="mitre") if offset else region
     x0, y0, x1, y1 = region.bounds
     off = COARSENESS * math.hypot(x1 - x0, y1 - y0)
-    return region.simplify(off).buffer(off + offset, join_style="mitre", mitre_limit=2.0)
+    plainer = simplify(region, off, keeps_topology=True)
+    return buffered(plainer, off + offset, join_style="mitre", mitre_limit=2.0)
+
+
+def boxes_of(part: Part) -> tuple[Floats, Floats]:
+    """Angles that a part may have, ``(n,)``, and its box about its origin at each, ``(n, 4)``."""
+    points = shapely.get_coordinates(part.region.convex_hull)
+    turns = np.arange(0.0, math.pi, 0.01) if part.turns is None else np.array(part.turns)
+    cosine, sine = np.cos(turns)[:, None], np.sin(turns)[:, None]
+    x, y = cosine * points[:, 0] - sine * points[:, 1], sine * points[:, 0] + cosine * points[:, 1]
+    return turns, np.column_stack([x.min(1), y.min(1), x.max(1), y.max(1)])
 
 
 def rings_of(region: Region) -> list[Floats]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,14 +13,28 @@ import shapely
 
 from packwork.separation.kernels.collision import DECAY, PENALTY
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
-from packwork.separation.shapes import DECAY_SHARE, Floats, Part, starts, tables
+from packwork.separation.shapes import DECAY_SHARE, Floats, Part, boxes_of, starts, tables
 
 ROWS = 96
 """Rows of the image that proposes places. Half as many miss gaps that thin parts fit into: three
 points of density in 20 s on shirts, one on swim; twice as many take four times as long."""
 
+MOST_COLUMNS = 20_000
+"""Columns of that image at most, on a strip of which a quarter is covered."""
+
 MOST, LEAST, FALL = 2.0, 1.2, 0.95
 """Factors of weights in a pass: of the worst pair, of the least, and of pairs that are apart."""
+
+
+def _flattest(parts: Sequence[Part], height: float) -> tuple[Floats, Floats]:
+    """Boxes of parts about their own origins, and angles, at which they are least wide and fit."""
+    boxes, angles = np.zeros((len(parts), 4)), np.zeros(len(parts))
+    for k, part in enumerate(parts):
+        turns, found = boxes_of(part)
+        wide, tall = found[:, 2] - found[:, 0], found[:, 3] - found[:, 1]
+        best = int(np.argmin(np.where(tall <= height, wide, np.inf)))
+        boxes[k], angles[k] = found[best], turns[best]
+    return boxes, angles
 
 
 class Problem:
@@ -27,11 +42,15 @@ class Problem:
 
     def __init__(self, parts: Sequence[Part], height: float) -> None:
         self.parts, self.height = tuple(parts), height
-        self.pixel = height / ROWS
+        area = sum(part.count * part.region.area for part in parts)
+        self.pixel = max(height / ROWS, 4.0 * area / height / MOST_COLUMNS)
+        self.rows = math.ceil(height / self.pixel)
         self.shapes, self.turns = tables(parts, self.pixel)
         self.shape_of = np.repeat(np.arange(len(parts)), [part.count for part in parts])
         self.areas = np.array([part.region.area for part in parts])[self.shape_of]
         self.hulls = np.array([part.region.convex_hull.area for part in parts])[self.shape_of]
+        self.flattest = _flattest(parts, height)
+        self.widest = float(np.ptp(self.flattest[0][:, ::2], axis=1).max())
         wide = [np.ptp(shapely.get_coordinates(part.region), axis=0).max() for part in parts]
         self.decays = np.array(wide)[self.shape_of] * DECAY_SHARE
 
@@ -89,7 +108,7 @@ class WorkerState:
         pixel = self.problem.pixel
         columns = int(np.ceil(length / pixel))
         if self.image.shape[1] != columns + 1:
-            self.image = np.zeros((ROWS, columns + 1), np.float32)
+            self.image = np.zeros((self.problem.rows, columns + 1), np.float32)
             self.scores = np.zeros((3, columns + 2), np.float32)
         self.sheet[0] = length
         self.put(poses)

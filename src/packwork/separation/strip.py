@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,8 +14,8 @@ from packwork.separation.kernels.collision import X1
 from packwork.separation.shapes import Floats, Part
 from packwork.separation.state import Problem, WorkerState
 
-START = 0.55
-"""Density of the first strip: parts that are strewn on it come apart at once."""
+START, LONGER = 0.55, 1.1
+"""Density of the first strip, and how much longer the next one is where parts do not come apart."""
 
 PATIENCE, PATIENCE_AT_END = 200, 100
 """Passes without a lower loss after which an attempt counts as a strike."""
@@ -46,8 +46,12 @@ class WorkBound:
 
     passes: float = math.inf
     seconds: float = math.inf
-    begun: float = field(default_factory=time.perf_counter)
+    begun: float = math.nan
     done: int = 0
+
+    def start(self) -> None:
+        """Count from now on."""
+        self.begun, self.done = time.perf_counter(), 0
 
     @property
     def share(self) -> float:
@@ -75,16 +79,29 @@ class StripSearch:
         self.problem = Problem(parts, height)
         self.random = np.random.default_rng(seed)
         self.clock, self.found, self.stop = clock, found, stop
-        length = self.problem.area / height / START
-        widest = max(part.region.bounds[2] - part.region.bounds[0] for part in parts)
-        length = max(length, 1.05 * widest)
+        self.best = self._in_columns()
+        length = min(max(self.problem.area / height / START, self.problem.widest), self.best.length)
         poses = self._strewn(length)
         self.workers = [
             WorkerState.of(self.problem, length, poses, int(word))
             for word in self.random.integers(1, 2**63, workers)
         ]
         self.pool = ThreadPoolExecutor(workers)
-        self.best: Strip | None = None
+
+    def _in_columns(self) -> Strip:
+        """All parts beside one another by their boxes, so that there is always a strip to show."""
+        problem = self.problem
+        boxes, angles = problem.flattest
+        poses = np.zeros((len(problem), 3))
+        left = top = wide = 0.0
+        for i in np.argsort(-np.ptp(boxes[problem.shape_of][:, ::2], axis=1), kind="stable"):
+            x0, y0, x1, y1 = boxes[problem.shape_of[i]]
+            if top + (y1 - y0) > problem.height:
+                left, top, wide = left + wide, 0.0, 0.0
+            poses[i] = left - x0, top - y0, angles[problem.shape_of[i]]
+            top, wide = top + (y1 - y0), max(wide, x1 - x0)
+        length = left + wide
+        return Strip(length, poses, problem.area / (length * problem.height))
 
     def _strewn(self, length: float) -> Floats:
         count, parts = len(self.problem), self.problem.parts
@@ -160,15 +177,16 @@ class StripSearch:
     def explore(self, until: float) -> None:
         """Shorten the strip again and again; from a dead end, go on from an earlier failure."""
         failures: list[tuple[float, Floats]] = []
+        is_found = False
         while not self.is_over(until):
             loss, poses, passes = self.separate(PATIENCE, until)
             if loss == 0.0:
-                failures = []
+                failures, is_found = [], True
                 share = next(share for most, share in SHRINKS if passes <= most)
                 self.shorter(self.keep(poses), share)
                 continue
-            if self.best is None:
-                length = self.layout.sheet[0] * 1.1
+            if not is_found:
+                length = min(self.layout.sheet[0] * LONGER, self.best.length)
                 self.put(length, self._strewn(length), fresh=True)
                 continue
             failures.append((loss, poses))
@@ -202,15 +220,14 @@ class StripSearch:
         return best
 
     def run(self) -> Strip:
-        """Explore, compress, and give the shortest strip that was met.
-
-        Where the work ends before there is any, it goes on until there is one.
-        """
+        """Explore, compress, and give the shortest strip that was met."""
         with self.pool:
-            while self.best is None:
-                self.explore(EXPLORED)
+            # Not counted: kernels are compiled in the first pass of all.
+            self.step()
+            self.clock.start()
+            self.explore(EXPLORED)
             return self.compress(self.best)
 
     def is_over(self, until: float) -> bool:
-        """Whether a share of the work is done and there is something to show for it."""
-        return self.best is not None and (self.clock.share >= until or self.stop())
+        """Whether a share of the work is done, or nobody waits for more."""
+        return self.clock.share >= until or self.stop()

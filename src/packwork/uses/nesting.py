@@ -18,9 +18,18 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.separation.shapes import Part, rings_of, spare
+from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
 from packwork.separation.strip import Strip, StripSearch, WorkBound
 from packwork.units import Unit
+
+MOST_PARTS = 2_000
+"""Parts of all kinds: prices of pairs take 64 bytes each, a pass over them a second."""
+
+MOST_TURNS = 20_000
+"""Angles of all kinds of parts: each is drawn once, in a millisecond."""
+
+SPARSEST = 10.0
+"""Length of a strip over that of one without gaps, at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,11 +102,22 @@ def nest(
     RecipeError
         If a part is higher than the sheet at every angle that it may have, or there is none.
     """
-    longest = max((one.item.outline.radius * one.scale for one in parts), default=0.0)
-    least = gap + 2.0 * HAIR * max(sheet.height, longest * 2.0)
-    regions = [_part(one, sheet, least) for one in parts]
-    if not sum(part.count for part in regions):
+    parts = [one for one in parts if one.count]
+    count = sum(one.count for one in parts)
+    if not count:
         raise RecipeError("items", "there is nothing to nest; name parts")
+    if count > MOST_PARTS:
+        raise RecipeError("items", f"{count:,} parts are more than {MOST_PARTS:,}; nest fewer")
+    turns = sum(FREE_TURNS if one.angles is None else len(one.angles) for one in parts)
+    if turns > MOST_TURNS:
+        raise RecipeError("rotate", f"{turns:,} angles of all parts are more than {MOST_TURNS:,}")
+    # What is certified of a layout is a hair of its longer side, which no strip exceeds.
+    sides = [one.item.outline.radius * 2.0 * one.scale for one in parts]
+    longest = sum(side * one.count for side, one in zip(sides, parts, strict=True))
+    areas = sum(one.item.outline.area * one.scale**2 * one.count for one in parts)
+    longest = min(longest, SPARSEST * areas / sheet.height + 2.0 * max(sides))
+    least = gap + 2.0 * HAIR * max(sheet.height, longest)
+    regions = [_part(one, sheet, least) for one in parts]
     # A gap's half lies around each part; the other half to the edge is the sheet's.
     inner = sheet.height - least
     search = StripSearch(regions, inner, seed=seed, workers=workers, clock=clock, found=found,
@@ -130,24 +150,15 @@ def _part(asked: SheetPart, sheet: Sheet, gap: float) -> Part:
     """The part as the search takes it, with half the gap about it."""
     region = shapely.transform(asked.item.outline.region, lambda points: points * asked.scale)
     part = Part(region=spare(region, gap), count=asked.count, turns=asked.angles)
-    height = _least_height(part)
-    if height > sheet.height - gap:
+    boxes = boxes_of(part)[1]
+    height = float((boxes[:, 3] - boxes[:, 1]).min()) + gap
+    if height > sheet.height:
         raise RecipeError(
             "items",
-            f"{asked.item.name} is {height:.4g} {sheet.unit} high with its gap, and the sheet "
-            f"{sheet.height:.4g} {sheet.unit}; allow other angles or take a larger sheet",
+            f"{asked.item.name} is {height:.9g} {sheet.unit} high with the distance that it keeps, "
+            f"and the sheet {sheet.height:.9g} {sheet.unit}; allow other angles or a larger one",
         )
     return part
-
-
-def _least_height(part: Part) -> float:
-    """Smallest height of a part over the angles that it may have."""
-    points = np.vstack(rings_of(part.region.convex_hull))
-    turns = np.arange(0.0, math.pi, 0.01) if part.turns is None else np.asarray(part.turns)
-    heights = np.ptp(
-        np.outer(np.sin(turns), points[:, 0]) + np.outer(np.cos(turns), points[:, 1]), axis=1
-    )
-    return float(heights.min())
 
 
 def _sheet_of(sheet: Sheet, length: float) -> Container:
