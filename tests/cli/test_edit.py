@@ -108,9 +108,32 @@ def test_what_has_no_meaning_is_one_line_and_nothing_is_written(
     assert list(Path.cwd().iterdir()) == []
 
 
-def test_a_number_for_all_that_is_empty_is_left_as_it_is(saved: Path, tmp_path: Path) -> None:
-    code, said = run(saved, "--padding", "", "--rotate", "", "-o", tmp_path / "new.svg")
+def test_an_empty_option_of_all_leaves_the_layout_as_it_is(saved: Path, tmp_path: Path) -> None:
+    out = tmp_path / "new.geojson"
+    code, said = run(saved, "--padding", "", "--sizes", "", "--rotate", "", "-o", out)
     assert code == 0, said
+    before, after = (pw.Layout.load(path) for path in (saved, out))
+    np.testing.assert_allclose(after.poses.x, before.poses.x)
+    np.testing.assert_allclose(after.poses.scale, before.poses.scale)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--force", ""), "--force: is empty"),
+        (("--words", ""), "source: is empty"),
+        (("--container", ""), "the container comes first"),
+        (("--count", "0"), "greater than or equal to 1"),
+        (("--cover", ""), "--cover: must be a share such as 70%, not ''"),
+        (("--turn", "star#1=x"), "--turn: must be a number, not 'x'"),
+        (("--turn", "star#1="), "--turn: must be ITEM=DEGREES, not 'star#1='"),
+        (("--turn", "star"), "--turn: must be ITEM=DEGREES, not 'star'"),
+    ],
+)
+def test_an_edit_that_is_not_whole_is_one_line(
+    saved: Path, arguments: tuple[str, ...], message: str
+) -> None:
+    test_what_has_no_meaning_is_one_line_and_nothing_is_written(saved, arguments, message)
 
 
 def test_the_layout_that_is_read_is_not_written_over(saved: Path) -> None:

@@ -10,10 +10,13 @@ import pytest
 
 import packwork as pw
 from packwork import pipeline, uses, writers
+from packwork.geometry.outline import Outline
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.exact import exact_metrics
+from packwork.pipeline.plan.counts import widest_cu
 from packwork.readers.layouts.read import read_written
 from packwork.recipe import make_recipe
+from packwork.steps import shortfalls
 from scenes import flat_item, square, square_container
 
 QUICK = {"epochs": 20, "levels": "32,64", "effort": "draft"}
@@ -74,6 +77,22 @@ def test_a_hero_that_found_no_room_says_what_came_of_it() -> None:
     assert not met.unplaced
     assert met.report()["placed"] == 2
     assert not met.is_as_asked
+
+
+def test_the_widest_place_is_worked_out_once_for_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[float] = []
+
+    def widest(outline: Outline, tolerance: float) -> float:
+        asked.append(tolerance)
+        return widest_cu(outline, tolerance)
+
+    monkeypatch.setattr(shortfalls, "widest_cu", widest)
+    # No two squares of half its width lie side by side in a circle.
+    rules = [{"items": "tile", "pin": {"size": "49%"}}]
+    recipe = make_recipe(container="circle", items=["tile"], count=3, rules=rules, **QUICK)
+    met = uses.fill(recipe, [flat_item("tile", square(9.0))])
+    assert len([said for said in met.broken if "widest place is 100 % across" in said]) >= 2
+    assert len(asked) == 1
 
 
 def test_a_size_of_a_rule_that_is_not_met_is_told() -> None:

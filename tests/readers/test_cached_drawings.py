@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from packwork.folders import Store
 from packwork.readers import cache
@@ -149,3 +152,40 @@ def test_all_that_a_reading_holds_is_known_here() -> None:
     """Who adds a field has to keep it too, or leave it at its default."""
     assert {field.name for field in fields(Read)} == {"item", "file", "page", "again"}
     assert {field.name for field in fields(VectorArt)} == {"markup", "matrix", "is_traced"}
+
+
+@pytest.mark.parametrize(
+    "header",
+    [b'{"arrays": [["<f8", [1%s]]]}' % (b"0" * 30), b"[" * 200_000, b'{"arrays": [["<f8", [-1]]]}'],
+    ids=["larger than any array", "deeper than the stack", "less than nothing"],
+)
+def test_damaged_headers_are_passed_over(header: bytes) -> None:
+    assert cache.unpacked_read(header + b"\n", "a", "a.svg") is None
+    assert cache.unpacked_glyph(header + b"\n") is None
+
+
+FORMS = st.tuples(
+    st.sampled_from(["<f8", "<i8", "|u1", "|O", "(2,0)f8", "f"]),
+    st.lists(st.integers() | st.floats() | st.none() | st.text(max_size=3), max_size=3),
+)
+HEADERS = st.fixed_dictionaries(
+    {"arrays": st.lists(FORMS, max_size=5) | st.integers()},
+    optional={
+        "markup": st.text(max_size=5),
+        "traced": st.booleans(),
+        "fate": st.sampled_from(["NONE", "LEFT_OUT", ""]),
+        "clearance": st.floats() | st.text(max_size=5) | st.integers(),
+    },
+)
+
+
+@given(
+    st.binary()
+    | st.builds(
+        lambda head, rest: json.dumps(head).encode() + b"\n" + rest, HEADERS, st.binary(max_size=64)
+    )
+)
+@example(b"")
+def test_any_bytes_are_a_reading_or_none(data: bytes) -> None:
+    assert isinstance(cache.unpacked_read(data, "a", "a.svg"), Read | None)
+    assert isinstance(cache.unpacked_glyph(data), cache.GlyphInk | None)

@@ -75,6 +75,19 @@ def test_what_is_named_is_among_those_that_are_drawn(icons: Path) -> None:
     assert any(name.startswith("i5") for name in names(ruled))
 
 
+@pytest.mark.parametrize("verb", [pw.fill, pw.photos])
+@pytest.mark.parametrize(
+    "asked", [{"hero": "bee"}, {"rules": [{"items": "bee", "color": "red"}]}], ids=list
+)
+def test_what_is_named_of_values_in_memory_is_taken(verb: Any, asked: dict[str, Any]) -> None:
+    called = ("ant", "bee", "cat", "dog", "eel", "fox")
+    images = {name: Image.new("RGB", (40, 30), "white") for name in called}
+    for k, image in enumerate(images.values()):
+        image.paste((40 * k, 90, 60), (5, 5, 35, 25))
+    for seed in range(3):
+        assert "bee" in names(verb("circle", images, count=2, seed=seed, **asked, **QUICK))
+
+
 def test_files_that_are_no_items_make_room_for_others(icons: Path) -> None:
     for k in range(20):
         (icons / f"bad{k}.svg").write_text("<svg", encoding="utf-8")

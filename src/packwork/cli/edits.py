@@ -83,7 +83,7 @@ def _planned(
     given = {name: tuple(v) if isinstance(v, list) else v for name, v in given.items()}
     _, *parameters = inspect.signature(edit.apply).parameters.values()
     if parameters[0].kind is inspect.Parameter.VAR_KEYWORD:
-        # A number for all that is empty is left as it is.
+        # An empty text leaves what holds for all as it is.
         yield partial(edit.apply, session, **{name: v for name, v in given.items() if v})
     elif first.name in given:
         values = [_of_text(session, parameters[0], given.pop(first.name)), *given.values()]

@@ -45,7 +45,10 @@ NOT_KEPT = (b"\0", b"text", b"TEXT")
 installed. A zero is of encodings in which that could not be seen."""
 
 _LOG = logging.getLogger("packwork")
-_DAMAGED = (ValueError, KeyError, TypeError, IndexError, ShapeError, GEOSException)
+_DAMAGED = (
+    ValueError, KeyError, TypeError, IndexError, OverflowError, RecursionError, MemoryError,
+    ShapeError, GEOSException,
+)  # fmt: skip
 
 
 @functools.cache

@@ -13,6 +13,7 @@ import numpy as np
 
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated
+from packwork.readers.files import stem
 from packwork.sources import here_of, names_like
 
 LOOK_LIKE_PICTURES = frozenset(f".{ending}" for ending in (
@@ -151,7 +152,7 @@ class Sample:
 
     def order_of_files(self, files: Sequence[str], alone: Sequence[int], most: int) -> list[int]:
         """Indices of files: those named by themselves first, unless these are too many."""
-        drawn = self.order([Path(file).stem for file in files])
+        drawn = self.order([stem(file) for file in files])
         return list(dict.fromkeys([*(alone if len(alone) <= most else ()), *drawn]))
 
     def tell(self, sources: Sequence[str], of: int) -> None:

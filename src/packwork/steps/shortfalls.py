@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import logging
 from collections.abc import Sequence
 from typing import final
@@ -59,13 +60,13 @@ class TellShortfalls(RunStep):
             _LOG.warning("%s", state.small)
         job, nominal = state.job, state.nominal
         side, scales = job.container.side, state.poses.scale
-        pinned = pinned_scales(job)
+        pinned, outline = pinned_scales(job), job.container.outline
+        widest = functools.cache(lambda: widest_cu(outline, WIDEST_TOLERANCE * outline.extent))
         dwarfs: list[int] = []
         for k, one in enumerate(job.asked):
             item = job.items[k]
             if scales[k] < pinned[k] * (1 - SIZE_TOLERANCE):
-                outline, share = job.container.outline, item.outline.extent / side
-                widest = widest_cu(outline, WIDEST_TOLERANCE * outline.extent)
+                share = item.outline.extent / side
                 is_free_hero = one.sources.get("pin.size") == HERO and not one.is_put
                 state = state.with_finding(
                     Sentence.SMALLER_THAN_PINNED,
@@ -74,7 +75,7 @@ class TellShortfalls(RunStep):
                     size=_percent(scales[k] * share),
                     asked=_percent(pinned[k] * share),
                     why=Sentence.NO_PLACE.of() if is_free_hero else "",
-                    widest=_percent(widest / side),
+                    widest=_percent(widest() / side),
                 )
             elif "scale" in one.values and "size" not in one.pin:
                 least, ratio = one.values["scale"][0], float(scales[k] / nominal[k])

@@ -257,6 +257,11 @@ def test_what_is_no_svg(data, problem):
         parse_untrusted(data)
 
 
+def test_an_address_of_a_namespace_may_be_long():
+    address = "http://example.com/" + "a" * 481
+    assert parse_untrusted(f'<svg xmlns:a="{address}"/>'.encode()).tag.endswith("svg")
+
+
 def test_styles_become_attributes():
     clean = admitted(
         '<style type="text/css"><![CDATA[.a{fill:red;mix-blend-mode:multiply}]]></style>'

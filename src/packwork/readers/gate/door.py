@@ -34,9 +34,11 @@ MAX_ELEMENTS = 200_000
 _REMEDY = "save it as plain SVG without them"
 _DECLARES = f"declares XML entities or a document type of its own; {_REMEDY}"
 
+MAX_NAMESPACE = 500
+"""Letters of a namespace's address, which the parser repeats in every name. Chosen."""
+
 MAX_ENTITY = 300
-"""Letters of an entity, as some programs declare for the addresses of namespaces, and of such an
-address: the parser repeats it in every name. Chosen."""
+"""Letters of an entity, as some programs declare for the addresses of namespaces. Chosen."""
 
 MAX_ATTRIBUTES = 100
 """Attributes that a document type declares. Chosen."""
@@ -102,8 +104,8 @@ class _BoundedBuilder(ET.TreeBuilder):
             raise UnfitError(_DECLARES)
 
     def start_ns(self, prefix: str, uri: str) -> None:
-        if len(uri) > MAX_ENTITY:
-            raise UnfitError(f"has a namespace of {len(uri)} letters; {MAX_ENTITY} is the most")
+        if len(uri) > MAX_NAMESPACE:
+            raise UnfitError(f"has a namespace of {len(uri)} letters; {MAX_NAMESPACE} is the most")
 
     def start(self, tag: str, attrs: dict[str, str]) -> ET.Element:
         self._depth += 1
