@@ -196,7 +196,7 @@ def test_without_a_scheduler_or_dask_it_is_one_line(
         pw.batch(poster, row, out, scheduler="tcp://127.0.0.1:1")
     monkeypatch.undo()
     pytest.importorskip("distributed")
-    monkeypatch.setattr("packwork.batches.cluster.CONNECT_SECONDS", 0.5)
+    monkeypatch.setattr("packwork.batches.cluster.LOST_SECONDS", 0.5)
     with pytest.raises(PackworkError, match=r"no scheduler at tcp://127\.0\.0\.1:1") as caught:
         pw.batch(poster, row, out, scheduler="tcp://127.0.0.1:1")
     assert "\n" not in str(caught.value)

@@ -90,7 +90,9 @@ def test_an_example_that_comes_to_nothing_says_why(
 def test_a_package_stands_in_with_its_modules_and_goes_again() -> None:
     before = {key: one for key, one in sys.modules.items() if key.startswith("wordcloud")}
     with standing_in(ours):
-        whole, part = (importlib.import_module(f"wordcloud{tail}") for tail in ("", ".words"))
+        whole, part = (
+            importlib.import_module(f"wordcloud{tail}") for tail in ("", ".tokenization")
+        )
         assert whole.STOPWORDS is part.STOPWORDS is ours.STOPWORDS
     assert {k: one for k, one in sys.modules.items() if k.startswith("wordcloud")} == before
 
