@@ -62,11 +62,11 @@ def written() -> str:
     """The whole file, before it is formatted."""
     imports = {"from packwork.api.signatures import RunKeywords"}
     parts = [
-        _table("PinTable", "What of one item's pose is given.", _keys(Pin, imports)),
-        _table("RuleTable", "What is asked of the items of some names.", _keys(Rule, imports)),
+        _table("PinTable", "Given parts of one item's pose.", _keys(Pin, imports)),
+        _table("RuleTable", "Rule for the items of some names.", _keys(Rule, imports)),
         *_verb_tables(imports),
-        _table("SaveKeywords", "How a layout is drawn.", _offered(DrawingOptions, imports)),
-        _table("FilmKeywords", "How a film is made.", _offered(FilmOptions, imports)),
+        _table("SaveKeywords", "Options of drawing a layout.", _offered(DrawingOptions, imports)),
+        _table("FilmKeywords", "Options of films.", _offered(FilmOptions, imports)),
     ]
     return HEAD + "\n".join(sorted(imports)) + "\n\n\n" + "\n\n".join(parts)
 

@@ -1,4 +1,4 @@
-"""What users hand over: values in memory wherever an option names files, items and containers."""
+"""Values in memory that stand wherever an option names files, items and containers."""
 
 from __future__ import annotations
 

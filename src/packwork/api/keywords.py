@@ -18,7 +18,7 @@ from packwork.scene.pose import Poses
 
 
 class PinTable(TypedDict, total=False):
-    """What of one item's pose is given."""
+    """Given parts of one item's pose."""
 
     x: str | float | None
     """Where its centroid lies, from the canvas' left edge; % are of the canvas' width."""
@@ -34,25 +34,25 @@ class PinTable(TypedDict, total=False):
 
 
 class RuleTable(TypedDict, total=False):
-    """What is asked of the items of some names."""
+    """Rule for the items of some names."""
 
     items: Required[Value | Iterable[Value] | None]
     """Names of items, or patterns such as ``b*``."""
 
     count: int | None
-    """How many copies of each of them there are."""
+    """Copies of each of them."""
 
     scale: list[float] | tuple[float, float] | None
     """Smallest and largest size, 1 being the typical item's. With free sizes."""
 
     rotate: str | float | Sequence[float] | None
-    """How far they may turn, in the words of the option ``rotate``."""
+    """Turns that they may have, in the words of the option ``rotate``."""
 
     weight: float | None
     """Share of area, as in ``weights``."""
 
     pin: PinTable | None
-    """What of the pose is given. With both x and y the rule is for one copy only."""
+    """Given parts of the pose. With both x and y the rule is for one copy only."""
 
     region: Value | Sequence[str | float] | None
     """Part of the canvas to stay in: a container, or left, top, width and height."""
@@ -62,13 +62,13 @@ class RuleTable(TypedDict, total=False):
     another rule or the recipe gives colours that these items shall not have."""
 
     name: str | None
-    """What it is called in the file that is written."""
+    """Name in the file that is written."""
 
     link: str | None
     """Where a click on it leads: http(s), mailto or a relative address."""
 
     title: str | None
-    """What is shown when a pointer rests on it."""
+    """Text that is shown when a pointer rests on it."""
 
 
 class _FillWordsPhotosPile(TypedDict, total=False):
@@ -578,7 +578,7 @@ class PileRun(RunKeywords, PileKeywords, total=False):
 
 
 class SaveKeywords(TypedDict, total=False):
-    """How a layout is drawn."""
+    """Options of drawing a layout."""
 
     pixels: int
     """Longer side of a PNG or JPEG. Default: 1600."""
@@ -618,7 +618,7 @@ class SaveKeywords(TypedDict, total=False):
 
 
 class FilmKeywords(TypedDict, total=False):
-    """How a film is made."""
+    """Options of films."""
 
     fps: float
     """Pictures a second of a film. Any number: they are drawn between what was recorded. Default:

@@ -21,7 +21,7 @@ Signed = TypeVar("Signed", bound=Callable[..., Any])
 
 
 class RunKeywords(TypedDict, total=False):
-    """How a run is watched: parameters of all verbs, which :func:`packwork.fill` describes."""
+    """Parameters of all verbs beside their options, which :func:`packwork.fill` describes."""
 
     y_up: bool | None
     """Whether the y of geometries points up; None: where a frame says its reference system."""

@@ -27,7 +27,7 @@ from packwork.recipe_paths import named_files
 from packwork.sources import check_no_input, note_input, noting_inputs
 
 Status: TypeAlias = Literal["made", "short", "kept", "failed", "stopped"]
-"""What has become of a row: ``short`` is made, but not as asked; ``kept`` was made before."""
+"""State of a row: ``short`` is made, but not as asked; ``kept`` was made before."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +52,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class RowOutcome:
-    """What became of a row: files that are there, metrics of its layout if there is one.
+    """Outcome of a row: files that are there, metrics of its layout if there is one.
 
     ``said`` tells why it failed or is not as asked.
     """

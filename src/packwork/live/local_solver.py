@@ -41,7 +41,7 @@ class LocalSolver:
         self.grabbed: tuple[int, ...] = ()
         """Numbers of what is in the hand."""
         self.news: tuple[str, ...] = ()
-        """What the last settle did to all items, a sentence."""
+        """Sentences about what the last settle did to all items."""
         self._levels = LevelCache()
         self._flow = Flow(document, self._levels)
         self._certificate = Certificate()
@@ -334,7 +334,7 @@ class LocalSolver:
         self._flow.turn_to(document, document.held)
 
     def _strict(self, document: Document) -> BoolArray:
-        """What is held, the angles of what the hand has turned too, as :attr:`Document.held`."""
+        """Held parts of poses, as :attr:`Document.held`, and angles that the hand has given."""
         held = document.held.copy()
         held[np.isin(document.ids, list(self.marks.turned)), PROPERTIES.index("angle")] = True
         return held

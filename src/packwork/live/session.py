@@ -94,7 +94,7 @@ class Session:
 
     @property
     def marks(self) -> Marks:
-        """What has been done to which items."""
+        """Marks of the items that gestures have done something to."""
         return self._solver.marks
 
     @property

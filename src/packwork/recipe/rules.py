@@ -215,19 +215,19 @@ class Rule(Options):
     """Names of items, or patterns such as ``b*``."""
 
     count: Annotated[int, Field(ge=0, le=MAX_COUNT)] | None = None
-    """How many copies of each of them there are."""
+    """Copies of each of them."""
 
     scale: tuple[float, float] | None = None
     """Smallest and largest size, 1 being the typical item's. With free sizes."""
 
     rotate: Annotated[str | None, Offer(takes=Turns | None)] = None
-    """How far they may turn, in the words of the option ``rotate``."""
+    """Turns that they may have, in the words of the option ``rotate``."""
 
     weight: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     """Share of area, as in ``weights``."""
 
     pin: Pin | None = None
-    """What of the pose is given. With both x and y the rule is for one copy only."""
+    """Given parts of the pose. With both x and y the rule is for one copy only."""
 
     region: str | tuple[Length, Length, Length, Length] | None = None
     """Part of the canvas to stay in: a container, or left, top, width and height."""
@@ -237,13 +237,13 @@ class Rule(Options):
     where another rule or the recipe gives colours that these items shall not have."""
 
     name: str | None = None
-    """What it is called in the file that is written."""
+    """Name in the file that is written."""
 
     link: str | None = None
     """Where a click on it leads: http(s), mailto or a relative address."""
 
     title: str | None = None
-    """What is shown when a pointer rests on it."""
+    """Text that is shown when a pointer rests on it."""
 
     @field_validator("items", mode="before")
     @classmethod

@@ -30,10 +30,10 @@ from packwork.studio.tab import Tab
 from packwork.studio.workspace import Workspace
 
 MOST_TABS = 8
-"""Pages that look at one desk at most. Chosen."""
+"""Pages that look at one workspace at most. Chosen."""
 
 TAKEN = 4409
-"""Code with which a socket is closed while another person is at the desk."""
+"""Code with which a socket is closed while another person is in the workspace."""
 
 MOST_ASKED = 10_000
 """Bytes of what an export asks for. Chosen."""
@@ -163,7 +163,7 @@ def refused(error: PackworkError) -> Response:
 
 
 def guarded(workspace: Workspace, uploads: Uploads, secret: Secret) -> Guard:
-    """The studio behind its guard; its desk begins when the server does."""
+    """The studio behind its guard; its workspace begins when the server does."""
 
     @asynccontextmanager
     async def open_(app: Any) -> AsyncIterator[None]:
@@ -178,15 +178,15 @@ def guarded(workspace: Workspace, uploads: Uploads, secret: Secret) -> Guard:
 
 
 GRACE_SECONDS = 5.0
-"""How long the desk is kept for somebody whose last page is gone. Shorter gives it away while a
-page is loaded anew, longer has the next one wait. Chosen."""
+"""How long the workspace is kept for somebody whose last page is gone. Shorter gives it away while
+a page is loaded anew, longer has the next one wait. Chosen."""
 
 LONGEST = 64
 """Characters of what a person is known by at most. Chosen."""
 
 
 class Presence:
-    """Seats at a desk: the person there, and who works there together.
+    """Seats in a workspace: the person there, and who works there together.
 
     Examples
     --------
@@ -204,7 +204,7 @@ class Presence:
         self._together: set[str] = set()
 
     def take(self, person: str, *, joins: bool = False) -> bool:
-        """Have one more page of a person at the desk; False if somebody else is there.
+        """Have one more page of a person in the workspace; False if somebody else is there.
 
         A page that does not say whose it is comes in, and keeps nobody out.
         """

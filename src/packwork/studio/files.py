@@ -114,7 +114,7 @@ PATIENCE_SECONDS = 20.0
 
 
 class Exporter:
-    """Writes what the desk has."""
+    """Writes what the workspace has."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace

@@ -1,8 +1,8 @@
-"""Desks on the disk and their addresses: what was not saved is found again.
+"""Workspaces on the disk and their addresses: what was not saved is found again.
 
-Each desk is a session file in a private folder, with a journal; beside it stand its page's port
-and a key that the page has too, so that one that is still open goes on by itself when its desk is
-opened again: both prove to each other that they know the key.
+Each workspace is a session file in a private folder, with a journal; beside it stand its page's
+port and a key that the page has too, so that one that is still open goes on by itself when its
+workspace is opened again: both prove to each other that they know the key.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from packwork.folders import private_folder
 from packwork.live.face.opening import lock_of
 
 MOST_WORKSPACES = 8
-"""Desks that are kept; then the one that was left alone for longest is written over. Chosen."""
+"""Workspaces that are kept; then the one left alone for longest is written over. Chosen."""
 
 ENDING = ".packwork"
 
@@ -32,7 +32,7 @@ _KEY = re.compile("[0-9a-f]{64}")
 
 @dataclass(frozen=True)
 class KeptWorkspace:
-    """A desk on disk.
+    """A workspace on disk.
 
     ``place``: where its port and key stand; None if nothing may be kept.
     """
@@ -64,14 +64,14 @@ class KeptWorkspace:
 
 
 def of_file(file: Path) -> KeptWorkspace:
-    """Desk of a session file that somebody has named."""
+    """Workspace of a session file that somebody has named."""
     folder = private_folder("studio")
     name = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:16]
     return KeptWorkspace(file, None if folder is None else folder / f"{name}.json")
 
 
 def new() -> KeptWorkspace | None:
-    """A desk that nothing is on, or the one left alone for longest; None if none may be kept.
+    """An empty workspace, or the one left alone for longest; None if none may be kept.
 
     None that somebody works at, however long it was left alone.
     """
@@ -90,7 +90,7 @@ def new() -> KeptWorkspace | None:
 
 
 def last() -> KeptWorkspace:
-    """The desk that was used last."""
+    """The workspace that was used last."""
     found = max(_known(), key=_last_used, default=None)
     if found is None:
         raise PackworkError("there is no desk to go on with; leave --again out")
@@ -104,14 +104,14 @@ def _known() -> Iterator[Path]:
 
 
 def _last_taken(file: Path) -> float:
-    """Time when a desk was last written to, or chosen for a new session; 0 if it is none."""
+    """Time when a workspace was last written to, or chosen for a new session; 0 if it is none."""
     with contextlib.suppress(OSError):
         return max(_last_used(file), lock_of(file).stat().st_mtime)
     return _last_used(file)
 
 
 def _last_used(file: Path) -> float:
-    """Time when a desk was last written to; 0 if it is none."""
+    """Time when a workspace was last written to; 0 if it is none."""
     times = [0.0]
     for one in (file, file.with_name(file.name + ".log")):
         with contextlib.suppress(OSError):

@@ -3,8 +3,8 @@
 The secret stands in the fragment of the address that was opened and is never sent. Page and studio
 derive from it a token, which requests carry and which is worth nothing once the studio has ended,
 and a key, by which each proves that it knows the secret. So a page that is still open when its
-studio has gone gives nothing to another program at its port; and when its desk is opened again, it
-is given the new secret.
+studio has gone gives nothing to another program at its port; and when its workspace is opened
+again, it is given the new secret.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ class Secret:
     text
         What stands in the address.
     key_before
-        Key of the studio that had this desk before, for pages of it that are still open; empty for
-        none.
+        Key of the studio that had this workspace before, for pages of it that are still open; empty
+        for none.
     is_plain
         Whether the text itself is taken as the token: browsers derive nothing on pages that others
         can reach without encryption.

@@ -1,4 +1,4 @@
-"""One page that looks at the desk: what it is sent, and what it asks for."""
+"""One page that looks at the workspace: what it is sent, and what it asks for."""
 
 from __future__ import annotations
 

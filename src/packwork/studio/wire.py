@@ -79,7 +79,7 @@ class LeftOut(Message):
 
 
 class State(Message):
-    """State of the desk."""
+    """State of the workspace."""
 
     type: Literal["state"] = "state"
     covered: float

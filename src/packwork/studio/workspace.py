@@ -1,4 +1,4 @@
-"""The desk: one session, the runs that fill it, and the pages that look at it.
+"""The workspace: one session, the runs that fill it, and the pages that look at it.
 
 The session lives in a thread of its own (:class:`packwork.live.owner.Owner`), runs in another; what
 is here is called from the event loop, posts and looks, and never waits for either.
@@ -48,7 +48,7 @@ NOT_YET = "the desk is still being laid; try it again in a moment"
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """View of a desk at a moment.
+    """View of a workspace at a moment.
 
     ``done``: how many commands it knows, in the count of the session's owner.
     """
@@ -59,7 +59,7 @@ class Shown:
 
 
 class Workspace:
-    """Desk that pages look at and work on."""
+    """Workspace that pages look at and work on."""
 
     def __init__(self, opening: Opening) -> None:
         self._opening = opening
@@ -85,7 +85,7 @@ class Workspace:
         self._tidying = asyncio.create_task(self._tidy())
 
     def close(self) -> None:
-        """End all threads; what is on the desk is kept, if it is kept anywhere."""
+        """End all threads; what is in the workspace is kept, if it is kept anywhere."""
         if self._tidying is not None and self._loop is not None:
             self._loop.call_soon_threadsafe(self._tidying.cancel)
         self._stop.set()

@@ -16,10 +16,10 @@ from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
 
 FIRST = "heart"
-"""Container of a desk on which nothing was put."""
+"""Container of a workspace in which nothing was put."""
 
 FIRST_COUNT = 60
-"""Items of such a desk. More take longer until they lie, fewer show less. Chosen."""
+"""Items of such a workspace. More take longer until they lie, fewer show less. Chosen."""
 
 LAYOUTS = frozenset({".geojson", ".json", ".dxf"})
 """Endings of files that hold a layout and can be nothing else."""
