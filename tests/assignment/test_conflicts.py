@@ -54,7 +54,7 @@ def test_one_label_alone_is_left_as_it_is(rng: np.random.Generator) -> None:
 
 
 def test_memory_grows_with_places_and_not_with_pairs_of_labels(rng: np.random.Generator) -> None:
-    count = 3_000
+    count = 6_000
     labels = np.repeat(np.arange(count // 2), 2)
     pairs = np.column_stack([np.arange(count - 1), np.arange(1, count)])
     tracemalloc.start()
