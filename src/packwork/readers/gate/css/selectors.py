@@ -206,11 +206,12 @@ class Selector:
 
 def _related(node: Node | None, relation: str, step: Compound) -> Node | None:
     """Nearest element in that relation that the step means."""
-    is_beside = relation in "+~"
-    walked, is_met = 0, False
-    while node is not None and not is_met and (walked == 0 or relation not in ">+"):
+    is_beside, is_next = relation in "+~", relation in ">+"
+    walked, is_met, tag = 0, False, step.tag
+    while node is not None and not is_met and not (is_next and walked):
         node, walked = node.before if is_beside else node.parent, walked + 1
-        is_met = node is not None and step.matches(node)
+        # Most are of another tag, and a call for each would take as long as all the rest.
+        is_met = node is not None and (tag is None or tag == node.tag) and step.matches(node)
     spend(_WALK_NS * walked, TOO_MANY)
     return node if is_met else None
 
