@@ -99,12 +99,12 @@ def nest(
         for path in every:
             check_no_input(path)
         console = Paper(quiet)
-        clock = WorkBound(seconds=seconds) if passes is None else WorkBound(passes=passes)
+        work = WorkBound(seconds=seconds) if passes is None else WorkBound(passes=passes)
         interrupt = Interrupt()
         with interrupt.listening():
             found = nest_parts(
                 counted, ground, gap=gap, seed=seed,
-                clock=clock, stop=interrupt,
+                work=work, stop=interrupt,
             )  # fmt: skip
         drawn = [(path, writers.encoded(found.layout, path)) for path in files]
         faults = [*found.faults, *faults_in(drawn, found.layout, writers.WriteOptions())]

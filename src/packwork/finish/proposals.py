@@ -88,19 +88,15 @@ def propose(
     """An exchange or a turn; ``can_turn``: whether any item may; ``exchanges``: their share."""
     if arrangement.count > 1 and (not can_turn or rng.random() < exchanges):
         moved = _pick_exchange(arrangement, pools, rng, force_term)
+    elif rng.random() < pools.share:
+        moved = rng.choice(pools.first, size=1)
     else:
-        moved = _pick_turn(arrangement.count, pools, rng)
+        moved = rng.integers(arrangement.count, size=1)
     return Proposal(moved, rng.random((ANGLES, len(moved))), rng.exponential())
 
 
 def _some(items: IntArray, share: float) -> IntArray:
     return items[: max(round(share * len(items)), 1)]
-
-
-def _pick_turn(count: int, pools: Pools, rng: np.random.Generator) -> IntArray:
-    if rng.random() < pools.share:
-        return rng.choice(pools.first, size=1)
-    return rng.integers(count, size=1)
 
 
 def _pick_exchange(

@@ -73,12 +73,11 @@ class StripSearch:
 
     def __init__(
         self, parts: Sequence[Part], height: float, *, seed: int = 0, workers: int = 2,
-        clock: WorkBound, found: Callable[[Strip], None] = lambda _: None,
-        stop: Callable[[], bool] = lambda: False,
+        work: WorkBound, stop: Callable[[], bool] = lambda: False,
     ) -> None:  # fmt: skip
         self.problem = Problem(parts, height)
         self.random = np.random.default_rng(seed)
-        self.clock, self.found, self.stop = clock, found, stop
+        self.work, self.stop = work, stop
         self.best = self._in_columns()
         length = min(max(self.problem.area / height / START, self.problem.widest), self.best.length)
         poses = self._strewn(length)
@@ -104,13 +103,11 @@ class StripSearch:
         return Strip(length, poses, problem.area / (length * problem.height))
 
     def _strewn(self, length: float) -> Floats:
-        count, parts = len(self.problem), self.problem.parts
-        turns = [
-            parts[s].turns or tuple(np.arange(32) * math.pi / 16) for s in self.problem.shape_of
-        ]
-        angles = [own[self.random.integers(len(own))] for own in turns]
+        count, table = len(self.problem), self.problem.turns
+        rows = self.random.integers(*table.turn_at[np.add.outer([0, 1], self.problem.shape_of)])
         x = self.random.uniform(0.0, length, count)
-        return np.column_stack([x, self.random.uniform(0.0, self.problem.height, count), angles])
+        y = self.random.uniform(0.0, self.problem.height, count)
+        return np.column_stack([x, y, table.turns[2, rows]])
 
     @property
     def layout(self) -> WorkerState:
@@ -126,7 +123,7 @@ class StripSearch:
                 worker.take(self.workers[best])
         for worker in self.workers:
             worker.raise_weights()
-        self.clock.done += 1
+        self.work.done += 1
 
     def put(self, length: float, poses: Floats, *, fresh: bool = False) -> None:
         """Give all workers a length and poses; ``fresh``: and weights of 1."""
@@ -164,7 +161,6 @@ class StripSearch:
         length = float(self.layout.arrays[0][:, X1].max())
         best = Strip(length, poses, self.problem.area / (length * self.problem.height))
         self.best = best
-        self.found(best)
         return best
 
     def shorter(self, best: Strip, share: float) -> None:
@@ -210,9 +206,9 @@ class StripSearch:
 
     def compress(self, best: Strip) -> Strip:
         """Shorten a strip by ever less, and take back what does not succeed."""
-        begun = self.clock.share
+        begun = self.work.share
         while not self.is_over(1.0):
-            done = (self.clock.share - begun) / max(1.0 - begun, 1e-9)
+            done = (self.work.share - begun) / max(1.0 - begun, 1e-9)
             self.shorter(best, CLOSEST * (FINEST / CLOSEST) ** min(done, 1.0))
             loss, poses, _ = self.separate(PATIENCE_AT_END, 1.0)
             if loss == 0.0:
@@ -224,10 +220,10 @@ class StripSearch:
         with self.pool:
             # Not counted: kernels are compiled in the first pass of all.
             self.step()
-            self.clock.start()
+            self.work.start()
             self.explore(EXPLORED)
             return self.compress(self.best)
 
     def is_over(self, until: float) -> bool:
         """Whether a share of the work is done, or nobody waits for more."""
-        return self.clock.share >= until or self.stop()
+        return self.work.share >= until or self.stop()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
-from packwork.separation.strip import Strip, StripSearch, WorkBound
+from packwork.separation.strip import StripSearch, WorkBound
 from packwork.units import Unit
 
 MOST_PARTS = 2_000
@@ -63,7 +63,6 @@ class Nest:
     metrics: LayoutMetrics
     faults: tuple[str, ...]
     certified: bool
-    strip: Strip
 
     @property
     def length(self) -> float:
@@ -81,8 +80,7 @@ class Nest:
 
 def nest(
     parts: Sequence[SheetPart], sheet: Sheet, *, gap: float = 0.0, seed: int = 0, workers: int = 2,
-    clock: WorkBound, found: Callable[[Strip], None] = lambda _: None,
-    stop: Callable[[], bool] = lambda: False,
+    work: WorkBound, stop: Callable[[], bool] = lambda: False,
 ) -> Nest:  # fmt: skip
     """Lay all parts on as short a part of a sheet as the search finds.
 
@@ -90,10 +88,8 @@ def nest(
     ----------
     gap
         Smallest distance between parts, and of them from the sheet's edge, in its unit.
-    clock
-        How long it searches.
-    found
-        Told of each shorter strip.
+    work
+        Passes or seconds that it searches.
     stop
         Asked after each pass whether to end with the best so far.
 
@@ -120,9 +116,7 @@ def nest(
     regions = [_part(one, sheet, least) for one in parts]
     # A gap's half lies around each part; the other half to the edge is the sheet's.
     inner = sheet.height - least
-    search = StripSearch(regions, inner, seed=seed, workers=workers, clock=clock, found=found,
-                         stop=stop)  # fmt: skip
-    strip = search.run()
+    strip = StripSearch(regions, inner, seed=seed, workers=workers, work=work, stop=stop).run()
     items = tuple(one.item for one in parts for _ in range(one.count))
     scales = [one.scale for one in parts for _ in range(one.count)]
     x, y, angle = strip.poses.T
@@ -134,16 +128,14 @@ def nest(
         "length": placed.container.width, "height": sheet.height, "unit": sheet.unit,
         "sheet_length": sheet.length if math.isfinite(sheet.length) else None,
         "parts": len(items), "density": area / (placed.container.width * sheet.height),
-        "passes": clock.done, "seed": seed, "workers": workers,
+        "passes": work.done, "seed": seed, "workers": workers,
     }  # fmt: skip
-    layout = Layout(
-        placed.container, items, poses, placed.weights,
-        manifest={"promised": asdict(promise), "nest": about, "seed": seed},
-    )  # fmt: skip
+    manifest = {"promised": asdict(promise), "nest": about, "seed": seed}
+    layout = replace(placed, manifest=manifest)
     metrics = measure(layout)
     faults = tuple(broken(promise, layout, metrics.exact))
     certified = not faults and not unclean(promise, layout, metrics.exact)
-    return Nest(layout, metrics, faults, certified, strip)
+    return Nest(layout, metrics, faults, certified)
 
 
 def _part(asked: SheetPart, sheet: Sheet, gap: float) -> Part:
