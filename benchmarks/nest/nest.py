@@ -39,9 +39,9 @@ def ours(instance: Instance, seconds: float, seed: int, workers: int) -> float:
     """Density of our nest, 0 if it does not hold."""
     sheet = Sheet(height=instance.height, name=instance.name)
     made: Nest = nest(
-        sheet_parts(instance), sheet, seed=seed, workers=workers, work=WorkBound(seconds=seconds)
+        sheet_parts(instance), [sheet], seed=seed, workers=workers, work=WorkBound(seconds=seconds)
     )
-    regions = [outline.region for outline in made.layout.outlines]
+    regions = [outline.region for outline in made.sheets[0].layout.outlines]
     return _checked(regions, made.length, instance.height)
 
 

@@ -64,7 +64,7 @@ def test_parts_lie_on_the_sheet_in_true_size_at_the_distance_of_the_tool(
     assert all(sheet.buffer(-2 + 1e-9, join_style="mitre").covers(region) for region in outlines)
     said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
     assert (said["parts"], said["certified"], said["sheet_length"]) == (11, True, 300)
-    assert said["length"] == layout.container.width < 200
+    assert said["length"] < 200 < 300 == layout.container.width
     assert packwork("measure a.dxf").exit_code == 0
 
 
@@ -84,7 +84,12 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("nest 300x40mm bracket.svg --rotate 90,270", "bracket is 80.00"),
+        ("nest 300x40mm bracket.svg --rotate 90,270", "bracket is 50.0012 x 80.0012 mm"),
+        ("nest 40mm bracket.svg --rotate none", "bracket is 50.0004297 mm high"),
+        ("nest 300x40mm disc.svg --margin 1mm --kerf 2mm", "margin"),
+        ("nest 300x40mm disc.svg --margin 25mm", "no room within its margin"),
+        ("nest 300mm,200x100mm disc.svg", "a strip of open length has no end"),
+        ("nest nowhere.svg disc.svg", "nowhere.svg"),
         ("nest 300mm", "there is nothing to nest"),
         ("nest wide bracket.svg", "wide: "),
         ("nest squares.json bracket.svg", "an instance holds its parts"),
@@ -104,11 +109,54 @@ def test_what_cannot_be_is_one_line(shop: Path, packwork: Command, line: str, sa
     assert not (shop / "nest.svg").exists()
 
 
-def test_parts_that_need_more_than_the_sheet_are_told(shop: Path, packwork: Command) -> None:
-    result = packwork("nest 90x80mm bracket.svg*6 --passes 30 -o a.svg")
+def test_parts_without_room_are_told_and_the_others_written(shop: Path, packwork: Command) -> None:
+    result = packwork("nest 90x80mm*2 bracket.svg*6 --passes 60 -o a.svg --report a.json")
     assert result.exit_code == 1
-    assert "the parts need" in result.output
-    assert (shop / "a.svg").exists()
+    said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
+    (missing,) = said["unplaced"]
+    assert missing["part"] == "bracket"
+    assert f"no room for bracket*{missing['count']}" in result.output
+    written = [len(pw.Layout.load(shop / f"a-{k}.svg")) for k in (1, 2)]
+    assert sum(written) == said["parts"] == 6 - missing["count"] >= 2
+
+
+def test_sheets_are_taken_as_needed_one_file_each(shop: Path, packwork: Command) -> None:
+    line = "nest 100x90mm bracket.svg*6 disc.svg*4 --kerf 1mm --margin 3mm --passes 99 -o a.geojson"
+    result = packwork(f"{line} --report a.json")
+    assert result.exit_code == 0, result.output
+    said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
+    count = len(said["sheets"])
+    assert 2 <= count <= 5
+    sheet = shapely.box(3, 3, 97, 87).buffer(1e-9)
+    names = []
+    for k in range(1, count + 1):
+        layout = pw.Layout.load(shop / f"a-{k}.geojson")
+        assert (layout.container.width, layout.container.height) == (100, 90)
+        regions = [outline.region for outline in layout.outlines]
+        assert all(sheet.covers(region) for region in regions)
+        assert all(a.distance(b) >= 1 - 1e-9 for n, a in enumerate(regions) for b in regions[:n])
+        names += [placed.name for placed in layout]
+    assert sorted(names) == ["bracket"] * 6 + ["disc"] * 4
+
+
+def test_sheets_of_any_outline_come_before_bought_ones(shop: Path, packwork: Command) -> None:
+    (shop / "offcut.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="6in" height="100mm" '
+        'viewBox="0 0 152.4 100">'
+        '<path fill-rule="evenodd" d="M0 0h152.4v50l-60 50h-92.4zM60 30h20v20h-20z"/></svg>',
+        encoding="utf-8",
+    )
+    line = (
+        "nest offcut.svg,200x100mm bracket.svg*6 disc.svg*3 --rotate free --passes 99 -o a.geojson"
+    )
+    assert packwork(line).exit_code == 0
+    first, second = (pw.Layout.load(shop / f"a-{k}.geojson") for k in (1, 2))
+    assert len(first) + len(second) == 9
+    assert first.container.name == "offcut"
+    offcut = first.container.outline.region.buffer(1e-9)
+    assert all(offcut.covers(outline.region) for outline in first.outlines)
+    scale = first.container.width / second.container.width
+    assert scale == pytest.approx(152.4 / 200 if first.container.unit == "mm" else 6 / (200 / 25.4))
 
 
 @pytest.mark.parametrize(

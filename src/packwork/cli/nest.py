@@ -15,7 +15,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import number_of
 
 if TYPE_CHECKING:
-    from packwork.uses.nesting import Sheet, SheetPart
+    from packwork.uses.nesting import Nest, Sheet, SheetPart
 
 DEFAULT_OUTPUT = Path("nest.svg")
 
@@ -31,8 +31,9 @@ def nest(
         str,
         typer.Argument(
             metavar="SHEET",
-            help="Width x height with a unit (600x400mm), one number for a strip of that height "
-            "and open length (400mm), or a strip packing instance (.json).",
+            help="Width x height with a unit (600x400mm, as many as are needed; 600x400mm*2: two), "
+            "an outline (hide.svg), several with commas between them; one number for a strip of "
+            "that height and open length (400mm); or a strip packing instance (.json).",
         ),
     ],
     parts: Annotated[
@@ -51,6 +52,10 @@ def nest(
             help="Distance of parts, and from the sheet's edge, as 2mm: the tool's width."
         ),
     ] = "0",
+    margin: Annotated[
+        str | None,
+        typer.Option(help="Distance from the sheet's edge, as 10mm, where it is more than --kerf."),
+    ] = None,
     seconds: Annotated[
         float,
         typer.Option("--time", min=0.1, help="Seconds to search; results depend on the machine."),
@@ -66,7 +71,7 @@ def nest(
     no_clobber: bool,
     quiet: bool,
 ) -> None:
-    """Nest parts of true size on as little of a strip or sheet as possible.
+    """Nest parts of true size on as few sheets and as little of the last one as possible.
 
     [bold]packwork nest 600x400mm bracket.svg*12 gear.svg*4 --kerf 2mm -o sheet.dxf[/]
 
@@ -74,12 +79,10 @@ def nest(
     """
     with clear_errors():
         from packwork import writers
-        from packwork.cli.running import faults_in
         from packwork.cli.show import Paper
         from packwork.cli.terminal import say
         from packwork.separation.strip import WorkBound
         from packwork.sources import check_no_input
-        from packwork.units import parse_length
         from packwork.uses.nesting import nest as nest_parts
 
         files = list(output or (DEFAULT_OUTPUT,))
@@ -91,11 +94,10 @@ def nest(
         writers.check_outputs(every)
         if no_clobber:
             writers.check_new(every)
-        ground, counted = _asked(sheet, parts or [], rotate)
-        try:
-            gap = parse_length(kerf, ground.unit, ground.height)
-        except ValueError as error:
-            raise RecipeError("kerf", str(error)) from None
+        sheets, counted = _asked(sheet, parts or [], rotate)
+        gap, away = _length("kerf", kerf, sheets[0]), None
+        if margin is not None:
+            away = _length("margin", margin, sheets[0])
         for path in every:
             check_no_input(path)
         console = Paper(quiet)
@@ -103,44 +105,104 @@ def nest(
         interrupt = Interrupt()
         with interrupt.listening():
             found = nest_parts(
-                counted, ground, gap=gap, seed=seed,
-                work=work, stop=interrupt,
-            )  # fmt: skip
-        drawn = [(path, writers.encoded(found.layout, path)) for path in files]
-        faults = [*found.faults, *faults_in(drawn, found.layout, writers.WriteOptions())]
+                counted, sheets, gap=gap, margin=away, seed=seed, work=work, stop=interrupt
+            )
+        drawn, faults = _drawn(found, files)
         certified = found.certified and not faults
+        if no_clobber:
+            writers.check_new([path for path, _ in drawn])
         if report is not None:
             said = {**found.report(), "certified": certified, "faults": faults}
             drawn.append((report, writers.json_bytes(said)))
         writers.write_all(drawn)
-        about, unit = found.layout.manifest["nest"], ground.unit
-        console.print(
-            f"{number_of(about['parts'], 'part')} on {about['length']:.6g} x {about['height']:.6g} "
-            f"{unit}, {about['density']:.1%} of it covered; "
-            f"{'certified' if certified else 'not certified'}"
-        )
+        console.print(_summary(found, sheets[0], certified))
         console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
         for fault in faults:
             say(fault)
         if interrupt.pressed:
-            say("stopped by Ctrl-C; this is the shortest so far")
+            say("stopped by Ctrl-C; this is the best so far")
             raise typer.Exit(INTERRUPTED)
-        is_too_long = about["length"] > ground.length
-        if is_too_long:
-            say(
-                f"the parts need {about['length']:.6g} {unit}, there are {ground.length:.6g}; "
-                "take a longer sheet, fewer parts or more time"
-            )
-    raise typer.Exit(SHORTFALL if is_too_long or not certified else 0)
+        if found.unplaced:
+            missing = ", ".join(f"{item.name}*{many}" for item, many in found.unplaced)
+            say(f"no room for {missing}; give more sheets, larger ones or more time")
+    raise typer.Exit(SHORTFALL if found.unplaced or not certified else 0)
 
 
-def _asked(sheet: str, named: list[str], rotate: str) -> tuple[Sheet, list[SheetPart]]:
-    """Sheet and parts of a command line."""
+def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], list[str]]:
+    """Files of all sheets, one for each where there are several, and what is wrong with them."""
+    from packwork import writers
+    from packwork.cli.running import faults_in
+
+    drawn, faults = list[tuple[Path, bytes]](), list(found.faults)
+    for k, one in enumerate(found.sheets, start=1):
+        paths = files
+        if len(found.sheets) > 1:
+            paths = [path.with_name(f"{path.stem}-{k}{path.suffix}") for path in files]
+        written = [(path, writers.encoded(one.layout, path)) for path in paths]
+        faults += faults_in(written, one.layout, writers.WriteOptions())
+        drawn += written
+    return drawn, faults
+
+
+def _summary(found: Nest, sheet: Sheet, certified: bool) -> str:
+    where = f"{found.length:.6g} x {sheet.height:.6g} {sheet.unit}"
+    if len(found.sheets) > 1:
+        where = f"{len(found.sheets)} sheets, {found.length:.6g} {sheet.unit} of the last one"
+    count = number_of(sum(len(one.layout.items) for one in found.sheets), "part")
+    said = "certified" if certified else "not certified"
+    return f"{count} on {where}, {found.density:.1%} covered; {said}"
+
+
+def _length(option: str, text: str, sheet: Sheet) -> float:
+    from packwork.units import parse_length
+
+    try:
+        return parse_length(text, sheet.unit, sheet.height)
+    except ValueError as error:
+        raise RecipeError(option, str(error)) from None
+
+
+def _counted(text: str) -> tuple[str, int | None]:
+    """Source and count of ``part.svg*12``; None where no count is given."""
     from packwork.readers.files import exists
+
+    met = None if exists(text) else _TIMES.fullmatch(text)
+    return (met["source"], int(met["count"])) if met else (text, None)
+
+
+def _sheets(text: str) -> list[Sheet]:
+    """Sheets of ``600x400mm*2,hide.svg``; all in the unit of the first."""
+    from packwork.readers.container import read_container
+    from packwork.readers.files import exists
+    from packwork.units import canvas_size, convert
+    from packwork.uses.nesting import Sheet
+
+    found = list[Sheet]()
+    for one in [text] if exists(text) else text.split(","):
+        source, count = _counted(one.strip())
+        if exists(source) or Path(source).suffix:
+            read = read_container(source)
+            found.append(
+                Sheet(height=read.height, length=read.width, unit=read.unit, name=read.name,
+                      outline=read.outline, count=1 if count is None else count)
+            )  # fmt: skip
+            continue
+        try:
+            size = canvas_size(source)
+        except RecipeError as error:
+            raise ReadError(source, str(error).removeprefix("canvas: ")) from None
+        sides = (math.inf, size.width) if size.height is None else (size.width, size.height)
+        found.append(Sheet(length=sides[0], height=sides[1], unit=size.unit, count=count))
+    unit = found[0].unit
+    return [one.scaled(convert(1.0, one.unit, unit), unit) for one in found]
+
+
+def _asked(sheet: str, named: list[str], rotate: str) -> tuple[list[Sheet], list[SheetPart]]:
+    """Sheets and parts of a command line."""
     from packwork.readers.instances import is_instance, read_instance
     from packwork.readers.items import read_items
     from packwork.recipe.rules import Rotation
-    from packwork.units import canvas_size, convert
+    from packwork.units import convert
     from packwork.uses.nesting import Sheet, SheetPart
 
     if is_instance(sheet):
@@ -152,25 +214,21 @@ def _asked(sheet: str, named: list[str], rotate: str) -> tuple[Sheet, list[Sheet
                   angles=None if one.angles is None else tuple(map(math.radians, one.angles)))
             for one in instance.parts
         ]  # fmt: skip
-        return Sheet(height=instance.height, name=instance.name), parts
+        return [Sheet(height=instance.height, name=instance.name)], parts
     if not named:
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.svg*12")
-    try:
-        size = canvas_size(sheet)
-    except RecipeError as error:
-        raise ReadError(sheet, str(error).removeprefix("canvas: ")) from None
+    sheets = _sheets(sheet)
     turned = Rotation.parse(rotate)
     angles = turned.choices
     if turned.limit is not None:
         steps = WITHIN_LIMIT if turned.limit > 0 else 0
         angles = tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
-    length, height = (math.inf, size.width) if size.height is None else (size.width, size.height)
     parts = []
     for text in named:
-        met = None if exists(text) else _TIMES.fullmatch(text)
-        source, count = (met["source"], int(met["count"])) if met else (text, 1)
+        source, count = _counted(text)
         parts += [
-            SheetPart(item=item, count=count, angles=angles, scale=convert(1.0, "px", size.unit))
+            SheetPart(item=item, count=1 if count is None else count, angles=angles,
+                      scale=convert(1.0, "px", sheets[0].unit))
             for item in read_items(source, holes="keep").items
-        ]
-    return Sheet(height=height, length=length, unit=size.unit), parts
+        ]  # fmt: skip
+    return sheets, parts

@@ -87,6 +87,17 @@ def boxes_of(part: Part) -> tuple[Floats, Floats]:
     return turns, np.column_stack([x.min(1), y.min(1), x.max(1), y.max(1)])
 
 
+def flattest(parts: Sequence[Part], height: float) -> tuple[Floats, Floats]:
+    """Boxes of parts about their own origins, and angles, at which they are least wide and fit."""
+    boxes, angles = np.zeros((len(parts), 4)), np.zeros(len(parts))
+    for k, part in enumerate(parts):
+        turns, found = boxes_of(part)
+        wide, tall = found[:, 2] - found[:, 0], found[:, 3] - found[:, 1]
+        best = int(np.argmin(np.where(tall <= height, wide, np.inf)))
+        boxes[k], angles[k] = found[best], turns[best]
+    return boxes, angles
+
+
 def rings_of(region: Region) -> list[Floats]:
     """All rings of a region, closed, ``(n, 2)`` each."""
     parts = shapely.get_parts(region)

@@ -11,9 +11,10 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
+from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import DECAY, PENALTY
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
-from packwork.separation.shapes import DECAY_SHARE, Floats, Part, boxes_of, starts, tables
+from packwork.separation.shapes import DECAY_SHARE, Floats, Part, flattest, starts, tables
 
 ROWS = 96
 """Rows of the image that proposes places. Half as many miss gaps that thin parts fit into: three
@@ -26,36 +27,28 @@ MOST, LEAST, FALL = 2.0, 1.2, 0.95
 """Factors of weights in a pass: of the worst pair, of the least, and of pairs that are apart."""
 
 
-def _flattest(parts: Sequence[Part], height: float) -> tuple[Floats, Floats]:
-    """Boxes of parts about their own origins, and angles, at which they are least wide and fit."""
-    boxes, angles = np.zeros((len(parts), 4)), np.zeros(len(parts))
-    for k, part in enumerate(parts):
-        turns, found = boxes_of(part)
-        wide, tall = found[:, 2] - found[:, 0], found[:, 3] - found[:, 1]
-        best = int(np.argmin(np.where(tall <= height, wide, np.inf)))
-        boxes[k], angles[k] = found[best], turns[best]
-    return boxes, angles
-
-
 class Problem:
-    """Parts, each with a number, on a sheet of a given height; all that no move changes."""
+    """Parts, each with a number, on ground of a given height; all that no move changes."""
 
-    def __init__(self, parts: Sequence[Part], height: float) -> None:
-        self.parts, self.height = tuple(parts), height
-        area = sum(part.count * part.region.area for part in parts)
-        self.pixel = max(height / ROWS, 4.0 * area / height / MOST_COLUMNS)
+    def __init__(self, parts: Sequence[Part], ground: Ground) -> None:
+        self.parts, self.ground, self.height = tuple(parts), ground, ground.height
+        area, height = sum(part.count * part.region.area for part in parts), ground.height
+        longest = ground.end if ground.bays else 4.0 * area / height
+        self.pixel = max(height / ROWS, longest / MOST_COLUMNS)
         self.rows = math.ceil(height / self.pixel)
-        self.shapes, self.turns = tables(parts, self.pixel)
+        obstacles = [Part(region=region) for region in ground.obstacles]
+        self.shapes, self.turns = tables([*parts, *obstacles], self.pixel)
         self.shape_of = np.repeat(np.arange(len(parts)), [part.count for part in parts])
         self.areas = np.array([part.region.area for part in parts])[self.shape_of]
         self.hulls = np.array([part.region.convex_hull.area for part in parts])[self.shape_of]
-        self.flattest = _flattest(parts, height)
-        self.widest = float(np.ptp(self.flattest[0][:, ::2], axis=1).max())
+        self.flattest = flattest(parts, height)
+        widths = np.ptp(self.flattest[0][:, ::2], axis=1)
+        self.widest, self.narrowest = float(widths.max()), float(widths.min())
         wide = [np.ptp(shapely.get_coordinates(part.region), axis=0).max() for part in parts]
         self.decays = np.array(wide)[self.shape_of] * DECAY_SHARE
 
     def __len__(self) -> int:
-        """Number of parts, each of a kind as often as it is wanted."""
+        """Number of parts that move, each of a kind as often as it is wanted."""
         return len(self.shape_of)
 
     @property
@@ -66,7 +59,10 @@ class Problem:
 
 @dataclass
 class WorkerState:
-    """Poses (x, y, angle) of all parts, weights of pairs and losses of pairs."""
+    """Poses (x, y, angle) of all parts, weights of pairs and losses of pairs.
+
+    A part whose pose is NaN is not laid.
+    """
 
     problem: Problem
     sheet: Floats
@@ -82,14 +78,20 @@ class WorkerState:
     @classmethod
     def of(cls, problem: Problem, length: float, poses: Floats, seed: int) -> WorkerState:
         """Parts at poses on a sheet of a length."""
-        count, (edges, poles, edge_at, pole_at) = len(problem), problem.shapes
-        own = [edges[:, edge_at[s] : edge_at[s + 1]] for s in problem.shape_of]
-        inner = [poles[:, pole_at[s] : pole_at[s + 1]] for s in problem.shape_of]
+        edges, poles, edge_at, pole_at = problem.shapes
+        # Obstacles have the last numbers; no move takes them up.
+        obstacles = np.arange(len(problem.parts), len(edge_at) - 1)
+        shape_of = np.concatenate([problem.shape_of, obstacles])
+        count = len(shape_of)
+        own = [edges[:, edge_at[s] : edge_at[s + 1]] for s in shape_of]
+        inner = [poles[:, pole_at[s] : pole_at[s + 1]] for s in shape_of]
         items, index = np.zeros((count, 9)), np.zeros((count, 6), np.int64)
-        items[:, PENALTY], items[:, DECAY] = problem.hulls**0.25, problem.decays
+        items[:, PENALTY], items[:, DECAY] = problem.hulls.max() ** 0.25, problem.decays.max()
+        items[: len(problem), PENALTY] = problem.hulls**0.25
+        items[: len(problem), DECAY] = problem.decays
         index[:, 0], index[:, 1] = starts(own)[:-1], starts(own)[1:]
         index[:, 2], index[:, 3] = starts(inner)[:-1], starts(inner)[1:]
-        index[:, 4] = problem.shape_of
+        index[:, 4] = shape_of
         most, many = np.diff(edge_at).max() + 1, np.diff(pole_at).max()
         layout = cls(
             problem, np.array([length, problem.height]),
@@ -127,7 +129,7 @@ class WorkerState:
     @property
     def poses(self) -> Floats:
         """A copy of x, y and angle of all parts."""
-        return np.array(self.arrays[0][:, 6:9])
+        return np.array(self.arrays[0][: len(self.problem), 6:9])
 
     @property
     def loss(self) -> float:
@@ -144,9 +146,9 @@ class WorkerState:
         """Run one pass over all parts that collide; returns how many places were priced."""
         problem = self.problem
         return int(
-            move_pass(self.random, self.arrays, self.weights, self.losses, problem.shapes,
-                      problem.turns, self.sheet, problem.pixel, self.image, self.scores,
-                      self.turned, self.scratch)
+            move_pass(len(problem), self.random, self.arrays, self.weights, self.losses,
+                      problem.shapes, problem.turns, self.sheet, problem.pixel, self.image,
+                      self.scores, self.turned, self.scratch)
         )  # fmt: skip
 
     def raise_weights(self) -> None:

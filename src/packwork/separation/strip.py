@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from packwork.separation.kernels.collision import X1
+from packwork.separation.ground import Ground
+from packwork.separation.kernels.collision import X0, X1
 from packwork.separation.shapes import Floats, Part
 from packwork.separation.state import Problem, WorkerState
 
@@ -61,48 +62,54 @@ class WorkBound:
 
 @dataclass(frozen=True)
 class Strip:
-    """Poses (x, y, angle) of all parts, none of which overlaps another, and the strip's length."""
+    """Poses (x, y, angle) of all parts, none of which overlaps another, and the strip's length.
+
+    ``poses``: NaN for those that found no room; ``lefts``: the left edges of the parts' boxes.
+    """
 
     length: float
     poses: Floats
-    density: float
+    lefts: Floats
 
 
 class StripSearch:
     """Search over strips of one problem, by workers that start each pass from the same layout."""
 
     def __init__(
-        self, parts: Sequence[Part], height: float, *, seed: int = 0, workers: int = 2,
+        self, parts: Sequence[Part], ground: Ground, *, seed: int = 0, workers: int = 2,
         work: WorkBound, stop: Callable[[], bool] = lambda: False,
     ) -> None:  # fmt: skip
-        self.problem = Problem(parts, height)
+        self.problem, self.ground = Problem(parts, ground), ground
         self.random = np.random.default_rng(seed)
         self.work, self.stop = work, stop
-        self.best = self._in_columns()
-        length = min(max(self.problem.area / height / START, self.problem.widest), self.best.length)
-        poses = self._strewn(length)
+        self.best = self.fallback()
+        length = ground.length_for(self.problem.area / START)
+        length = min(max(length, self.problem.widest), self.best.length)
+        poses = self.first_poses(length)
         self.workers = [
             WorkerState.of(self.problem, length, poses, int(word))
             for word in self.random.integers(1, 2**63, workers)
         ]
         self.pool = ThreadPoolExecutor(workers)
 
-    def _in_columns(self) -> Strip:
+    def fallback(self) -> Strip:
         """All parts beside one another by their boxes, so that there is always a strip to show."""
         problem = self.problem
         boxes, angles = problem.flattest
         poses = np.zeros((len(problem), 3))
+        lefts = np.zeros(len(problem))
         left = top = wide = 0.0
         for i in np.argsort(-np.ptp(boxes[problem.shape_of][:, ::2], axis=1), kind="stable"):
             x0, y0, x1, y1 = boxes[problem.shape_of[i]]
             if top + (y1 - y0) > problem.height:
                 left, top, wide = left + wide, 0.0, 0.0
             poses[i] = left - x0, top - y0, angles[problem.shape_of[i]]
+            lefts[i] = left
             top, wide = top + (y1 - y0), max(wide, x1 - x0)
-        length = left + wide
-        return Strip(length, poses, problem.area / (length * problem.height))
+        return Strip(left + wide, poses, lefts)
 
-    def _strewn(self, length: float) -> Floats:
+    def first_poses(self, length: float) -> Floats:
+        """Poses from which the search starts: anywhere on the strip."""
         count, table = len(self.problem), self.problem.turns
         rows = self.random.integers(*table.turn_at[np.add.outer([0, 1], self.problem.shape_of)])
         x = self.random.uniform(0.0, length, count)
@@ -132,13 +139,15 @@ class StripSearch:
                 worker.weights[:] = 1.0
             worker.set_length(length, poses)
 
-    def separate(self, patience: int, until: float) -> tuple[float, Floats, int]:
+    def separate(
+        self, patience: int, until: float, most_strikes: int = STRIKES
+    ) -> tuple[float, Floats, int]:
         """Move parts until none overlaps, or for some strikes.
 
         Returns the lowest loss that was met, its poses, and how many passes it took.
         """
         lowest, poses, passes, strikes = self.layout.loss, self.layout.poses, 0, 0
-        while strikes < STRIKES and lowest > 0.0 and not self.is_over(until):
+        while strikes < most_strikes and lowest > 0.0 and not self.is_over(until):
             begun, waited = lowest, 0
             while waited < patience and lowest > 0.0 and not self.is_over(until):
                 self.step()
@@ -158,32 +167,39 @@ class StripSearch:
 
     def keep(self, poses: Floats) -> Strip:
         """Remember a layout without overlaps, on a strip no longer than need be."""
-        length = float(self.layout.arrays[0][:, X1].max())
-        best = Strip(length, poses, self.problem.area / (length * self.problem.height))
-        self.best = best
-        return best
+        boxes = self.layout.arrays[0][: len(self.problem)]
+        self.best = Strip(float(boxes[:, X1].max()), poses, boxes[:, X0].copy())
+        return self.best
 
     def shorter(self, best: Strip, share: float) -> None:
-        """Cut a share of the strip's length out at a random line; what lies right of it moves."""
+        """Cut a share of the length out of the last sheet; what lies right of the cut moves."""
         cut = best.length * share
         poses = best.poses.copy()
-        poses[poses[:, 0] > self.random.uniform(0.0, best.length), 0] -= cut
-        self.put(best.length - cut, poses, fresh=True)
+        line = self.random.uniform(self.ground.start_at(best.length), best.length)
+        poses[poses[:, 0] > line, 0] -= cut
+        length = self.ground.without_rest(best.length - cut, self.problem.narrowest)
+        self.put(length, poses, fresh=True)
+
+    def lay_all(self, until: float) -> None:
+        """Lay all parts without overlap, on ever longer strips; the fallback is the longest."""
+        while not self.is_over(until):
+            loss, poses, _ = self.separate(PATIENCE, until)
+            if loss == 0.0:
+                self.keep(poses)
+                return
+            length = min(self.layout.sheet[0] * LONGER, self.best.length)
+            self.put(length, self.first_poses(length), fresh=True)
 
     def explore(self, until: float) -> None:
         """Shorten the strip again and again; from a dead end, go on from an earlier failure."""
         failures: list[tuple[float, Floats]] = []
-        is_found = False
+        self.shorter(self.best, SHRINKS[0][1])
         while not self.is_over(until):
             loss, poses, passes = self.separate(PATIENCE, until)
             if loss == 0.0:
-                failures, is_found = [], True
+                failures = []
                 share = next(share for most, share in SHRINKS if passes <= most)
                 self.shorter(self.keep(poses), share)
-                continue
-            if not is_found:
-                length = min(self.layout.sheet[0] * LONGER, self.best.length)
-                self.put(length, self._strewn(length), fresh=True)
                 continue
             failures.append((loss, poses))
             failures.sort(key=lambda one: one[0])
@@ -193,7 +209,7 @@ class StripSearch:
 
     def disrupted(self, poses: Floats) -> Floats:
         """Exchange two large parts of different shape."""
-        hulls = self.problem.hulls
+        hulls = np.where(np.isnan(poses[:, 0]), 0.0, self.problem.hulls)
         order = np.argsort(hulls)
         above = np.cumsum(hulls[order]) >= (1.0 - LARGE_QUANTILE) * hulls.sum()
         large = self.random.permutation(order[above])
@@ -221,6 +237,7 @@ class StripSearch:
             # Not counted: kernels are compiled in the first pass of all.
             self.step()
             self.work.start()
+            self.lay_all(EXPLORED)
             self.explore(EXPLORED)
             return self.compress(self.best)
 

@@ -1,24 +1,32 @@
-"""Nesting: parts of true size on as little of a strip or sheet as possible."""
+"""Nesting: parts of true size on as few sheets and as little of the last one as possible."""
 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import shapely
+from shapely.geometry import box
 
 from packwork.errors import RecipeError
+from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered, polygon_parts, simplify
+from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
+from packwork.separation.ground import Ground, ground_of
+from packwork.separation.shapes import COARSENESS, FREE_TURNS, Floats, Part, boxes_of, spare
+from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.units import Unit
 
@@ -30,6 +38,14 @@ MOST_TURNS = 20_000
 
 SPARSEST = 10.0
 """Length of a strip over that of one without gaps, at most."""
+
+EMPTIEST = 0.3
+"""Share of sheets that parts cover at least, where as many as needed may be taken."""
+
+MOST_SHEETS = 500
+
+MOST_EDGE_CORNERS = 256
+"""Sheets whose edge has more are simplified, inward, for the search."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,47 +63,130 @@ class SheetPart:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """Strip of a height, and of a length that need not be used up, on which parts lie."""
+    """What parts are laid on: a rectangle, a strip of open length, or any outline."""
 
     height: float
     length: float = math.inf
     unit: Unit = "px"
     name: str = "sheet"
+    count: int | None = None
+    """How many there are; None: as many as are needed."""
+
+    outline: Outline | None = None
+    """Region of it that may be used, with holes; None: all of it."""
+
+    @property
+    def is_strip(self) -> bool:
+        """True for a strip of open length."""
+        return math.isinf(self.length)
+
+    @cached_property
+    def region(self) -> Region:
+        """Region of a sheet that is no strip."""
+        return box(0.0, 0.0, self.length, self.height) if self.outline is None else (
+            self.outline.region
+        )  # fmt: skip
+
+    def scaled(self, scale: float, unit: Unit) -> Sheet:
+        """The same sheet in another unit, of which one of its own has ``scale``."""
+        outline = self.outline
+        if outline is not None:
+            outline = outline.mapped(affine.similarity(0.0, 0.0, 0.0, scale))
+        return replace(
+            self, height=self.height * scale, length=self.length * scale, unit=unit, outline=outline
+        )
+
+    def container(self, length: float) -> Container:
+        """The sheet as a container; a strip is cut off at its used length."""
+        if self.is_strip:
+            outline = Outline.box(0.0, 0.0, length, self.height)
+            return Container(self.name, self.name, outline, length, self.height, self.unit)
+        outline = self.outline or Outline.box(0.0, 0.0, self.length, self.height)
+        return Container(self.name, self.name, outline, self.length, self.height, self.unit)
 
 
 @dataclass(frozen=True)
-class Nest:
-    """Layout of all parts, on a container that is as long as they need."""
+class NestedSheet:
+    """One sheet with the parts on it.
+
+    ``length``: how far from its left edge it is used, in its unit.
+    """
 
     layout: Layout
     metrics: LayoutMetrics
+    length: float
     faults: tuple[str, ...]
     certified: bool
 
     @property
+    def density(self) -> float:
+        """Area of its parts over that of the sheet left of its used length."""
+        outline = self.layout.container.outline.region
+        x0, y0, _, y1 = outline.bounds
+        used = shapely.intersection(outline, box(x0, y0, self.length, y1)).area
+        return float(self.layout.areas.sum() / used)
+
+
+@dataclass(frozen=True)
+class Nest:
+    """All sheets that are used, in their order, and the parts that found no room on them."""
+
+    sheets: tuple[NestedSheet, ...]
+    unplaced: tuple[tuple[Item, int], ...]
+    about: dict[str, Any]
+
+    @property
     def length(self) -> float:
-        """Used length, in the sheet's unit."""
-        return self.layout.container.width
+        """Used length of the last sheet, in its unit."""
+        return self.sheets[-1].length if self.sheets else 0.0
+
+    @property
+    def density(self) -> float:
+        """Area of all parts over that of the sheets that they take, the last one as far as used."""
+        areas = [float(one.layout.areas.sum()) for one in self.sheets]
+        used = sum(area / one.density for area, one in zip(areas, self.sheets, strict=True))
+        return sum(areas) / used if used else 0.0
+
+    @property
+    def certified(self) -> bool:
+        """Whether all that is laid keeps what is promised."""
+        return all(one.certified for one in self.sheets)
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Parts of the promise that do not hold, a sentence each."""
+        return tuple(fault for one in self.sheets for fault in one.faults)
 
     def report(self) -> dict[str, Any]:
         """Plain numbers and texts for a report file."""
+        sheets = [
+            {"length": one.length, "density": one.density, "parts": len(one.layout.items),
+             "metrics": one.metrics.as_dict()}
+            for one in self.sheets
+        ]  # fmt: skip
         return {
-            **self.layout.manifest["nest"],
-            "metrics": self.metrics.as_dict(), "faults": list(self.faults),
-            "certified": self.certified,
+            **self.about, "parts": sum(one["parts"] for one in sheets), "length": self.length,
+            "density": self.density, "sheets": sheets,
+            "unplaced": [{"part": item.name, "count": count} for item, count in self.unplaced],
+            "faults": list(self.faults), "certified": self.certified,
         }  # fmt: skip
 
 
 def nest(
-    parts: Sequence[SheetPart], sheet: Sheet, *, gap: float = 0.0, seed: int = 0, workers: int = 2,
+    parts: Sequence[SheetPart], sheets: Sequence[Sheet], *, gap: float = 0.0,
+    margin: float | None = None, seed: int = 0, workers: int = 2,
     work: WorkBound, stop: Callable[[], bool] = lambda: False,
 ) -> Nest:  # fmt: skip
-    """Lay all parts on as short a part of a sheet as the search finds.
+    """Lay parts on as few sheets as the search finds, and on as short a part of the last one.
 
     Parameters
     ----------
+    sheets
+        All kinds of them, taken in this order; of one unit. A strip is alone.
     gap
-        Smallest distance between parts, and of them from the sheet's edge, in its unit.
+        Smallest distance between parts, in the sheets' unit.
+    margin
+        Smallest distance of parts from a sheet's edge, at least the gap; the gap if None.
     work
         Passes or seconds that it searches.
     stop
@@ -96,9 +195,52 @@ def nest(
     Raises
     ------
     RecipeError
-        If a part is higher than the sheet at every angle that it may have, or there is none.
+        If a part is larger than every sheet at every angle that it may have, or there is none.
     """
     parts = [one for one in parts if one.count]
+    _check(parts, sheets)
+    margin = gap if margin is None else margin
+    if margin < gap:
+        raise RecipeError("margin", f"{margin:g} is less than {gap:g}, the distance of parts")
+    # What is certified of a layout is a hair of its longer side.
+    hair = 2.0 * HAIR * max(_longest(parts, sheet) for sheet in sheets)
+    least, edge = gap + hair, margin + hair
+    # A gap's half lies around each part; what is left to the edge is the sheet's.
+    inset = edge - least / 2.0
+    kept = [_part(one, least) for one in parts]
+    area = sum(part.count * part.region.area for part in kept)
+    if sheets[0].is_strip:
+        kinds, ground = [0], Ground(sheets[0].height - 2.0 * inset)
+        sizes, offsets = [(math.inf, ground.height)], [(-inset, -inset)]
+    else:
+        usable = [_usable(sheet, inset) for sheet in sheets]
+        kinds = _kinds(sheets, [one.area for one in usable], area)
+        ground = ground_of([usable[kind] for kind in kinds])
+        sizes = [(x1 - x0, y1 - y0) for x0, y0, x1, y1 in (one.bounds for one in usable)]
+        offsets = [bay.offset for bay in ground.bays]
+    for one, part in zip(parts, kept, strict=True):
+        _check_fit(one, part, sizes, sheets, 2.0 * inset)
+    search = SheetSearch if ground.bays else StripSearch
+    strip = search(kept, ground, seed=seed, workers=workers, work=work, stop=stop).run()
+    part_of = np.repeat(np.arange(len(parts)), [one.count for one in parts])
+    about = {
+        "unit": sheets[0].unit, "height": sheets[0].height,
+        "sheet_length": None if sheets[0].is_strip else sheets[0].length,
+        "gap": gap, "margin": margin, "passes": work.done, "seed": seed, "workers": workers,
+    }  # fmt: skip
+    is_laid = ~np.isnan(strip.poses[:, 0])
+    sheet_of = ground.bay_at(strip.lefts)
+    found = list[NestedSheet]()
+    for k in np.unique(sheet_of[is_laid]):
+        chosen = np.flatnonzero(is_laid & (sheet_of == k))
+        laid = [parts[part] for part in part_of[chosen]]
+        poses = strip.poses[chosen] - (*offsets[k], 0.0)
+        found.append(_nested(sheets[kinds[k]], laid, poses, Promise(gap), edge, about))
+    missing = Counter(part_of[~is_laid].tolist())
+    return Nest(tuple(found), tuple((parts[k].item, n) for k, n in missing.items()), about)
+
+
+def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     count = sum(one.count for one in parts)
     if not count:
         raise RecipeError("items", "there is nothing to nest; name parts")
@@ -107,54 +249,96 @@ def nest(
     turns = sum(FREE_TURNS if one.angles is None else len(one.angles) for one in parts)
     if turns > MOST_TURNS:
         raise RecipeError("rotate", f"{turns:,} angles of all parts are more than {MOST_TURNS:,}")
-    # What is certified of a layout is a hair of its longer side, which no strip exceeds.
+    if len(sheets) > 1 and any(sheet.is_strip for sheet in sheets):
+        raise RecipeError("sheet", "a strip of open length has no end after which others come")
+
+
+def _longest(parts: Sequence[SheetPart], sheet: Sheet) -> float:
+    """Longer side of a sheet; of a strip, one that its used length does not exceed."""
+    if not sheet.is_strip:
+        return max(sheet.length, sheet.height)
     sides = [one.item.outline.radius * 2.0 * one.scale for one in parts]
-    longest = sum(side * one.count for side, one in zip(sides, parts, strict=True))
+    in_a_row = sum(side * one.count for side, one in zip(sides, parts, strict=True))
     areas = sum(one.item.outline.area * one.scale**2 * one.count for one in parts)
-    longest = min(longest, SPARSEST * areas / sheet.height + 2.0 * max(sides))
-    least = gap + 2.0 * HAIR * max(sheet.height, longest)
-    regions = [_part(one, sheet, least) for one in parts]
-    # A gap's half lies around each part; the other half to the edge is the sheet's.
-    inner = sheet.height - least
-    strip = StripSearch(regions, inner, seed=seed, workers=workers, work=work, stop=stop).run()
-    items = tuple(one.item for one in parts for _ in range(one.count))
-    scales = [one.scale for one in parts for _ in range(one.count)]
-    x, y, angle = strip.poses.T
-    poses = Poses(x + least / 2.0, y + least / 2.0, angle, scales)
-    placed = Layout(_sheet_of(sheet, strip.length + least), items, poses, np.ones(len(items)))
-    area = float(placed.areas.sum())
-    promise = Promise(gap)
-    about = {
-        "length": placed.container.width, "height": sheet.height, "unit": sheet.unit,
-        "sheet_length": sheet.length if math.isfinite(sheet.length) else None,
-        "parts": len(items), "density": area / (placed.container.width * sheet.height),
-        "passes": work.done, "seed": seed, "workers": workers,
-    }  # fmt: skip
-    manifest = {"promised": asdict(promise), "nest": about, "seed": seed}
-    layout = replace(placed, manifest=manifest)
-    metrics = measure(layout)
-    faults = tuple(broken(promise, layout, metrics.exact))
-    certified = not faults and not unclean(promise, layout, metrics.exact)
-    return Nest(layout, metrics, faults, certified)
+    return max(sheet.height, min(in_a_row, SPARSEST * areas / sheet.height + 2.0 * max(sides)))
 
 
-def _part(asked: SheetPart, sheet: Sheet, gap: float) -> Part:
+def _part(asked: SheetPart, gap: float) -> Part:
     """The part as the search takes it, with half the gap about it."""
     region = shapely.transform(asked.item.outline.region, lambda points: points * asked.scale)
-    part = Part(region=spare(region, gap), count=asked.count, turns=asked.angles)
-    boxes = boxes_of(part)[1]
-    height = float((boxes[:, 3] - boxes[:, 1]).min()) + gap
-    if height > sheet.height:
-        raise RecipeError(
-            "items",
-            f"{asked.item.name} is {height:.9g} {sheet.unit} high with the distance that it keeps, "
-            f"and the sheet {sheet.height:.9g} {sheet.unit}; allow other angles or a larger one",
-        )
-    return part
+    return Part(region=spare(region, gap), count=asked.count, turns=asked.angles)
 
 
-def _sheet_of(sheet: Sheet, length: float) -> Container:
-    return Container(
-        sheet.name, sheet.name, Outline.box(0.0, 0.0, length, sheet.height), length, sheet.height,
-        sheet.unit,
-    )  # fmt: skip
+def _usable(sheet: Sheet, inset: float) -> Region:
+    """Region of a sheet in which parts may lie, each with half the gap about it."""
+    region = sheet.region
+    if shapely.get_num_coordinates(region) > MOST_EDGE_CORNERS:
+        x0, y0, x1, y1 = region.bounds
+        off = COARSENESS * math.hypot(x1 - x0, y1 - y0)
+        region, inset = simplify(region, off, keeps_topology=True), inset + off
+    inner = buffered(region, -inset, join_style="mitre")
+    if not polygon_parts(inner):
+        raise RecipeError("sheet", f"{sheet.name} has no room within its margin")
+    return inner
+
+
+def _kinds(sheets: Sequence[Sheet], areas: Sequence[float], needed: float) -> list[int]:
+    """Numbers of the kinds of sheets, as often as there are some or as they may be needed."""
+    taken = list[int]()
+    for k, (sheet, area) in enumerate(zip(sheets, areas, strict=True)):
+        enough = math.ceil(max(needed, 0.0) / EMPTIEST / area) + 1
+        count = min(enough, MOST_SHEETS) if sheet.count is None else sheet.count
+        taken += [k] * count
+        needed -= count * area * EMPTIEST
+    return taken
+
+
+def _check_fit(
+    asked: SheetPart, part: Part, sizes: Sequence[tuple[float, float]], sheets: Sequence[Sheet],
+    edge: float,
+) -> None:  # fmt: skip
+    """Raise RecipeError for a part whose box is larger than that of every sheet."""
+    _, boxes = boxes_of(part)
+    wide, tall = (boxes[:, 2] - boxes[:, 0]), (boxes[:, 3] - boxes[:, 1])
+    if any(((wide <= length) & (tall <= height)).any() for length, height in sizes):
+        return
+    sheet = sheets[int(np.argmax([length * height for length, height in sizes]))]
+    unit = sheet.unit
+    if sheet.is_strip:
+        size, room = f"{tall.min() + edge:.9g} {unit} high", f"{sheet.height:.9g} {unit}"
+    else:
+        k = int(np.argmin(np.maximum(wide, tall)))
+        size = f"{wide[k] + edge:.9g} x {tall[k] + edge:.9g} {unit}"
+        room = f"{sheet.length:.9g} x {sheet.height:.9g} {unit}"
+    raise RecipeError(
+        "items",
+        f"{asked.item.name} is {size} with the distance that it keeps, and the sheet {room}; "
+        "allow other angles or a larger one",
+    )
+
+
+def _nested(
+    sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, promise: Promise, edge: float,
+    about: dict[str, Any],
+) -> NestedSheet:  # fmt: skip
+    """One sheet, measured; ``edge``: distance that parts keep from its edge."""
+    items, scales = tuple(one.item for one in laid), np.array([one.scale for one in laid])
+    x, y, angle = poses.T
+    placed = Poses(x, y, angle, scales)
+    regions = [item.outline.mapped(placed.matrix(k)) for k, item in enumerate(items)]
+    right = max(one.bounds[2] for one in regions)
+    length = right + edge
+    layout = Layout(sheet.container(length), items, placed, np.ones(len(items)))
+    length = min(length, layout.container.width)
+    used = {**about, "parts": len(items), "length": length}
+    manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
+    layout = replace(layout, manifest=manifest)
+    metrics = measure(layout)
+    faults = tuple(broken(promise, layout, metrics.exact))
+    boundary, margin = layout.container.outline.region.boundary, about["margin"]
+    nearest = float(shapely.distance(boundary, [one.region for one in regions]).min())
+    if nearest < margin:
+        unit = sheet.unit
+        faults += (f"a part is {nearest:.3g} {unit} from the edge instead of {margin:.3g} {unit}",)
+    certified = not faults and not unclean(promise, layout, metrics.exact)
+    return NestedSheet(layout, metrics, length, faults, certified)

@@ -19,7 +19,7 @@ def draw_others(i, pixel, items, index, weights, span_at, spans, image):
     rows, columns = image.shape[0], image.shape[1] - 1
     image[:] = 0.0
     for j in range(len(items)):
-        if j == i:
+        if j == i or math.isnan(items[j, X]):
             continue
         weight = np.float32(weights[i, j] * items[i, PENALTY] * items[j, PENALTY])
         row, column = math.floor(items[j, Y] / pixel), round(items[j, X] / pixel)

@@ -111,18 +111,36 @@ def _put(i, x, y, angle, turn, layout, turned):
 
 @kernel
 def put_all(poses, layout, shapes, table, weights, losses, sheet, turned, scratch):
-    """Write all parts at poses (x, y, angle), and the prices of all pairs into ``losses``."""
+    """Write all parts at poses (x, y, angle), and the prices of all pairs into ``losses``.
+
+    ``poses``: of those that move; NaN for one that is not laid. What comes after them are
+    obstacles, which lie where they are.
+    """
     items, index = layout[0], layout[1]
+    moving = len(poses)
     turns, turn_at, is_free = table[0], table[1], table[2]
     for i in range(len(items)):
-        shape, angle = index[i, SHAPE], poses[i, 2]
+        shape = index[i, SHAPE]
+        x, y, angle = (poses[i, 0], poses[i, 1], poses[i, 2]) if i < moving else (0.0, 0.0, 0.0)
+        if math.isnan(x):
+            items[i, X], items[i, Y], items[i, ANGLE] = x, y, angle
+            items[i, X0], items[i, Y0], items[i, X1], items[i, Y1] = (
+                np.inf,
+                np.inf,
+                -np.inf,
+                -np.inf,
+            )
+            continue
         turn = _nearest(shape, angle, turn_at, is_free)
         if not is_free[shape]:
             while turns[2, turn] != angle:
                 turn += 1
         _turn_to(shape, angle, turn, shapes, turns, turned)
-        _put(i, poses[i, 0], poses[i, 1], angle, turn, layout, turned)
-    for i in range(len(items)):
+        _put(i, x, y, angle, turn, layout, turned)
+    losses[:] = 0.0
+    for i in range(moving):
+        if math.isnan(items[i, X]):
+            continue
         _turn_to(index[i, SHAPE], items[i, ANGLE], index[i, TURN], shapes, turns, turned)
         price(i, items[i, X], items[i, Y], np.inf, losses[i], layout, weights, turned, sheet,
               scratch)  # fmt: skip
@@ -237,17 +255,18 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
 
 
 @kernel
-def move_pass(state, layout, weights, losses, shapes, table, sheet, pixel, image, scores, turned,
-              scratch):  # fmt: skip
+def move_pass(moving, state, layout, weights, losses, shapes, table, sheet, pixel, image, scores,
+              turned, scratch):  # fmt: skip
     """Take up each part that collides, in a random order, and put it where its price is least.
 
-    ``state``: of the random numbers. Returns the number of places that were priced.
+    ``moving``: number of parts, before the obstacles; ``state``: of the random numbers. Returns the
+    number of places that were priced.
     """
     items, index = layout[0], layout[1]
     turns = table[0]
     found, best = np.empty((PROPOSED, 4)), np.empty((DESCENTS, 5))
-    nothing, order, left = np.empty(0), np.empty(len(items), np.int64), 0
-    for i in range(len(items)):
+    nothing, order, left = np.empty(0), np.empty(moving, np.int64), 0
+    for i in range(moving):
         if np.any(losses[i] > 0.0):
             order[left] = i
             left += 1
