@@ -90,6 +90,8 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest 300x40mm disc.svg --margin 25mm", "no room within its margin"),
         ("nest 300mm,200x100mm disc.svg", "a strip of open length has no end"),
         ("nest nowhere.svg disc.svg", "nowhere.svg"),
+        ("nest 300mm bracket.svg --optional disc.svg", "a strip of open length has always room"),
+        ("nest squares.json --optional disc.svg", "an instance holds its parts"),
         ("nest 300mm", "there is nothing to nest"),
         ("nest wide bracket.svg", "wide: "),
         ("nest squares.json bracket.svg", "an instance holds its parts"),
@@ -157,6 +159,73 @@ def test_sheets_of_any_outline_come_before_bought_ones(shop: Path, packwork: Com
     assert all(offcut.covers(outline.region) for outline in first.outlines)
     scale = first.container.width / second.container.width
     assert scale == pytest.approx(152.4 / 200 if first.container.unit == "mm" else 6 / (200 / 25.4))
+
+
+def test_parts_are_turned_over_only_where_they_may_be(shop: Path, packwork: Command) -> None:
+    (shop / "flag.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="40mm" viewBox="0 0 30 40">'
+        '<path d="M0 0h30l-20 15v25h-10z" fill="teal"/></svg>',
+        encoding="utf-8",
+    )
+    hands = {}
+    for flag in ("", "--mirror"):
+        assert packwork(f"nest 81mm flag.svg*12 --passes 60 {flag} -o a.geojson").exit_code == 0
+        layout = pw.Layout.load(shop / "a.geojson")
+        # The thin arm lies clockwise of the thick one, or the other way round.
+        hands[flag] = {_hand(outline.region) for outline in layout.outlines}
+        assert len(layout) == 12
+    assert len(hands[""]) == 1
+    assert len(hands["--mirror"]) == 2
+
+
+def _hand(region: shapely.Polygon) -> bool:
+    """Side of the line from the centre to the farthest corner on which the next farthest lies."""
+    points = shapely.get_coordinates(region)[:-1] - region.centroid.coords[0]
+    first, second = points[(-(points**2).sum(1)).argsort()[:2]]
+    return bool(first[0] * second[1] - first[1] * second[0] > 0)
+
+
+def test_optional_parts_fill_what_the_others_leave(shop: Path, packwork: Command) -> None:
+    line = "nest 130x90mm bracket.svg*3 --optional disc.svg*30 --passes 150"
+    assert packwork(f"{line} -o a.geojson --report a.json").exit_code == 0
+    layout = pw.Layout.load(shop / "a.geojson")
+    names = [placed.name for placed in layout]
+    said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
+    assert names.count("bracket") == 3
+    assert 1 <= names.count("disc") < 30
+    assert said["optional_left"] == [{"part": "disc", "count": 30 - names.count("disc")}]
+
+
+@pytest.mark.parametrize("ending", ["geojson", "svg"])
+def test_parts_of_an_earlier_nest_stay_where_they_are(
+    shop: Path, packwork: Command, ending: str
+) -> None:
+    line = f"nest 200x100mm bracket.svg*4 --kerf 1mm --passes 40 -o a.{ending}"
+    assert packwork(line).exit_code == 0
+    line = f"nest a.{ending},200x100mm disc.svg*14 --kerf 1mm --passes 300 -o b.{ending}"
+    assert packwork(line).exit_code == 0
+    before = pw.Layout.load(shop / f"a.{ending}")
+    after = [pw.Layout.load(shop / f"b-{k}.{ending}") for k in (1, 2)]
+    for old, new in zip(before.outlines, after[0].outlines[:4], strict=True):
+        assert old.region.symmetric_difference(new.region).area < 1e-3
+    assert sum(map(len, after)) == 18
+    assert len(after[0]) > 4
+
+
+def test_parts_lie_in_the_holes_of_others_unless_holes_are_filled(
+    shop: Path, packwork: Command
+) -> None:
+    (shop / "frame.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60">'
+        '<path fill-rule="evenodd" d="M0 0h60v60h-60zM5 5v50h50v-50z"/></svg>',
+        encoding="utf-8",
+    )
+    lengths = []
+    for holes in ("keep", "fill"):
+        line = f"nest 61mm frame.svg disc.svg --holes {holes} --passes 200 --report a.json"
+        assert packwork(line).exit_code == 0
+        lengths.append(json.loads((shop / "a.json").read_text(encoding="utf-8"))["length"])
+    assert lengths[0] < 61 < 89 < lengths[1]
 
 
 @pytest.mark.parametrize(

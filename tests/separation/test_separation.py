@@ -42,10 +42,11 @@ def star(rng: np.random.Generator, corners: int) -> shapely.Polygon:
 
 def placed(problem: Problem, poses: npt.NDArray[np.float64]) -> list[shapely.Polygon]:
     return [
-        shapely.affinity.translate(
-            shapely.affinity.rotate(problem.parts[s].region, angle, (0, 0), use_radians=True), x, y
+        shapely.affinity.affine_transform(
+            problem.parts[s].region,
+            [side * math.cos(a), -math.sin(a), side * math.sin(a), math.cos(a), x, y],
         )
-        for s, (x, y, angle) in zip(problem.shape_of, poses, strict=True)
+        for s, (x, y, a, side) in zip(problem.shape_of, poses, strict=True)
     ]
 
 
@@ -68,7 +69,7 @@ def test_no_part_overlaps_or_sticks_out_and_none_is_lost(seed: int) -> None:
     allowed = (None, (0.0,), (0.0, math.pi), QUARTERS)
     parts = [
         Part(region=star(rng, int(rng.integers(3, 12))), count=int(rng.integers(1, 4)),
-             turns=allowed[rng.integers(4)])
+             turns=allowed[rng.integers(4)], mirrors=bool(rng.integers(2)))
         for _ in range(6)
     ]  # fmt: skip
     parts += [Part(region=RING, turns=None), Part(region=NEEDLE, count=2, turns=QUARTERS)]
@@ -83,6 +84,8 @@ def test_no_part_overlaps_or_sticks_out_and_none_is_lost(seed: int) -> None:
     for s, angle in zip(problem.shape_of, strip.poses[:, 2], strict=True):
         turns = parts[s].turns
         assert turns is None or angle in turns
+    for s, side in zip(problem.shape_of, strip.poses[:, 3], strict=True):
+        assert side == 1 or (side == -1 and parts[s].mirrors)
 
 
 def test_the_same_work_gives_the_same_strip_and_more_of_it_no_longer_one() -> None:
@@ -115,10 +118,13 @@ def test_squares_that_fit_exactly_once_are_laid_in_a_row() -> None:
 def test_what_collides_is_what_overlaps(seed: int) -> None:
     """Prices of pairs are above 0 just where Shapely finds that they touch."""
     rng = np.random.default_rng(seed)
-    parts = [Part(region=star(rng, 9), count=3, turns=None), Part(region=RING, count=2, turns=None),
-             Part(region=TRIANGLE, count=4, turns=None)]  # fmt: skip
+    parts = [Part(region=star(rng, 9), count=3, turns=None, mirrors=True),
+             Part(region=RING, count=2, turns=None, mirrors=True),
+             Part(region=L_SHAPE, count=4, turns=None, mirrors=True)]  # fmt: skip
     problem = Problem(parts, Ground(16.0))
-    poses = np.column_stack([rng.uniform(0, 16, 9), rng.uniform(0, 16, 9), rng.uniform(0, 6, 9)])
+    poses = np.column_stack(
+        [rng.uniform(0, 16, (9, 2)), rng.uniform(0, 6, 9), rng.choice([-1, 1], 9)]
+    )
     layout = WorkerState.of(problem, 16.0, poses, 1)
     polygons = placed(problem, poses)
     for i, a in enumerate(polygons):
@@ -137,7 +143,9 @@ def test_losses_kept_up_by_moves_are_those_of_the_poses() -> None:
     ]
     problem = Problem(parts, Ground(9.0))
     rng = np.random.default_rng(0)
-    poses = np.column_stack([rng.uniform(0, 12, 14), rng.uniform(0, 9, 14), np.zeros(14)])
+    poses = np.column_stack(
+        [rng.uniform(0, 12, 14), rng.uniform(0, 9, 14), np.zeros(14), np.ones(14)]
+    )
     layout = WorkerState.of(problem, 12.0, poses, 5)
     for _ in range(5):
         layout.move()
@@ -152,7 +160,7 @@ def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
     parts = [Part(region=L_SHAPE, count=4, turns=QUARTERS), Part(region=TRIANGLE, count=3)]
     problem = Problem(parts, Ground(12.0))
     rng = np.random.default_rng(2)
-    poses = np.column_stack([rng.uniform(2, 18, 7), rng.uniform(2, 10, 7), np.zeros(7)])
+    poses = np.column_stack([rng.uniform(2, 18, 7), rng.uniform(2, 10, 7), np.zeros(7), np.ones(7)])
     layout = WorkerState.of(problem, 20.0, poses, 1)
     layout.weights[:] = rng.uniform(1, 3, (7, 7))
     turns, moved = problem.turns, 6
@@ -189,6 +197,18 @@ def test_a_simplified_outline_holds_the_true_one_and_its_gap() -> None:
     assert few.covers(true.buffer(0.1 - 1e-9, quad_segs=100))
     assert sum(map(len, rings_of(few))) < 100
     assert few.area < 1.06 * true.area
+
+
+def test_a_part_is_mirrored_where_it_fits_only_so() -> None:
+    hook = shapely.Polygon([(-2, -3), (2, -3), (2, -1), (0, -1), (0, 3), (-2, 3)])
+    room = shapely.affinity.scale(hook, -1.0, 1.0, origin=(0, 0)).buffer(0.25)
+    plate = shapely.box(-3, -4, 3, 4).difference(room)
+    lengths = []
+    for mirrors in (False, True):
+        parts = [Part(region=plate), Part(region=hook, mirrors=mirrors)]
+        lengths.append(search(parts, 8.001, 300)[1].length)
+    assert lengths[0] > 8.0
+    assert lengths[1] < 6.1
 
 
 def test_a_search_that_is_stopped_at_once_has_a_strip_all_the_same() -> None:

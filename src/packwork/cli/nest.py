@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -31,9 +31,10 @@ def nest(
         str,
         typer.Argument(
             metavar="SHEET",
-            help="Width x height with a unit (600x400mm, as many as are needed; 600x400mm*2: two), "
-            "an outline (hide.svg), several with commas between them; one number for a strip of "
-            "that height and open length (400mm); or a strip packing instance (.json).",
+            help="Width x height with a unit (600x400mm: as many as are needed, 600x400mm*2: two), "
+            "an outline (hide.svg), an earlier nest, whose parts stay (nest-1.svg); several with "
+            "commas between them. One number is a strip of that height and open length (400mm). "
+            "Or a strip packing instance (.json).",
         ),
     ],
     parts: Annotated[
@@ -52,6 +53,21 @@ def nest(
             help="Distance of parts, and from the sheet's edge, as 2mm: the tool's width."
         ),
     ] = "0",
+    mirror: Annotated[bool, typer.Option("--mirror", help="Parts may be turned over.")] = False,
+    holes: Annotated[
+        Literal["keep", "fill"],
+        typer.Option(
+            help="keep: the holes of items stay free, so that small items may sit in them."
+        ),
+    ] = "keep",
+    optional: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="PART",
+            help="As part.svg*20: only fills what all others leave of the sheets that they take. "
+            "May be given several times.",
+        ),
+    ] = None,
     margin: Annotated[
         str | None,
         typer.Option(help="Distance from the sheet's edge, as 10mm, where it is more than --kerf."),
@@ -94,7 +110,7 @@ def nest(
         writers.check_outputs(every)
         if no_clobber:
             writers.check_new(every)
-        sheets, counted = _asked(sheet, parts or [], rotate)
+        sheets, counted = _asked(sheet, parts or [], optional or [], rotate, mirror, holes)
         gap, away = _length("kerf", kerf, sheets[0]), None
         if margin is not None:
             away = _length("margin", margin, sheets[0])
@@ -122,6 +138,9 @@ def nest(
         if interrupt.pressed:
             say("stopped by Ctrl-C; this is the best so far")
             raise typer.Exit(INTERRUPTED)
+        if found.left:
+            left = ", ".join(f"{item.name}*{many}" for item, many in found.left)
+            console.print(f"optional, left out: {left}")
         if found.unplaced:
             missing = ", ".join(f"{item.name}*{many}" for item, many in found.unplaced)
             say(f"no room for {missing}; give more sheets, larger ones or more time")
@@ -133,13 +152,15 @@ def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], li
     from packwork import writers
     from packwork.cli.running import faults_in
 
+    # The sheet's edge is to be seen in a picture, and not to be cut.
+    options = writers.WriteOptions(png=writers.SvgOptions(background="white", show_container=True))
     drawn, faults = list[tuple[Path, bytes]](), list(found.faults)
     for k, one in enumerate(found.sheets, start=1):
         paths = files
         if len(found.sheets) > 1:
             paths = [path.with_name(f"{path.stem}-{k}{path.suffix}") for path in files]
-        written = [(path, writers.encoded(one.layout, path)) for path in paths]
-        faults += faults_in(written, one.layout, writers.WriteOptions())
+        written = [(path, writers.encoded(one.layout, path, options)) for path in paths]
+        faults += faults_in(written, one.layout, options)
         drawn += written
     return drawn, faults
 
@@ -174,12 +195,21 @@ def _sheets(text: str) -> list[Sheet]:
     """Sheets of ``600x400mm*2,hide.svg``; all in the unit of the first."""
     from packwork.readers.container import read_container
     from packwork.readers.files import exists
+    from packwork.readers.layouts.read import read_written
     from packwork.units import canvas_size, convert
     from packwork.uses.nesting import Sheet
 
     found = list[Sheet]()
     for one in [text] if exists(text) else text.split(","):
         source, count = _counted(one.strip())
+        if exists(source) and _is_nest(source):
+            layout = read_written(source)
+            ground = layout.container
+            found.append(
+                Sheet(height=ground.height, length=ground.width, unit=ground.unit,
+                      name=ground.name, outline=ground.outline, count=1, held=layout)
+            )  # fmt: skip
+            continue
         if exists(source) or Path(source).suffix:
             read = read_container(source)
             found.append(
@@ -197,7 +227,22 @@ def _sheets(text: str) -> list[Sheet]:
     return [one.scaled(convert(1.0, one.unit, unit), unit) for one in found]
 
 
-def _asked(sheet: str, named: list[str], rotate: str) -> tuple[list[Sheet], list[SheetPart]]:
+def _is_nest(source: str) -> bool:
+    """Whether a file holds a layout of ours, on whose sheet more parts can be laid."""
+    from packwork.readers.layouts.read import holds_layout
+
+    ending = Path(source).suffix.lower()
+    return ending == ".geojson" or (ending == ".svg" and holds_layout(source))
+
+
+def _asked(
+    sheet: str,
+    named: list[str],
+    optional: list[str],
+    rotate: str,
+    mirror: bool,
+    holes: Literal["keep", "fill"],
+) -> tuple[list[Sheet], list[SheetPart]]:
     """Sheets and parts of a command line."""
     from packwork.readers.instances import is_instance, read_instance
     from packwork.readers.items import read_items
@@ -206,7 +251,7 @@ def _asked(sheet: str, named: list[str], rotate: str) -> tuple[list[Sheet], list
     from packwork.uses.nesting import Sheet, SheetPart
 
     if is_instance(sheet):
-        if named:
+        if named or optional:
             raise RecipeError("items", "an instance holds its parts; name none besides")
         instance = read_instance(sheet)
         parts = [
@@ -215,7 +260,7 @@ def _asked(sheet: str, named: list[str], rotate: str) -> tuple[list[Sheet], list
             for one in instance.parts
         ]  # fmt: skip
         return [Sheet(height=instance.height, name=instance.name)], parts
-    if not named:
+    if not named and not optional:
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.svg*12")
     sheets = _sheets(sheet)
     turned = Rotation.parse(rotate)
@@ -224,11 +269,12 @@ def _asked(sheet: str, named: list[str], rotate: str) -> tuple[list[Sheet], list
         steps = WITHIN_LIMIT if turned.limit > 0 else 0
         angles = tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
     parts = []
-    for text in named:
+    for text in [*named, *optional]:
         source, count = _counted(text)
         parts += [
             SheetPart(item=item, count=1 if count is None else count, angles=angles,
-                      scale=convert(1.0, "px", sheets[0].unit))
-            for item in read_items(source, holes="keep").items
+                      scale=convert(1.0, "px", sheets[0].unit), mirrors=mirror,
+                      is_optional=text in optional)
+            for item in read_items(source, holes=holes).items
         ]  # fmt: skip
     return sheets, parts

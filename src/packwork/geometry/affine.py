@@ -40,6 +40,15 @@ def stretched(ratio: float) -> FloatArray:
     return np.array([[root, 0.0, 0.0], [0.0, 1.0 / root, 0.0]])
 
 
+def mirrored() -> FloatArray:
+    """Map that mirrors left to right.
+
+    >>> apply(mirrored(), np.array([[2.0, 3.0]])).tolist()
+    [[-2.0, 3.0]]
+    """
+    return np.array([[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
 def compose(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Map (2 x 3) that does ``inner`` first and ``outer`` after it, in the unit of ``outer``.
 

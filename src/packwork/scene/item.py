@@ -5,12 +5,15 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, Protocol, TypeAlias
 from urllib.parse import urlsplit
 
+import shapely
+
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
+from packwork.geometry import affine
 from packwork.geometry.outline import Outline, OutlineLike
 
 
@@ -307,6 +310,27 @@ class Item:
         values = (name, source, solid, drawn, made, label, text, halo, datum, weight, row)
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
+
+
+def mirrored(item: Item) -> Item:
+    """The item turned over, left to right about its origin; what it says is curves then.
+
+    >>> flag = Item("flag", outline=[(-1, -1), (2, -1), (-1, 2)])
+    >>> mirrored(flag).outline.bounds
+    (-2.0, -1.0, 1.0, 2.0)
+    """
+    turned = affine.mirrored()
+
+    def over(outline: Outline) -> Outline:
+        return Outline.of(
+            shapely.transform(outline.region, lambda points: affine.apply(turned, points))
+        )
+
+    outline, art = over(item.outline), item.art
+    ink = outline if item.ink is item.outline else over(item.ink)
+    if isinstance(art, VectorArt | PictureArt):
+        art = replace(art, matrix=affine.compose(turned, art.matrix))
+    return replace(item, outline=outline, ink=ink, art=art, text=None)
 
 
 def _known_colour(text: str) -> str:

@@ -74,6 +74,10 @@ class Ground:
         """Number of the sheet on which each of several lines lies."""
         return np.searchsorted([bay.end for bay in self.bays], x, side="left")
 
+    def end_at(self, x: float) -> float:
+        """Right edge of the sheet on which a line lies."""
+        return next((bay.end for bay in self.bays if x <= bay.end), self.end)
+
     def without_rest(self, x: float, narrowest: float) -> float:
         """The line, or the end of the sheet before where nothing fits between them."""
         start = self.start_at(x)

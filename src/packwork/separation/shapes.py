@@ -47,6 +47,15 @@ class Part:
     turns: tuple[float, ...] | None = (0.0,)
     """Allowed angles in radians, clockwise on screen; None: any."""
 
+    mirrors: bool = False
+    """Whether it may be mirrored, left to right, before it is turned."""
+
+    priority: int = 0
+    """On sheets, parts of a higher one are laid first."""
+
+    is_optional: bool = False
+    """Whether it only fills what all others leave of the sheets that they take."""
+
 
 class ShapeTable(NamedTuple):
     """Edges (ax, ay, bx, by) and poles (x, y, radius) of all shapes, and where each begins."""
@@ -58,7 +67,10 @@ class ShapeTable(NamedTuple):
 
 
 class TurnTable(NamedTuple):
-    """Rows cosine, sine and angle of all turns; of each turn, spans (row, from, to) in pixels."""
+    """Rows cosine, sine, angle and side (-1: mirrored) of all turns, and spans of each.
+
+    ``spans``: (row, from, to), in pixels.
+    """
 
     turns: Floats
     turn_at: npt.NDArray[np.int64]
@@ -160,23 +172,21 @@ def spans_of(edges: Floats, pixel: float) -> npt.NDArray[np.int64]:
 def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
     """All that the kernels read of parts, which never changes."""
     edges, poles = ([of(part.region) for part in parts] for of in (edges_of, poles_of))
-    angles = [
-        np.asarray(part.turns) if part.turns is not None
-        else np.arange(FREE_TURNS) * (2 * math.pi / FREE_TURNS)
-        for part in parts
-    ]  # fmt: skip
-    every = np.concatenate(angles)
-    cosine, sine = (np.round(f(every), 15) for f in (np.cos, np.sin))
-    spans = []
-    for own, allowed in zip(edges, angles, strict=True):
-        for angle in allowed:
-            c, s = round(math.cos(angle), 15), round(math.sin(angle), 15)
-            turned = np.vstack([c * own[0] - s * own[1], s * own[0] + c * own[1],
-                                c * own[2] - s * own[3], s * own[2] + c * own[3]])  # fmt: skip
+    rows, spans = list[Floats](), list[npt.NDArray[np.int64]]()
+    for own, part in zip(edges, parts, strict=True):
+        allowed = part.turns
+        if allowed is None:
+            allowed = tuple(np.arange(FREE_TURNS) * (2 * math.pi / FREE_TURNS))
+        found = np.array([[math.cos(turn), math.sin(turn), turn, 1.0] for turn in allowed]).T
+        found[:2] = np.round(found[:2], 15)
+        rows.append(np.hstack([found, found * [[1], [1], [1], [-1]]]) if part.mirrors else found)
+        for c, s, _, side in rows[-1].T:
+            ax, ay, bx, by = side * own[0], own[1], side * own[2], own[3]
+            turned = np.vstack([c * ax - s * ay, s * ax + c * ay, c * bx - s * by, s * bx + c * by])
             spans.append(spans_of(turned, pixel))
     shapes = ShapeTable(np.hstack(edges), np.hstack(poles), starts(edges), starts(poles))
     turns = TurnTable(
-        np.vstack([cosine, sine, every]), starts([one[None] for one in angles]),
+        np.hstack(rows), starts(rows),
         np.array([part.turns is None for part in parts]), starts(spans), np.hstack(spans),
     )  # fmt: skip
     return shapes, turns

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 
 import numpy as np
+import numpy.typing as npt
 
 from packwork.separation.shapes import Floats
-from packwork.separation.strip import EXPLORED, LONGER, PATIENCE_AT_END, Strip, StripSearch
+from packwork.separation.strip import EXPLORED, LONGER, PATIENCE_AT_END, START, Strip, StripSearch
 
 FIRST_BATCH = 0.1
 """Share of all parts that are brought onto the sheets at once at first."""
 
 BATCH_PATIENCE = 30
 """Passes without a lower loss after which a batch is halved."""
+
+FILLING = 0.2
+"""Share of the work that optional parts have, where there are some."""
+
+Indices = npt.NDArray[np.int64]
 
 
 class SheetSearch(StripSearch):
@@ -24,26 +31,43 @@ class SheetSearch(StripSearch):
 
     def fallback(self) -> Strip:
         """Empty sheets."""
-        count = len(self.problem)
-        return Strip(self.ground.end, np.full((count, 3), np.nan), np.full(count, np.inf))
+        parts, kinds, count = self.problem.parts, self.problem.shape_of, len(self.problem)
+        self.priorities = np.array([part.priority for part in parts])[kinds]
+        self.is_optional = np.array([part.is_optional for part in parts])[kinds]
+        return Strip(self.ground.end, np.full((count, 4), np.nan), np.full(count, np.inf))
 
     def first_poses(self, length: float) -> Floats:
         """No part is laid."""
         return self.best.poses
 
     def lay_all(self, until: float) -> None:
+        """Bring all parts onto the sheets that have to be."""
+        problem = self.problem
+        required = np.flatnonzero(~self.is_optional)
+        area = float(problem.areas[required].sum())
+        length = min(max(self.ground.length_for(area / START), problem.widest), self.ground.end)
+        self.bring_in(required, length, self.ground.end, until)
+
+    def bring_in(self, parts: Indices, length: float, longest: float, until: float) -> None:
         """Bring parts onto the sheets, the largest first, in ever smaller batches.
 
         Those for which there is no room go back, and have another turn when all others had theirs.
+
+        Parameters
+        ----------
+        length, longest
+            Where the sheets are cut off at first, and at last.
         """
-        waiting = deque(np.argsort(-self.problem.hulls, kind="stable"))
-        length, batch = self.layout.sheet[0], int(np.ceil(FIRST_BATCH * len(waiting)))
+        order = np.lexsort((-self.problem.hulls[parts], -self.priorities[parts]))
+        waiting = deque(parts[order].tolist())
+        batch = math.ceil(FIRST_BATCH * len(waiting))
         failed, patience = 0, BATCH_PATIENCE
         while waiting and not self.is_over(until):
             if failed >= len(waiting):
                 # None of them has room: on a longer stretch, or with more patience.
-                if length < self.ground.end:
-                    length = self.ground.next_length(length * LONGER, self.problem.widest)
+                if length < longest:
+                    longer = self.ground.next_length(length * LONGER, self.problem.widest)
+                    length = min(longer, longest)
                 else:
                     patience = min(2 * patience, PATIENCE_AT_END)
                 failed = 0
@@ -60,19 +84,26 @@ class SheetSearch(StripSearch):
                 batch = (batch + 1) // 2
             else:
                 # Where one has no room, its like have none.
-                kinds, kind = self.problem.shape_of, self.problem.shape_of[chosen[0]]
-                alike = [*chosen, *(part for part in waiting if kinds[part] == kind)]
-                waiting = deque(part for part in waiting if kinds[part] != kind)
+                kinds = self.problem.shape_of
+                alike = [*chosen, *(k for k in waiting if kinds[k] == kinds[chosen[0]])]
+                waiting = deque(k for k in waiting if kinds[k] != kinds[chosen[0]])
                 waiting.extend(alike)
                 failed += len(alike)
 
     def run(self) -> Strip:
-        """Lay all parts, explore, compress; the fewest sheets that were met."""
+        """Lay all parts, explore, compress, fill up with optional ones; the fewest sheets met."""
+        is_optional = self.is_optional
+        fills_up = bool(is_optional.any())
         with self.pool:
             self.step()
             self.work.start()
             self.lay_all(1.0)
-            if not np.isnan(self.best.poses).any():
-                self.explore(EXPLORED)
-                self.compress(self.best)
+            if np.isnan(self.best.poses[~is_optional]).any():
+                return self.best
+            if not is_optional.all():
+                self.explore(EXPLORED - FILLING if fills_up else EXPLORED)
+                self.compress(self.best, 1.0 - FILLING if fills_up else 1.0)
+            if fills_up:
+                optional, length = np.flatnonzero(is_optional), self.ground.end_at(self.best.length)
+                self.bring_in(optional, length, length, 1.0)
             return self.best

@@ -12,7 +12,7 @@ import numpy.typing as npt
 import shapely
 
 from packwork.separation.ground import Ground
-from packwork.separation.kernels.collision import DECAY, PENALTY
+from packwork.separation.kernels.collision import DECAY, PENALTY, SIDE, X
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
 from packwork.separation.shapes import DECAY_SHARE, Floats, Part, flattest, starts, tables
 
@@ -59,7 +59,7 @@ class Problem:
 
 @dataclass
 class WorkerState:
-    """Poses (x, y, angle) of all parts, weights of pairs and losses of pairs.
+    """Poses (x, y, angle, side) of all parts, weights of pairs and losses of pairs.
 
     A part whose pose is NaN is not laid.
     """
@@ -85,7 +85,7 @@ class WorkerState:
         count = len(shape_of)
         own = [edges[:, edge_at[s] : edge_at[s + 1]] for s in shape_of]
         inner = [poles[:, pole_at[s] : pole_at[s + 1]] for s in shape_of]
-        items, index = np.zeros((count, 9)), np.zeros((count, 6), np.int64)
+        items, index = np.zeros((count, SIDE + 1)), np.zeros((count, 6), np.int64)
         items[:, PENALTY], items[:, DECAY] = problem.hulls.max() ** 0.25, problem.decays.max()
         items[: len(problem), PENALTY] = problem.hulls**0.25
         items[: len(problem), DECAY] = problem.decays
@@ -128,8 +128,8 @@ class WorkerState:
 
     @property
     def poses(self) -> Floats:
-        """A copy of x, y and angle of all parts."""
-        return np.array(self.arrays[0][: len(self.problem), 6:9])
+        """A copy of x, y, angle and side of all parts."""
+        return np.array(self.arrays[0][: len(self.problem), X:])
 
     @property
     def loss(self) -> float:

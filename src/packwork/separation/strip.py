@@ -62,9 +62,10 @@ class WorkBound:
 
 @dataclass(frozen=True)
 class Strip:
-    """Poses (x, y, angle) of all parts, none of which overlaps another, and the strip's length.
+    """Poses of all parts, none of which overlaps another, and the strip's length.
 
-    ``poses``: NaN for those that found no room; ``lefts``: the left edges of the parts' boxes.
+    ``poses``: x, y, angle and side (-1: mirrored), NaN for those that found no room; ``lefts``: the
+    left edges of the parts' boxes.
     """
 
     length: float
@@ -96,14 +97,14 @@ class StripSearch:
         """All parts beside one another by their boxes, so that there is always a strip to show."""
         problem = self.problem
         boxes, angles = problem.flattest
-        poses = np.zeros((len(problem), 3))
+        poses = np.ones((len(problem), 4))
         lefts = np.zeros(len(problem))
         left = top = wide = 0.0
         for i in np.argsort(-np.ptp(boxes[problem.shape_of][:, ::2], axis=1), kind="stable"):
             x0, y0, x1, y1 = boxes[problem.shape_of[i]]
             if top + (y1 - y0) > problem.height:
                 left, top, wide = left + wide, 0.0, 0.0
-            poses[i] = left - x0, top - y0, angles[problem.shape_of[i]]
+            poses[i, :3] = left - x0, top - y0, angles[problem.shape_of[i]]
             lefts[i] = left
             top, wide = top + (y1 - y0), max(wide, x1 - x0)
         return Strip(left + wide, poses, lefts)
@@ -114,7 +115,7 @@ class StripSearch:
         rows = self.random.integers(*table.turn_at[np.add.outer([0, 1], self.problem.shape_of)])
         x = self.random.uniform(0.0, length, count)
         y = self.random.uniform(0.0, self.problem.height, count)
-        return np.column_stack([x, y, table.turns[2, rows]])
+        return np.column_stack([x, y, table.turns[2, rows], table.turns[3, rows]])
 
     @property
     def layout(self) -> WorkerState:
@@ -220,13 +221,13 @@ class StripSearch:
         poses[[first, second], :2] = poses[[second, first], :2]
         return poses
 
-    def compress(self, best: Strip) -> Strip:
+    def compress(self, best: Strip, until: float = 1.0) -> Strip:
         """Shorten a strip by ever less, and take back what does not succeed."""
         begun = self.work.share
-        while not self.is_over(1.0):
-            done = (self.work.share - begun) / max(1.0 - begun, 1e-9)
+        while not self.is_over(until):
+            done = (self.work.share - begun) / max(until - begun, 1e-9)
             self.shorter(best, CLOSEST * (FINEST / CLOSEST) ** min(done, 1.0))
-            loss, poses, _ = self.separate(PATIENCE_AT_END, 1.0)
+            loss, poses, _ = self.separate(PATIENCE_AT_END, until)
             if loss == 0.0:
                 best = self.keep(poses)
         return best

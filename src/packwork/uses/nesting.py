@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -21,7 +21,7 @@ from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.scene.container import Container
-from packwork.scene.item import Item
+from packwork.scene.item import Item, mirrored
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.separation.ground import Ground, ground_of
@@ -60,6 +60,15 @@ class SheetPart:
     scale: float = 1.0
     """Sheet units of one of the item's own."""
 
+    mirrors: bool = False
+    """Whether it may be turned over."""
+
+    priority: int = 0
+    """Parts of a higher one are laid first, and are not left out for those of a lower one."""
+
+    is_optional: bool = False
+    """Whether it only fills what the others leave of the sheets that they take. Not on a strip."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
@@ -75,6 +84,9 @@ class Sheet:
     outline: Outline | None = None
     """Region of it that may be used, with holes; None: all of it."""
 
+    held: Layout | None = None
+    """What lies on it already, and stays where it is."""
+
     @property
     def is_strip(self) -> bool:
         """True for a strip of open length."""
@@ -89,6 +101,10 @@ class Sheet:
 
     def scaled(self, scale: float, unit: Unit) -> Sheet:
         """The same sheet in another unit, of which one of its own has ``scale``."""
+        if unit == self.unit:
+            return self
+        if self.held is not None:
+            raise RecipeError("sheet", f"{self.name} is in {self.unit}, others are in {unit}")
         outline = self.outline
         if outline is not None:
             outline = outline.mapped(affine.similarity(0.0, 0.0, 0.0, scale))
@@ -129,10 +145,14 @@ class NestedSheet:
 
 @dataclass(frozen=True)
 class Nest:
-    """All sheets that are used, in their order, and the parts that found no room on them."""
+    """All sheets that are used, in their order.
+
+    ``unplaced``: parts that found no room, and how many of each; ``left``: optional ones.
+    """
 
     sheets: tuple[NestedSheet, ...]
     unplaced: tuple[tuple[Item, int], ...]
+    left: tuple[tuple[Item, int], ...]
     about: dict[str, Any]
 
     @property
@@ -168,6 +188,7 @@ class Nest:
             **self.about, "parts": sum(one["parts"] for one in sheets), "length": self.length,
             "density": self.density, "sheets": sheets,
             "unplaced": [{"part": item.name, "count": count} for item, count in self.unplaced],
+            "optional_left": [{"part": item.name, "count": count} for item, count in self.left],
             "faults": list(self.faults), "certified": self.certified,
         }  # fmt: skip
 
@@ -215,29 +236,38 @@ def nest(
     else:
         usable = [_usable(sheet, inset) for sheet in sheets]
         kinds = _kinds(sheets, [one.area for one in usable], area)
-        ground = ground_of([usable[kind] for kind in kinds])
+        held = [_held(sheets[kind], least) for kind in kinds]
+        ground = ground_of([usable[kind] for kind in kinds], held)
         sizes = [(x1 - x0, y1 - y0) for x0, y0, x1, y1 in (one.bounds for one in usable)]
         offsets = [bay.offset for bay in ground.bays]
     for one, part in zip(parts, kept, strict=True):
         _check_fit(one, part, sizes, sheets, 2.0 * inset)
     search = SheetSearch if ground.bays else StripSearch
     strip = search(kept, ground, seed=seed, workers=workers, work=work, stop=stop).run()
-    part_of = np.repeat(np.arange(len(parts)), [one.count for one in parts])
     about = {
         "unit": sheets[0].unit, "height": sheets[0].height,
         "sheet_length": None if sheets[0].is_strip else sheets[0].length,
         "gap": gap, "margin": margin, "passes": work.done, "seed": seed, "workers": workers,
     }  # fmt: skip
+    part_of = np.repeat(np.arange(len(parts)), [one.count for one in parts])
     is_laid = ~np.isnan(strip.poses[:, 0])
     sheet_of = ground.bay_at(strip.lefts)
     found = list[NestedSheet]()
-    for k in np.unique(sheet_of[is_laid]):
+    for k, kind in enumerate(kinds):
         chosen = np.flatnonzero(is_laid & (sheet_of == k))
-        laid = [parts[part] for part in part_of[chosen]]
-        poses = strip.poses[chosen] - (*offsets[k], 0.0)
-        found.append(_nested(sheets[kinds[k]], laid, poses, Promise(gap), edge, about))
-    missing = Counter(part_of[~is_laid].tolist())
-    return Nest(tuple(found), tuple((parts[k].item, n) for k, n in missing.items()), about)
+        if len(chosen) or sheets[kind].held is not None:
+            laid = _layout(
+                sheets[kind], [parts[n] for n in part_of[chosen]],
+                strip.poses[chosen] - (*offsets[k], 0.0, 0.0), edge,
+            )  # fmt: skip
+            found.append(_measured(laid, Promise(gap), edge, about))
+    missing, left = Counter[int](), Counter[int]()
+    for n in part_of[~is_laid].tolist():
+        (left if parts[n].is_optional else missing)[n] += 1
+    unplaced, optional = (
+        tuple((parts[n].item, count) for n, count in one.items()) for one in (missing, left)
+    )
+    return Nest(tuple(found), unplaced, optional, about)
 
 
 def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
@@ -249,6 +279,8 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     turns = sum(FREE_TURNS if one.angles is None else len(one.angles) for one in parts)
     if turns > MOST_TURNS:
         raise RecipeError("rotate", f"{turns:,} angles of all parts are more than {MOST_TURNS:,}")
+    if sheets[0].is_strip and any(one.is_optional for one in parts):
+        raise RecipeError("optional", "a strip of open length has always room; give a sheet")
     if len(sheets) > 1 and any(sheet.is_strip for sheet in sheets):
         raise RecipeError("sheet", "a strip of open length has no end after which others come")
 
@@ -266,7 +298,10 @@ def _longest(parts: Sequence[SheetPart], sheet: Sheet) -> float:
 def _part(asked: SheetPart, gap: float) -> Part:
     """The part as the search takes it, with half the gap about it."""
     region = shapely.transform(asked.item.outline.region, lambda points: points * asked.scale)
-    return Part(region=spare(region, gap), count=asked.count, turns=asked.angles)
+    return Part(
+        region=spare(region, gap), count=asked.count, turns=asked.angles, mirrors=asked.mirrors,
+        priority=asked.priority, is_optional=asked.is_optional,
+    )  # fmt: skip
 
 
 def _usable(sheet: Sheet, inset: float) -> Region:
@@ -317,28 +352,46 @@ def _check_fit(
     )
 
 
-def _nested(
-    sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, promise: Promise, edge: float,
-    about: dict[str, Any],
-) -> NestedSheet:  # fmt: skip
-    """One sheet, measured; ``edge``: distance that parts keep from its edge."""
-    items, scales = tuple(one.item for one in laid), np.array([one.scale for one in laid])
-    x, y, angle = poses.T
-    placed = Poses(x, y, angle, scales)
-    regions = [item.outline.mapped(placed.matrix(k)) for k, item in enumerate(items)]
-    right = max(one.bounds[2] for one in regions)
-    length = right + edge
-    layout = Layout(sheet.container(length), items, placed, np.ones(len(items)))
-    length = min(length, layout.container.width)
-    used = {**about, "parts": len(items), "length": length}
+def _held(sheet: Sheet, gap: float) -> list[Region]:
+    """Regions of what lies on a sheet already, with half the gap about each."""
+    if sheet.held is None:
+        return []
+    return [spare(outline.region, gap) for outline in sheet.held.outlines]
+
+
+def _layout(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: float) -> Layout:
+    """Layout of a sheet: what it held, and parts at poses (x, y, angle, side)."""
+    x, y, angle, side = poses.T
+    items = [mirrored(one.item) if over else one.item
+             for one, over in zip(laid, side < 0.0, strict=True)]  # fmt: skip
+    placed = Poses(x, y, angle, np.array([one.scale for one in laid]))
+    right = [item.outline.mapped(placed.matrix(k)).bounds[2] for k, item in enumerate(items)]
+    container = sheet.container(max(right, default=0.0) + edge)
+    if sheet.held is not None:
+        items = [*sheet.held.items, *items]
+        placed = Poses(*(
+            np.concatenate([getattr(sheet.held.poses, one.name), getattr(placed, one.name)])
+            for one in fields(Poses)
+        ))  # fmt: skip
+    return Layout(container, tuple(items), placed, np.ones(len(items)))
+
+
+def _measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any]) -> NestedSheet:
+    """A sheet, measured; ``edge``: distance that parts keep from its edge."""
+    regions = [outline.region for outline in layout.outlines]
+    length = min(shapely.total_bounds(regions)[2] + edge, layout.container.width)
+    used = {**about, "parts": len(regions), "length": float(length)}
     manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
     layout = replace(layout, manifest=manifest)
     metrics = measure(layout)
     faults = tuple(broken(promise, layout, metrics.exact))
-    boundary, margin = layout.container.outline.region.boundary, about["margin"]
-    nearest = float(shapely.distance(boundary, [one.region for one in regions]).min())
+    boundary, margin, unit = (
+        layout.container.outline.region.boundary,
+        about["margin"],
+        about["unit"],
+    )
+    nearest = float(shapely.distance(boundary, regions).min())
     if nearest < margin:
-        unit = sheet.unit
         faults += (f"a part is {nearest:.3g} {unit} from the edge instead of {margin:.3g} {unit}",)
     certified = not faults and not unclean(promise, layout, metrics.exact)
-    return NestedSheet(layout, metrics, length, faults, certified)
+    return NestedSheet(layout, metrics, float(length), faults, certified)

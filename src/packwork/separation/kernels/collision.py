@@ -9,7 +9,7 @@ import numpy as np
 from packwork.compiled import helper
 
 # Columns of ``items``: the box, and what enters the price of an overlap.
-X0, Y0, X1, Y1, PENALTY, DECAY, X, Y, ANGLE = range(9)
+X0, Y0, X1, Y1, PENALTY, DECAY, X, Y, ANGLE, SIDE = range(10)
 # Columns of ``index``: edges and poles from and to, the shape, and the turn nearest to the angle.
 EDGE, EDGE_END, POLE, POLE_END, SHAPE, TURN = range(6)
 

@@ -15,6 +15,7 @@ from packwork.separation.kernels.collision import (
     POLE,
     POLE_END,
     SHAPE,
+    SIDE,
     TURN,
     X0,
     X1,
@@ -53,46 +54,59 @@ _LONGER, _SHORTER = 1.1, 0.5
 
 
 @helper
-def turn_part(shape, cosine, sine, shapes, turned):
-    """Write a shape's edges and poles as turned about its own point, and the box of its edges."""
+def turn_part(shape, cosine, sine, side, shapes, turned):
+    """Write a shape's edges and poles as turned about its own point, and the box of its edges.
+
+    ``side``: -1 for a shape that is mirrored, left to right, before it is turned; else 1.
+    """
     shape_edges, shape_poles, edge_at, pole_at = shapes
     edges, poles = turned
     first, count = edge_at[shape], edge_at[shape + 1] - edge_at[shape]
     x0, y0, x1, y1 = np.inf, np.inf, -np.inf, -np.inf
     for k in range(count):
         for end in range(0, 4, 2):
-            px, py = shape_edges[end, first + k], shape_edges[end + 1, first + k]
+            px, py = side * shape_edges[end, first + k], shape_edges[end + 1, first + k]
             qx, qy = cosine * px - sine * py, sine * px + cosine * py
             edges[end, k], edges[end + 1, k] = qx, qy
             x0, x1, y0, y1 = min(x0, qx), max(x1, qx), min(y0, qy), max(y1, qy)
     edges[0, count], edges[1, count], edges[2, count], edges[3, count] = x0, y0, x1, y1
     first = pole_at[shape]
     for k in range(pole_at[shape + 1] - first):
-        px, py = shape_poles[0, first + k], shape_poles[1, first + k]
+        px, py = side * shape_poles[0, first + k], shape_poles[1, first + k]
         poles[0, k], poles[1, k] = cosine * px - sine * py, sine * px + cosine * py
         poles[2, k] = shape_poles[2, first + k]
 
 
 @helper
 def _turn_to(shape, angle, turn, shapes, turns, turned):
-    """Turn a part to an angle, by the table where it has the angle exactly."""
+    """Turn a part to an angle, by the table where it has the angle exactly; on the turn's side."""
     if turns[2, turn] == angle:
-        turn_part(shape, turns[0, turn], turns[1, turn], shapes, turned)
+        turn_part(shape, turns[0, turn], turns[1, turn], turns[3, turn], shapes, turned)
     else:
-        turn_part(shape, math.cos(angle), math.sin(angle), shapes, turned)
+        turn_part(shape, math.cos(angle), math.sin(angle), turns[3, turn], shapes, turned)
 
 
 @helper
-def _nearest(shape, angle, turn_at, is_free):
-    """Row of the table of turns that is nearest to the angle of a part that may lie at any."""
-    first, count = turn_at[shape], turn_at[shape + 1] - turn_at[shape]
-    if not is_free[shape]:
-        return first
-    return first + round(angle / (2.0 * math.pi) * count) % count
+def _nearest(shape, angle, side, table):
+    """Number of the turn of that side that is nearest to an angle; its own where not all are free.
+
+    -1 if there is none.
+    """
+    turns, turn_at, is_free = table[0], table[1], table[2]
+    first, last = turn_at[shape], turn_at[shape + 1]
+    if is_free[shape]:
+        # Those of the other side come after all of this one.
+        count = last - first if turns[3, last - 1] > 0.0 else (last - first) // 2
+        turn = first + round(angle / (2.0 * math.pi) * count) % count
+        return turn if side > 0.0 else turn + count
+    for turn in range(first, last):
+        if turns[2, turn] == angle and turns[3, turn] == side:
+            return turn
+    return -1
 
 
 @helper
-def _put(i, x, y, angle, turn, layout, turned):
+def _put(i, x, y, angle, side, turn, layout, turned):
     """Write part ``i`` at a pose; it is turned to its angle."""
     items, index, edges, poles = layout
     own_edges, own_poles = turned
@@ -106,24 +120,26 @@ def _put(i, x, y, angle, turn, layout, turned):
     for k in range(index[i, POLE_END] - first):
         poles[0, first + k], poles[1, first + k] = x + own_poles[0, k], y + own_poles[1, k]
         poles[2, first + k] = own_poles[2, k]
-    items[i, X], items[i, Y], items[i, ANGLE], index[i, TURN] = x, y, angle, turn
+    items[i, X], items[i, Y], items[i, ANGLE], items[i, SIDE] = x, y, angle, side
+    index[i, TURN] = turn
 
 
 @kernel
 def put_all(poses, layout, shapes, table, weights, losses, sheet, turned, scratch):
-    """Write all parts at poses (x, y, angle), and the prices of all pairs into ``losses``.
+    """Write all parts at poses (x, y, angle, side), and the prices of all pairs into ``losses``.
 
     ``poses``: of those that move; NaN for one that is not laid. What comes after them are
     obstacles, which lie where they are.
     """
     items, index = layout[0], layout[1]
     moving = len(poses)
-    turns, turn_at, is_free = table[0], table[1], table[2]
+    turns = table[0]
     for i in range(len(items)):
-        shape = index[i, SHAPE]
-        x, y, angle = (poses[i, 0], poses[i, 1], poses[i, 2]) if i < moving else (0.0, 0.0, 0.0)
+        shape, x, y, angle, side = index[i, SHAPE], 0.0, 0.0, 0.0, 1.0
+        if i < moving:
+            x, y, angle, side = poses[i, 0], poses[i, 1], poses[i, 2], poses[i, 3]
         if math.isnan(x):
-            items[i, X], items[i, Y], items[i, ANGLE] = x, y, angle
+            items[i, X], items[i, Y], items[i, ANGLE], items[i, SIDE] = x, y, angle, side
             items[i, X0], items[i, Y0], items[i, X1], items[i, Y1] = (
                 np.inf,
                 np.inf,
@@ -131,12 +147,9 @@ def put_all(poses, layout, shapes, table, weights, losses, sheet, turned, scratc
                 -np.inf,
             )
             continue
-        turn = _nearest(shape, angle, turn_at, is_free)
-        if not is_free[shape]:
-            while turns[2, turn] != angle:
-                turn += 1
+        turn = _nearest(shape, angle, side, table)
         _turn_to(shape, angle, turn, shapes, turns, turned)
-        _put(i, x, y, angle, turn, layout, turned)
+        _put(i, x, y, angle, side, turn, layout, turned)
     losses[:] = 0.0
     for i in range(moving):
         if math.isnan(items[i, X]):
@@ -157,7 +170,7 @@ def _descend(i, place, last, last_turn, step, turn_step, is_free, state, layout,
     ``place``: price, x, y, angle; changed to the best that was met. Returns evaluations.
     """
     shape, turns, tried = layout[1][i, SHAPE], table[0], 0
-    turn = _nearest(shape, place[3], table[1], table[2]) if is_free else int(place[4])
+    turn = int(place[4])
     _turn_to(shape, place[3], turn, shapes, turns, turned)
     while step > last or (is_free and turn_step > last_turn):
         axis = below(state, 5 if is_free else 4)
@@ -166,7 +179,8 @@ def _descend(i, place, last, last_turn, step, turn_step, is_free, state, layout,
         for sign in (-1.0, 1.0):
             if axis == 4:
                 to_x, to_y, to_angle = x, y, angle + sign * turn_step
-                turn_part(shape, math.cos(to_angle), math.sin(to_angle), shapes, turned)
+                turn_part(shape, math.cos(to_angle), math.sin(to_angle), turns[3, turn], shapes,
+                          turned)  # fmt: skip
             else:
                 to_x = x + sign * step * (axis != 1)
                 to_y = y + sign * step * ((axis != 0) if axis != 3 else -1.0)
@@ -220,7 +234,7 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
     kept = 0
     for k in range(min(many, TURNS_TRIED) if is_free else many):
         turn = first + (below(state, many) if is_free else k)
-        turn_part(shape, turns[0, turn], turns[1, turn], shapes, turned)
+        turn_part(shape, turns[0, turn], turns[1, turn], turns[3, turn], shapes, turned)
         kept = propose(i, turn, turned[0][:, count], pixel, sheet, span_at, spans, image, scores,
                        found, kept, side / 4.0)  # fmt: skip
     tried = 0
@@ -288,9 +302,9 @@ def move_pass(moving, state, layout, weights, losses, shapes, table, sheet, pixe
             continue
         shape, angle, turn = index[i, SHAPE], best[0, 3], int(best[0, 4])
         if table[2][shape]:
-            turn = _nearest(shape, angle, table[1], table[2])
+            turn = _nearest(shape, angle, turns[3, turn], table)
         _turn_to(shape, angle, turn, shapes, turns, turned)
-        _put(i, best[0, 1], best[0, 2], angle, turn, layout, turned)
+        _put(i, best[0, 1], best[0, 2], angle, turns[3, turn], turn, layout, turned)
         price(i, best[0, 1], best[0, 2], np.inf, losses[i], layout, weights, turned, sheet,
               scratch)  # fmt: skip
         for j in range(len(items)):
