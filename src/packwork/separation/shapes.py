@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -125,6 +126,7 @@ def edges_of(region: Region) -> Floats:
     return np.vstack([np.hstack([ring[:-1], ring[1:]]) for ring in rings_of(region)]).T.copy()
 
 
+@lru_cache(maxsize=4096)
 def poles_of(region: Region) -> Floats:
     """Circles inside a region that do not overlap, each the largest that is left (greedily)."""
     x0, y0, x1, y1 = region.bounds
@@ -169,11 +171,23 @@ def spans_of(edges: Floats, pixel: float) -> npt.NDArray[np.int64]:
     return np.array(found, dtype=np.int64).T.copy()
 
 
+@lru_cache(maxsize=16_384)
+def _spans_at(
+    region: Region, cosine: float, sine: float, side: float, pixel: float
+) -> npt.NDArray[np.int64]:
+    ax, ay, bx, by = edges_of(region)
+    ax, bx = side * ax, side * bx
+    return spans_of(
+        np.vstack([cosine * ax - sine * ay, sine * ax + cosine * ay,
+                   cosine * bx - sine * by, sine * bx + cosine * by]), pixel,
+    )  # fmt: skip
+
+
 def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
     """All that the kernels read of parts, which never changes."""
     edges, poles = ([of(part.region) for part in parts] for of in (edges_of, poles_of))
     rows, spans = list[Floats](), list[npt.NDArray[np.int64]]()
-    for own, part in zip(edges, parts, strict=True):
+    for part in parts:
         allowed = part.turns
         if allowed is None:
             allowed = tuple(np.arange(FREE_TURNS) * (2 * math.pi / FREE_TURNS))
@@ -181,9 +195,7 @@ def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
         found[:2] = np.round(found[:2], 15)
         rows.append(np.hstack([found, found * [[1], [1], [1], [-1]]]) if part.mirrors else found)
         for c, s, _, side in rows[-1].T:
-            ax, ay, bx, by = side * own[0], own[1], side * own[2], own[3]
-            turned = np.vstack([c * ax - s * ay, s * ax + c * ay, c * bx - s * by, s * bx + c * by])
-            spans.append(spans_of(turned, pixel))
+            spans.append(_spans_at(part.region, c, s, side, pixel))
     shapes = ShapeTable(np.hstack(edges), np.hstack(poles), starts(edges), starts(poles))
     turns = TurnTable(
         np.hstack(rows), starts(rows),

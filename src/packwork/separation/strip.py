@@ -54,10 +54,16 @@ class WorkBound:
         """Count from now on."""
         self.begun, self.done = time.perf_counter(), 0
 
+    def part(self, share: float) -> WorkBound:
+        """Bound of a share of the work that is left."""
+        left = self.seconds - (time.perf_counter() - self.begun)
+        return WorkBound(max((self.passes - self.done) * share, 1.0), max(left * share, 0.0))
+
     @property
     def share(self) -> float:
         """Share of the work that is done."""
-        return max(self.done / self.passes, (time.perf_counter() - self.begun) / self.seconds)
+        elapsed = time.perf_counter() - self.begun
+        return max(self.done / self.passes, elapsed / max(self.seconds, 1e-9))
 
 
 @dataclass(frozen=True)

@@ -24,14 +24,17 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item, mirrored
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.separation.ground import Ground, ground_of
+from packwork.separation.ground import Ground
 from packwork.separation.shapes import COARSENESS, FREE_TURNS, Floats, Part, boxes_of, spare
-from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import StripSearch, WorkBound
+from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
 from packwork.units import Unit
 
-MOST_PARTS = 2_000
-"""Parts of all kinds: prices of pairs take 64 bytes each, a pass over them a second."""
+MOST_ON_STRIP = 2_000
+"""Parts on a strip: prices of pairs take 64 bytes each, a pass over them a second."""
+
+MOST_PARTS = 100_000
+"""Parts on sheets, which are laid a few sheets after the other."""
 
 MOST_TURNS = 20_000
 """Angles of all kinds of parts: each is drawn once, in a millisecond."""
@@ -39,10 +42,7 @@ MOST_TURNS = 20_000
 SPARSEST = 10.0
 """Length of a strip over that of one without gaps, at most."""
 
-EMPTIEST = 0.3
-"""Share of sheets that parts cover at least, where as many as needed may be taken."""
-
-MOST_SHEETS = 500
+MOST_SHEETS = 10_000
 
 MOST_EDGE_CORNERS = 256
 """Sheets whose edge has more are simplified, inward, for the search."""
@@ -229,43 +229,39 @@ def nest(
     # A gap's half lies around each part; what is left to the edge is the sheet's.
     inset = edge - least / 2.0
     kept = [_part(one, least) for one in parts]
-    area = sum(part.count * part.region.area for part in kept)
     if sheets[0].is_strip:
-        kinds, ground = [0], Ground(sheets[0].height - 2.0 * inset)
-        sizes, offsets = [(math.inf, ground.height)], [(-inset, -inset)]
+        height = sheets[0].height - 2.0 * inset
+        _check_fit(parts, kept, [(math.inf, height)], sheets, 2.0 * inset)
+        strip = StripSearch(kept, Ground(height), seed=seed, workers=workers, work=work, stop=stop)
+        kinds, missing = [0], Counter[int]()
+        poses = strip.run().poses + np.array([inset, inset, 0.0, 0.0])
+        laid = [LaidSheet(0, tuple(strip.problem.shape_of.tolist()), poses)]
     else:
         usable = [_usable(sheet, inset) for sheet in sheets]
-        kinds = _kinds(sheets, [one.area for one in usable], area)
-        held = [_held(sheets[kind], least) for kind in kinds]
-        ground = ground_of([usable[kind] for kind in kinds], held)
-        sizes = [(x1 - x0, y1 - y0) for x0, y0, x1, y1 in (one.bounds for one in usable)]
-        offsets = [bay.offset for bay in ground.bays]
-    for one, part in zip(parts, kept, strict=True):
-        _check_fit(one, part, sizes, sheets, 2.0 * inset)
-    search = SheetSearch if ground.bays else StripSearch
-    strip = search(kept, ground, seed=seed, workers=workers, work=work, stop=stop).run()
+        bounds = [one.bounds for one in usable]
+        sizes = [(x1 - x0, y1 - y0) for x0, y0, x1, y1 in bounds]
+        _check_fit(parts, kept, sizes, sheets, 2.0 * inset)
+        held = [_held(sheet, least) for sheet in sheets]
+        kinds = _kinds(sheets, [one.area for one in usable], kept)
+        free = [FreeSheet(usable[kind], held[kind]) for kind in kinds]
+        laid, missing = lay_on_sheets(
+            kept, free, seed=seed, workers=workers, work=work, stop=stop
+        )  # fmt: skip
     about = {
         "unit": sheets[0].unit, "height": sheets[0].height,
         "sheet_length": None if sheets[0].is_strip else sheets[0].length,
         "gap": gap, "margin": margin, "passes": work.done, "seed": seed, "workers": workers,
     }  # fmt: skip
-    part_of = np.repeat(np.arange(len(parts)), [one.count for one in parts])
-    is_laid = ~np.isnan(strip.poses[:, 0])
-    sheet_of = ground.bay_at(strip.lefts)
+    by_sheet = {one.sheet: one for one in laid}
     found = list[NestedSheet]()
     for k, kind in enumerate(kinds):
-        chosen = np.flatnonzero(is_laid & (sheet_of == k))
-        if len(chosen) or sheets[kind].held is not None:
-            laid = _layout(
-                sheets[kind], [parts[n] for n in part_of[chosen]],
-                strip.poses[chosen] - (*offsets[k], 0.0, 0.0), edge,
-            )  # fmt: skip
-            found.append(_measured(laid, Promise(gap), edge, about))
-    missing, left = Counter[int](), Counter[int]()
-    for n in part_of[~is_laid].tolist():
-        (left if parts[n].is_optional else missing)[n] += 1
+        if k in by_sheet or sheets[kind].held is not None:
+            on_it = by_sheet.get(k, LaidSheet(k, (), np.zeros((0, 4))))
+            layout = _layout(sheets[kind], [parts[n] for n in on_it.kinds], on_it.poses, edge)
+            found.append(_measured(layout, Promise(gap), edge, about))
     unplaced, optional = (
-        tuple((parts[n].item, count) for n, count in one.items()) for one in (missing, left)
+        tuple((parts[n].item, missing[n]) for n in sorted(missing) if parts[n].is_optional is left)
+        for left in (False, True)
     )
     return Nest(tuple(found), unplaced, optional, about)
 
@@ -274,8 +270,9 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     count = sum(one.count for one in parts)
     if not count:
         raise RecipeError("items", "there is nothing to nest; name parts")
-    if count > MOST_PARTS:
-        raise RecipeError("items", f"{count:,} parts are more than {MOST_PARTS:,}; nest fewer")
+    most = MOST_ON_STRIP if sheets[0].is_strip else MOST_PARTS
+    if count > most:
+        raise RecipeError("items", f"{count:,} parts are more than {most:,}; nest fewer")
     turns = sum(FREE_TURNS if one.angles is None else len(one.angles) for one in parts)
     if turns > MOST_TURNS:
         raise RecipeError("rotate", f"{turns:,} angles of all parts are more than {MOST_TURNS:,}")
@@ -317,46 +314,48 @@ def _usable(sheet: Sheet, inset: float) -> Region:
     return inner
 
 
-def _kinds(sheets: Sequence[Sheet], areas: Sequence[float], needed: float) -> list[int]:
+def _kinds(sheets: Sequence[Sheet], areas: Sequence[float], parts: Sequence[Part]) -> list[int]:
     """Numbers of the kinds of sheets, as often as there are some or as they may be needed."""
+    needed = sum(part.count * part.region.area for part in parts) / EMPTIEST
     taken = list[int]()
     for k, (sheet, area) in enumerate(zip(sheets, areas, strict=True)):
-        enough = math.ceil(max(needed, 0.0) / EMPTIEST / area) + 1
-        count = min(enough, MOST_SHEETS) if sheet.count is None else sheet.count
+        enough = min(math.ceil(max(needed, 0.0) / area) + 2, MOST_SHEETS)
+        count = enough if sheet.count is None else sheet.count
         taken += [k] * count
-        needed -= count * area * EMPTIEST
+        needed -= count * area
     return taken
 
 
 def _check_fit(
-    asked: SheetPart, part: Part, sizes: Sequence[tuple[float, float]], sheets: Sequence[Sheet],
-    edge: float,
+    parts: Sequence[SheetPart], kept: Sequence[Part], sizes: Sequence[tuple[float, float]],
+    sheets: Sequence[Sheet], edge: float,
 ) -> None:  # fmt: skip
     """Raise RecipeError for a part whose box is larger than that of every sheet."""
-    _, boxes = boxes_of(part)
-    wide, tall = (boxes[:, 2] - boxes[:, 0]), (boxes[:, 3] - boxes[:, 1])
-    if any(((wide <= length) & (tall <= height)).any() for length, height in sizes):
-        return
-    sheet = sheets[int(np.argmax([length * height for length, height in sizes]))]
-    unit = sheet.unit
-    if sheet.is_strip:
-        size, room = f"{tall.min() + edge:.9g} {unit} high", f"{sheet.height:.9g} {unit}"
-    else:
-        k = int(np.argmin(np.maximum(wide, tall)))
-        size = f"{wide[k] + edge:.9g} x {tall[k] + edge:.9g} {unit}"
-        room = f"{sheet.length:.9g} x {sheet.height:.9g} {unit}"
-    raise RecipeError(
-        "items",
-        f"{asked.item.name} is {size} with the distance that it keeps, and the sheet {room}; "
-        "allow other angles or a larger one",
-    )
+    for asked, part in zip(parts, kept, strict=True):
+        _, boxes = boxes_of(part)
+        wide, tall = (boxes[:, 2] - boxes[:, 0]), (boxes[:, 3] - boxes[:, 1])
+        if any(((wide <= length) & (tall <= height)).any() for length, height in sizes):
+            continue
+        sheet = sheets[int(np.argmax([length * height for length, height in sizes]))]
+        unit = sheet.unit
+        if sheet.is_strip:
+            size, room = f"{tall.min() + edge:.9g} {unit} high", f"{sheet.height:.9g} {unit}"
+        else:
+            k = int(np.argmin(np.maximum(wide, tall)))
+            size = f"{wide[k] + edge:.9g} x {tall[k] + edge:.9g} {unit}"
+            room = f"{sheet.length:.9g} x {sheet.height:.9g} {unit}"
+        raise RecipeError(
+            "items",
+            f"{asked.item.name} is {size} with the distance that it keeps, and the sheet {room}; "
+            "allow other angles or a larger one",
+        )
 
 
-def _held(sheet: Sheet, gap: float) -> list[Region]:
+def _held(sheet: Sheet, gap: float) -> tuple[Region, ...]:
     """Regions of what lies on a sheet already, with half the gap about each."""
     if sheet.held is None:
-        return []
-    return [spare(outline.region, gap) for outline in sheet.held.outlines]
+        return ()
+    return tuple(spare(outline.region, gap) for outline in sheet.held.outlines)
 
 
 def _layout(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: float) -> Layout:

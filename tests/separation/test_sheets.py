@@ -1,0 +1,100 @@
+"""Parts on many sheets of any outline: nothing lost, nothing off its sheet, nothing overlapping."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+
+import numpy as np
+import pytest
+import shapely
+import shapely.affinity
+
+from packwork.separation.ground import ground_of, tiles
+from packwork.separation.shapes import Part
+from packwork.separation.strip import WorkBound
+from packwork.separation.windows import FreeSheet, LaidSheet, lay_on_sheets
+
+pytestmark = pytest.mark.compiled
+
+TRIANGLE = shapely.Polygon([(-1.5, -1), (1.5, -1), (0, 2)])
+SQUARE = shapely.box(-1, -1, 1, 1)
+HIDE = shapely.Point(7, 6).buffer(6, quad_segs=12) - shapely.Point(8, 7).buffer(1.5)
+STARTED = FreeSheet(shapely.box(0, 0, 12, 10), (shapely.box(3, 3, 9, 7),))
+
+
+def regions(parts: list[Part], laid: LaidSheet) -> list[shapely.Polygon]:
+    return [
+        shapely.affinity.affine_transform(
+            parts[kind].region, [side * math.cos(a), -math.sin(a), side * math.sin(a), math.cos(a),
+                                 x, y],
+        )
+        for kind, (x, y, a, side) in zip(laid.kinds, laid.poses, strict=True)
+    ]  # fmt: skip
+
+
+def lay(
+    parts: list[Part], sheets: list[FreeSheet], passes: int, seed: int = 0
+) -> tuple[list[LaidSheet], Counter[int]]:
+    return lay_on_sheets(
+        parts, sheets, seed=seed, workers=2, work=WorkBound(passes=passes), stop=lambda: False
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_part_is_laid_once_or_counted_as_left(seed: int) -> None:
+    parts = [
+        Part(region=SQUARE, count=40, turns=(0.0, 0.4)),
+        Part(region=TRIANGLE, count=60, turns=None, mirrors=True),
+        Part(region=shapely.box(-2, -0.2, 2, 0.2), count=9, turns=(0.0,), is_optional=True),
+    ]
+    sheets = [FreeSheet(HIDE), STARTED, *(FreeSheet(shapely.box(0, 0, 14, 8)) for _ in range(20))]
+    laid, left = lay(parts, sheets, 120, seed)
+    counts = Counter(kind for one in laid for kind in one.kinds) + left
+    assert counts == {0: 40, 1: 60, 2: 9}
+    assert len({one.sheet for one in laid}) == len(laid) >= 5
+    for one in laid:
+        sheet, found = sheets[one.sheet], [*sheets[one.sheet].held, *regions(parts, one)]
+        assert all(sheet.region.buffer(1e-9).covers(region) for region in found)
+        assert max(
+            a.intersection(b).area for k, a in enumerate(found) for b in found[:k]
+        ) < 1e-9  # fmt: skip
+
+
+def test_parts_take_no_more_sheets_than_a_row_by_row_layout_would() -> None:
+    parts = [Part(region=SQUARE, count=60)]
+    sheets = [FreeSheet(shapely.box(0, 0, 6.3, 6.3)) for _ in range(30)]
+    laid, left = lay(parts, sheets, 600)
+    assert not left
+    assert len(laid) <= 9  # seven of nine squares would do
+
+
+def test_sheets_that_are_too_few_are_filled_by_priority() -> None:
+    parts = [
+        Part(region=SQUARE, count=9, turns=(0.0,)),
+        Part(region=SQUARE, count=4, turns=(0.0,), priority=1),
+    ]
+    laid, left = lay(parts, [FreeSheet(shapely.box(0, 0, 6.5, 4.4))], 200)
+    assert Counter(laid[0].kinds)[1] == 4
+    assert left[0] + Counter(laid[0].kinds)[0] == 9
+    assert left[1] == 0
+
+
+def test_ground_has_obstacles_where_no_sheet_is() -> None:
+    ground = ground_of([HIDE, SQUARE])
+    first, second = ground.bays
+    assert ground.height == pytest.approx(12.0)
+    assert first.area == pytest.approx(HIDE.area)
+    union = shapely.union_all(ground.obstacles)
+    moved = shapely.affinity.translate(HIDE, *first.offset)
+    assert union.intersection(moved).area < 1e-9
+    assert union.intersection(shapely.affinity.translate(SQUARE, *second.offset)).area < 1e-9
+    whole = shapely.box(0, 0, second.end, 12.0)
+    assert union.union(moved).area == pytest.approx(whole.area + 1.2 * 12 - 4, rel=1e-6)
+
+
+def test_tiles_are_small_and_make_up_the_region() -> None:
+    found = tiles(HIDE, 2.0)
+    sides = np.array([one.bounds for one in found])
+    assert (sides[:, 2:] - sides[:, :2]).max() <= 2.0 + 1e-9
+    assert sum(one.area for one in found) == pytest.approx(HIDE.area)
