@@ -15,7 +15,7 @@ from packwork.separation.ground import Ground
 from packwork.separation.kernels.field import draw_others, score_row
 from packwork.separation.kernels.moves import put_all
 from packwork.separation.shapes import Part, poles_of, rings_of, spare
-from packwork.separation.state import ROWS, Problem, WorkerState
+from packwork.separation.state import Problem, WorkerState
 from packwork.separation.strip import Strip, StripSearch, WorkBound
 
 pytestmark = pytest.mark.compiled
@@ -171,14 +171,14 @@ def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
     density = np.diff(image, axis=1)
     first, last = turns.span_at[-2], turns.span_at[-1]
     scores = np.zeros(30, np.float32)
-    getattr(score_row, "py_func", score_row)(20, 15, 30, first, last, turns.spans, image, scores)
-    for c in range(0, 30, 7):
+    getattr(score_row, "py_func", score_row)(10, 8, 15, first, last, turns.spans, image, scores)
+    for c in range(0, 15, 3):
         total = sum(
-            density[20 + row, 15 + c + begin : 15 + c + end].sum()
+            density[10 + row, 8 + c + begin : 8 + c + end].sum()
             for row, begin, end in turns.spans[:, first:last].T
         )
         assert scores[c] == pytest.approx(total, rel=1e-4, abs=1e-3)
-    assert image.shape[0] == ROWS
+    assert image.shape[0] == problem.rows
 
 
 @pytest.mark.parametrize("region", [L_SHAPE, RING, TRIANGLE, NEEDLE], ids="LRTN")
@@ -201,7 +201,7 @@ def test_a_simplified_outline_holds_the_true_one_and_its_gap() -> None:
 
 def test_a_part_is_mirrored_where_it_fits_only_so() -> None:
     hook = shapely.Polygon([(-2, -3), (2, -3), (2, -1), (0, -1), (0, 3), (-2, 3)])
-    room = shapely.affinity.scale(hook, -1.0, 1.0, origin=(0, 0)).buffer(0.25)
+    room = shapely.affinity.scale(hook, -1.0, 1.0, origin=(0, 0)).buffer(0.5)
     plate = shapely.box(-3, -4, 3, 4).difference(room)
     lengths = []
     for mirrors in (False, True):

@@ -12,7 +12,9 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from packwork.geometry.overlay import buffered, simplify
+from packwork.compaction.kernels.outer_simplify import simplify_outward
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 
 Floats = npt.NDArray[np.float64]
@@ -20,8 +22,8 @@ Floats = npt.NDArray[np.float64]
 MOST_CORNERS = 64
 """Outlines with more are simplified, outward, for the search."""
 
-COARSENESS = 5e-4
-"""Largest distance of a simplified outline from the true one, over the diameter."""
+FINEST = 2e-5
+"""Distance by which they grow at first, over the diameter; twice as far until there are few."""
 
 FREE_TURNS = 32
 """Angles at which a part that may lie at any is drawn; fewer propose worse places."""
@@ -82,13 +84,18 @@ class TurnTable(NamedTuple):
 
 def spare(region: Region, gap: float) -> Region:
     """A region with few corners that holds all within half the gap of another one."""
-    offset = gap / 2.0
-    if shapely.get_num_coordinates(region) <= MOST_CORNERS:
-        return buffered(region, offset, join_style="mitre") if offset else region
-    x0, y0, x1, y1 = region.bounds
-    off = COARSENESS * math.hypot(x1 - x0, y1 - y0)
-    plainer = simplify(region, off, keeps_topology=True)
-    return buffered(plainer, off + offset, join_style="mitre", mitre_limit=2.0)
+    plain = region
+    if shapely.get_num_coordinates(region) > MOST_CORNERS:
+        x0, y0, x1, y1 = region.bounds
+        tolerance, rings = FINEST * math.hypot(x1 - x0, y1 - y0), Outline.from_region(region).rings
+        while True:
+            plainer = Outline.from_rings([simplify_outward(ring, tolerance) for ring in rings])
+            if not plainer.region.is_valid or plainer.region.area < region.area:
+                break
+            plain, tolerance = plainer.region, 2.0 * tolerance
+            if shapely.get_num_coordinates(plain) <= MOST_CORNERS:
+                break
+    return buffered(plain, gap / 2.0, join_style="mitre") if gap else plain
 
 
 def boxes_of(part: Part) -> tuple[Floats, Floats]:

@@ -16,12 +16,12 @@ from packwork.separation.kernels.collision import DECAY, PENALTY, SIDE, X
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
 from packwork.separation.shapes import DECAY_SHARE, Floats, Part, flattest, starts, tables
 
-ROWS = 96
-"""Rows of the image that proposes places. Half as many miss gaps that thin parts fit into: three
-points of density in 20 s on shirts, one on swim; twice as many take four times as long."""
+PIXELS = 8
+"""Pixels of the image that proposes places, to the side of a square as large as the middle part's
+hull. More find narrower gaps and take longer, with their cube."""
 
-MOST_COLUMNS = 20_000
-"""Columns of that image at most, on a strip of which a quarter is covered."""
+MOST_ROWS, MOST_COLUMNS = 400, 20_000
+"""Rows and columns of that image at most, on a strip of which a quarter is covered."""
 
 MOST, LEAST, FALL = 2.0, 1.2, 0.95
 """Factors of weights in a pass: of the worst pair, of the least, and of pairs that are apart."""
@@ -32,16 +32,19 @@ class Problem:
 
     def __init__(self, parts: Sequence[Part], ground: Ground) -> None:
         self.parts, self.ground, self.height = tuple(parts), ground, ground.height
-        area, height = sum(part.count * part.region.area for part in parts), ground.height
-        longest = ground.end if ground.bays else 4.0 * area / height
-        self.pixel = max(height / ROWS, longest / MOST_COLUMNS)
-        self.rows = math.ceil(height / self.pixel)
-        obstacles = [Part(region=region) for region in ground.obstacles]
-        self.shapes, self.turns = tables([*parts, *obstacles], self.pixel)
+        hulls = [part.region.convex_hull.area for part in parts]
         self.shape_of = np.repeat(np.arange(len(parts)), [part.count for part in parts])
         self.areas = np.array([part.region.area for part in parts])[self.shape_of]
-        self.hulls = np.array([part.region.convex_hull.area for part in parts])[self.shape_of]
-        self.flattest = flattest(parts, height)
+        self.hulls = np.array(hulls)[self.shape_of]
+        longest = ground.end if ground.bays else 4.0 * self.area / ground.height
+        # In steps, so that other parts of the same kinds have the same spans.
+        middle = math.sqrt(float(np.median(self.hulls))) / PIXELS
+        middle = 2.0 ** (round(4.0 * math.log2(middle)) / 4.0)
+        self.pixel = max(middle, longest / MOST_COLUMNS, ground.height / MOST_ROWS)
+        self.rows = math.ceil(ground.height / self.pixel)
+        obstacles = [Part(region=region) for region in ground.obstacles]
+        self.shapes, self.turns = tables([*parts, *obstacles], self.pixel)
+        self.flattest = flattest(parts, ground.height)
         widths = np.ptp(self.flattest[0][:, ::2], axis=1)
         self.widest, self.narrowest = float(widths.max()), float(widths.min())
         wide = [np.ptp(shapely.get_coordinates(part.region), axis=0).max() for part in parts]

@@ -13,10 +13,11 @@ import numpy as np
 import shapely
 from shapely.geometry import box
 
+from packwork.compaction.outer_simplify import inner_simplified
 from packwork.errors import RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered, polygon_parts, simplify
+from packwork.geometry.overlay import buffered, polygon_parts
 from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
@@ -25,7 +26,7 @@ from packwork.scene.item import Item, mirrored
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.separation.ground import Ground
-from packwork.separation.shapes import COARSENESS, FREE_TURNS, Floats, Part, boxes_of, spare
+from packwork.separation.shapes import FREE_TURNS, Floats, Part, boxes_of, spare
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
 from packwork.units import Unit
@@ -44,8 +45,8 @@ SPARSEST = 10.0
 
 MOST_SHEETS = 10_000
 
-MOST_EDGE_CORNERS = 256
-"""Sheets whose edge has more are simplified, inward, for the search."""
+MOST_EDGE_CORNERS, EDGE_TOLERANCE = 256, 2e-4
+"""Sheets whose edge has more are simplified, inward, for the search, by that share of its side."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -306,8 +307,7 @@ def _usable(sheet: Sheet, inset: float) -> Region:
     region = sheet.region
     if shapely.get_num_coordinates(region) > MOST_EDGE_CORNERS:
         x0, y0, x1, y1 = region.bounds
-        off = COARSENESS * math.hypot(x1 - x0, y1 - y0)
-        region, inset = simplify(region, off, keeps_topology=True), inset + off
+        region = inner_simplified(region, EDGE_TOLERANCE * math.hypot(x1 - x0, y1 - y0))
     inner = buffered(region, -inset, join_style="mitre")
     if not polygon_parts(inner):
         raise RecipeError("sheet", f"{sheet.name} has no room within its margin")
