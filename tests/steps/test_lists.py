@@ -22,7 +22,9 @@ PLAIN = [
 
 
 def job(**options: Any) -> Any:
-    return uses.read(make_recipe(container="circle", **{"items": ["star"], "count": 3} | options))
+    return uses.read(
+        make_recipe(**{"container": "circle", "items": ["star"], "count": 3} | options)
+    )
 
 
 def names(**options: Any) -> list[str]:
@@ -72,6 +74,33 @@ def test_without_an_exact_finish_nothing_of_it_is_listed() -> None:
     assert names(finish="none") == [
         name for name in PLAIN if name not in {"Finish", "TellShortfalls"}
     ]
+
+
+DISCS = {"container": "circle", "items": ["circle"], "count": 30, "sizes": "shared"}
+
+
+def test_discs_in_proportion_jam_in_one_step() -> None:
+    assert names(**DISCS) == ["JamDiscs", "TellShortfalls", "Measure", "Advise"]
+
+
+@pytest.mark.parametrize(
+    "wish",
+    [
+        {"count": 5},
+        {"sizes": "free"},
+        {"items": ["circle", "star"]},
+        {"rules": [{"items": ["circle"], "rotate": "30"}]},
+        {"force": ["down"]},
+        {"apart": True},
+        {"epochs": 3},
+        {"start": "scatter"},
+        {"finish": "none"},
+    ],
+)
+def test_discs_of_which_more_is_asked_go_the_way_of_all_items(wish: dict[str, Any]) -> None:
+    found = names(**DISCS | wish)
+    assert "JamDiscs" not in found
+    assert {"Place", "Levels"} <= set(found)
 
 
 class Grow(RunStep):

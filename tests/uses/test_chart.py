@@ -120,3 +120,34 @@ def test_every_sort_of_key_is_drawn_and_is_no_item(options: Any, tmp_path: Path)
         layout.save(tmp_path / f"chart{ending}", pixels=100)
     assert 'id="legend"' in (tmp_path / "chart.svg").read_text(encoding="utf-8")
     assert len(read_written(tmp_path / "chart.svg").items) == len(layout.items)
+
+
+LOGNORMAL = {"number": np.random.default_rng(0).lognormal(0.0, 1.0, 130).tolist()}
+DRAFT: dict[str, Any] = {"size_by": "number", "effort": "draft"}
+
+
+def test_many_circles_are_certified_in_proportion_and_cover_far_more_than_levels_do() -> None:
+    jammed = [pw.chart("bear", LOGNORMAL, seed=seed, **DRAFT) for seed in range(3)]
+    levels = [
+        pw.chart("bear", LOGNORMAL, seed=seed, start="distance-field", **DRAFT) for seed in range(3)
+    ]
+    assert all(layout.certified for layout in jammed)
+    for layout in jammed:
+        per_number = layout.areas / np.array(LOGNORMAL["number"])
+        assert per_number / per_number[0] == pytest.approx(np.ones(130), rel=1e-9)
+    covered = [np.median([one.metrics["LC"] for one in found]) for found in (jammed, levels)]
+    assert covered[0] > covered[1] + 0.05
+
+
+def test_one_seed_gives_one_chart_of_circles() -> None:
+    first, again = (pw.chart("circle", LOGNORMAL, seed=3, **DRAFT) for _ in range(2))
+    assert first.to_svg() == again.to_svg()
+
+
+def test_many_circles_stand_closer_unless_a_padding_is_asked_for() -> None:
+    gaps = [
+        pw.chart("circle", LOGNORMAL, **DRAFT, **asked).metrics["exact"]["min_gap"]
+        for asked in ({}, {"padding": "2"})
+    ]
+    assert 0 < gaps[0] < 1.2
+    assert 2 <= gaps[1] < 2.1

@@ -94,7 +94,7 @@ class Sentence(Enum):
     LEFT_BARE = Told.PART, "in proportion they would leave it bare"
     CLOSER = (
         Told.REMARK,
-        "so many words stand {gap:.2g} {unit} apart, not {usual:g} {unit}; "
+        "so many {what} stand {gap:.2g} {unit} apart, not {usual:g} {unit}; "
         "another --padding is kept",
     )
     HERO_LEADS = (

@@ -22,6 +22,7 @@ from packwork.steps.assign_in_order import AssignInOrder
 from packwork.steps.control import BestOf, Replan, UnlessTight
 from packwork.steps.exchanges import ExchangeByForces, KindsApart
 from packwork.steps.finish import Finish, finished
+from packwork.steps.jam_discs import JamDiscs, jams_discs
 from packwork.steps.levels import Levels
 from packwork.steps.line_weights import EvenLines, FinishThinner
 from packwork.steps.measure import Measure, RemarkCount, TellCoarse
@@ -92,6 +93,8 @@ def placing(
     bounds
         What a use does to sizes after the exact finish.
     """
+    if place is None and jams_discs(job):
+        return [*([StartRecording()] if job.is_recorded else []), JamDiscs()]
 
     def once(job: Job, *, may_fail: bool = False) -> list[RunStep]:
         steps = solving(job, suits_first_fit=suits_first_fit, place=place)

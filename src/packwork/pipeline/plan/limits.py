@@ -283,7 +283,7 @@ def check_padding(container: Container, padding: float, count: int, whose: str =
             "or a larger canvas",
         )
     if count * np.pi * (padding / 2) ** 2 > grown(outline, -padding / 2).area:
-        raise _too_much(container, padding, count, "even as points they would not find room")
+        raise too_much_padding(container, padding, count, "even as points they would not find room")
 
 
 def check_found(
@@ -293,10 +293,11 @@ def check_found(
     stuck = len({found.item for found in conflicts})
     if padding > 0 and stuck > MOST_STUCK * count:
         why = f"{stuck} of {count} found no room, however small"
-        raise _too_much(container, padding, count, why)
+        raise too_much_padding(container, padding, count, why)
 
 
-def _too_much(container: Container, padding: float, count: int, why: str) -> RecipeError:
+def too_much_padding(container: Container, padding: float, count: int, why: str) -> RecipeError:
+    """Error that says why there is no room with a padding, and which one would do."""
     unit, better = container.unit, BEARABLE * np.sqrt(container.outline.area / count)
     return RecipeError(
         "padding",

@@ -25,9 +25,9 @@ from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
-from packwork.recipe.verbs import VERBS
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.steps.close_gap import RemarkGap, close_gap
 from packwork.steps.control import Replan, Retry
 from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, smaller_copies
 from packwork.uses.collage import filling, placing, reporting
@@ -97,11 +97,11 @@ class WordsUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """Steps of a cloud, closer together where there are so many words."""
-        gap = close_gap(job)
+        gap = close_gap(job, Verbs.WORDS, CLOSE)
         if gap >= job.plan.gap:
             return self._listed(job)
         closer = job.replanned(gap=gap)
-        return [Replan(gap=gap), *self._listed(closer), RemarkGap()]
+        return [Replan(gap=gap), *self._listed(closer), RemarkGap("words")]
 
     def _listed(self, job: Job) -> list[RunStep]:
         """Sizes in proportion; where they leave the container bare, sizes that give way in turn."""
@@ -243,17 +243,6 @@ class WordsUse(Use):
         }
 
 
-def close_gap(job: Job) -> float:
-    """Gap no wider than suits so many words, if none was asked for, canvas units.
-
-    The usual one is a share of the canvas: thousands of words would be specks between gaps.
-    """
-    if job.recipe.padding != VERBS[Verbs.WORDS].defaults["padding"]:
-        return job.plan.gap
-    most = CLOSE * float(np.sqrt(job.container.outline.area / len(job.items)))
-    return min(job.plan.gap, most)
-
-
 def fuller(tried: Sequence[RunState], context: RunContext) -> RunState:
     """Of a cloud in proportion and one whose sizes give way, the second if it is plainly better."""
     found, graded = tried
@@ -328,18 +317,3 @@ class RemarkWords(RunStep):
             why = Sentence.THIN if is_thin else Sentence.LEFT_BARE
             state = state.with_finding(Sentence.GIVES_WAY, why=why.of())
         return state
-
-
-@final
-class RemarkGap(RunStep):
-    """A sentence about a gap that is narrower than usual, for there are so many words."""
-
-    def run(self, state: RunState, context: RunContext) -> RunState:
-        """State with the remark."""
-        container = state.job.container
-        return state.with_finding(
-            Sentence.CLOSER,
-            gap=state.job.plan.gap,
-            usual=state.job.recipe.padding_cu(container),
-            unit=container.unit,
-        )

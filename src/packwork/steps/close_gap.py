@@ -1,0 +1,54 @@
+"""A gap narrower than usual, where there are so many items that the usual one wastes room."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+from packwork.offers import Verbs
+from packwork.pipeline.findings import Sentence
+from packwork.pipeline.job import Job
+from packwork.pipeline.run import RunContext, RunStep
+from packwork.pipeline.state import RunState
+from packwork.recipe.verbs import VERBS
+
+
+def close_gap(job: Job, verb: Verbs, share: float) -> float:
+    """Gap, canvas units, no wider than suits so many items, if a verb's usual one was asked for.
+
+    The usual one is a share of the canvas: thousands of items would be specks between gaps.
+
+    Parameters
+    ----------
+    share
+        The widest, over the side of an item's share of the container.
+    """
+    if job.recipe.padding != VERBS[verb].defaults["padding"]:
+        return job.plan.gap
+    return min(job.plan.gap, share * math.sqrt(job.container.outline.area / len(job.items)))
+
+
+@final
+@dataclass(frozen=True)
+class RemarkGap(RunStep):
+    """A sentence about a gap that is narrower than usual, for there are so many items.
+
+    Parameters
+    ----------
+    what
+        What they are called.
+    """
+
+    what: str
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the remark."""
+        container = state.job.container
+        return state.with_finding(
+            Sentence.CLOSER,
+            what=self.what,
+            gap=state.job.plan.gap,
+            usual=state.job.recipe.padding_cu(container),
+            unit=container.unit,
+        )
