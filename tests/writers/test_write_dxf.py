@@ -120,4 +120,6 @@ def test_points_are_written_as_ezdxf_would_write_them() -> None:
     ring[:3] = [[0, -0.0], [1e-6, 1e20], [1e-9, 3]]
     own = LWPolylinePoints()
     own.set(np.column_stack([ring, np.zeros((50, 3))]))
-    assert LinePoints(ring).dxfstr() == "".join(tag.dxfstr() for tag in own.dxftags())
+    assert LinePoints(ring, np.zeros(len(ring))).dxfstr() == "".join(
+        tag.dxfstr() for tag in own.dxftags()
+    )

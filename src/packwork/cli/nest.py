@@ -39,7 +39,9 @@ def nest(
     ],
     parts: Annotated[
         list[str] | None,
-        typer.Argument(metavar="PART...", help="SVG files or folders; part.svg*12 for twelve."),
+        typer.Argument(
+            metavar="PART...", help="DXF or SVG files, folders; part.dxf*12 for twelve."
+        ),
     ] = None,
     rotate: Annotated[
         str,
@@ -89,7 +91,7 @@ def nest(
 ) -> None:
     """Nest parts of true size on as few sheets and as little of the last one as possible.
 
-    [bold]packwork nest 600x400mm bracket.svg*12 gear.svg*4 --kerf 2mm -o sheet.dxf[/]
+    [bold]packwork nest 600x400mm bracket.dxf*12 gear.svg*4 --kerf 2mm -o sheet.dxf[/]
 
     [bold]packwork nest swim.json --time 60 -o swim.geojson[/]
     """
@@ -261,7 +263,7 @@ def _asked(
         ]  # fmt: skip
         return [Sheet(height=instance.height, name=instance.name)], parts
     if not named and not optional:
-        raise RecipeError("items", "there is nothing to nest; name parts, as bracket.svg*12")
+        raise RecipeError("items", "there is nothing to nest; name parts, as bracket.dxf*12")
     sheets = _sheets(sheet)
     turned = Rotation.parse(rotate)
     angles = turned.choices

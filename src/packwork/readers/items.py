@@ -25,11 +25,24 @@ from packwork.sources import stored
 
 _LOG = logging.getLogger("packwork")
 
-_READERS: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
+_ONE_EACH: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
     ".svg": read_svg,
     ".svgz": read_svg,
     **dict.fromkeys(PICTURE_ENDINGS, read_picture),
 }
+
+
+def _read_dxf(file: str, holes: Holes) -> Sequence[Read]:
+    # Loads what no other file needs.
+    from packwork.readers.dxf.item import read_dxf
+
+    return read_dxf(file, holes)
+
+
+_SEVERAL: dict[str, Callable[[str, Holes], Sequence[Read]]] = {".dxf": _read_dxf}
+"""Readers of files that hold several items."""
+
+_ENDINGS = (*_ONE_EACH, *_SEVERAL)
 
 
 @dataclass(frozen=True)
@@ -48,9 +61,12 @@ class _Asked:
     reading: ReadOptions
     strict: bool
 
-    def read(self, file: str) -> Read:
-        """One file, by the reader of its ending."""
-        return _READERS[Path(file).suffix.lower()](file, self.holes, self.reading)
+    def read(self, file: str) -> Sequence[Read]:
+        """Items of one file, by the reader of its ending."""
+        ending = Path(file).suffix.lower()
+        if ending in _SEVERAL:
+            return _SEVERAL[ending](file, self.holes)
+        return [_ONE_EACH[ending](file, self.holes, self.reading)]
 
 
 @dataclass(frozen=True)
@@ -142,11 +158,11 @@ def _found(source: str, asked: _Asked) -> _Source:
     if is_folder(path):
         if source in {ALL_ICONS, *item_names()}:
             _LOG.warning("%s: the folder here is meant; %s%s is bundled", source, BUILTIN, source)
-        return _several(source, listed(path, _READERS))
-    if path.suffix.lower() in _READERS and (exists(path) or not glob.has_magic(source)):
+        return _several(source, listed(path, _ENDINGS))
+    if path.suffix.lower() in _ENDINGS and (exists(path) or not glob.has_magic(source)):
         return _Source(source, files=(source,))
     if glob.has_magic(source):
-        return _several(source, matched(source, _READERS))
+        return _several(source, matched(source, _ENDINGS))
     if exists(path) or len(path.parts) > 1:
         raise ReadError(source, _why_not(path))
     return _built_in(source, asked)
@@ -174,7 +190,7 @@ def _read_all(
         most = max(sample.most - at_once, 0)
         alone = [k for k, (number, _) in enumerate(files) if sources[number].listing is None]
         order = sample.order_of_files([file for _, file in files], alone, most)
-    reads: dict[int, Read] = {}
+    reads: dict[int, Sequence[Read]] = {}
     refused: dict[int, ReadError] = {}
     for k in order:
         if len(reads) == most:
@@ -199,7 +215,10 @@ def _read_all(
     made = [
         read
         for number, source in enumerate(sources)
-        for read in (*source.reads, *(reads[k] for k in sorted(reads) if files[k][0] == number))
+        for read in (
+            *source.reads,
+            *(read for k in sorted(reads) if files[k][0] == number for read in reads[k]),
+        )
     ]
     return made, skipped
 
@@ -207,13 +226,13 @@ def _read_all(
 def _why_not(path: Path) -> str:
     if not exists(path):
         return "there is no such file"
-    endings = ", ".join(_READERS)
+    endings = ", ".join(_ENDINGS)
     return f"has the unknown ending {path.suffix!r}; items are files in {endings}"
 
 
 def _why_none(skipped: list[ReadError]) -> str:
     if not skipped:
-        return f"holds no file that could be an item; those end in {', '.join(_READERS)}"
+        return f"holds no file that could be an item; those end in {', '.join(_ENDINGS)}"
     first = skipped[0]
     if len(skipped) == 1:
         return f"its one file cannot be used, {first}"

@@ -14,6 +14,7 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
+from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline, OutlineLike
 
 
@@ -172,6 +173,18 @@ class VectorArt:
     markup: str
     matrix: FloatArray
     is_traced: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class LineArt(VectorArt):
+    """A drawing of lines for a machine, whose arcs are kept beside the markup that shows them.
+
+    ``cut``: closed lines round the item and its holes, in its own units.
+    ``engraved``: lines that go with it.
+    """
+
+    cut: tuple[ArcLine, ...] = ()
+    engraved: tuple[ArcLine, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 
 from packwork.arrays import FloatArray
+from packwork.geometry.arcs import STRAIGHT, ArcLine, divided, radius_of
 from packwork.geometry.outline import Outline
 
 MAX_DECIMALS = 24
@@ -70,6 +71,33 @@ def path_data(outline: Outline, digits: int) -> str:
     'M0 0 2 0 2 1.5Z'
     """
     return "".join(f"M{points_text(ring, digits)}Z" for ring in outline.rings)
+
+
+SHORT_ARC = math.pi / 5
+"""Longest arc of a path, in radians: programs make cubics of them, which lie off it by 1.2e-6 of
+the radius, longer ones by more. Derived."""
+
+
+def arc_path_data(line: ArcLine, digits: int) -> str:
+    """SVG path of a line with arcs, absolute coordinates.
+
+    Examples
+    --------
+    >>> from packwork.geometry.arcs import arc
+    >>> arc_path_data(arc((0.0, 0.0), 2.0, 0.0, 0.5), 2)
+    'M2 0A2 2 0 0 1 1.94 0.49A2 2 0 0 1 1.76 0.96'
+    """
+    made = [f"M{points_text(line.points[:1], digits)}"]
+    for start, end, bulge in zip(line.points, line.ends, line.bulges.tolist(), strict=False):
+        if abs(bulge) <= STRAIGHT:
+            made.append(f"L{points_text(end[None], digits)}")
+            continue
+        radius, sweep = f"{radius_of(start, end, bulge):.12g}", int(bulge > 0)
+        made += [
+            f"A{radius} {radius} 0 0 {sweep} {points_text(point[None], digits)}"
+            for point in divided(start, end, bulge, SHORT_ARC)
+        ]
+    return "".join(made) + ("Z" if line.is_closed else "")
 
 
 def points_text(points: FloatArray, digits: int) -> str:

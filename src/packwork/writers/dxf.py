@@ -1,7 +1,8 @@
 """Layouts as DXF, for cutters and plotters: true outlines in real units, y up.
 
-Each ring is one closed polyline with the very points that were measured: curves were
-flattened when the items were read, drawings to 2e-5 of their extent. Lines have no width:
+Each ring is one closed polyline. Items that were read from a DXF have their arcs, as bulges;
+of others it has the very points that were measured: curves were flattened when they were read,
+drawings to 2e-5 of their extent. Lines have no width:
 what the tool takes away belongs to the padding. Which item a ring belongs to, and what
 the run promised, stands in extended data that other programs pass over.
 """
@@ -9,18 +10,18 @@ the run promised, stands in extended data that other programs pass over.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Iterator, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.geometry import affine
+from packwork.geometry.arcs import ArcLine
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import oriented_rings, polygon_parts
-from packwork.scene.item import Item
+from packwork.scene.item import Item, LineArt
 from packwork.scene.layout import Layout
 from packwork.scene.notation import decimals, sound_text
 from packwork.units import convert
@@ -37,8 +38,8 @@ VERSION = "R2000"
 
 LAYERS = {"cut": 1, "engrave": 5, "container": 8}
 """Names and colour numbers (red, blue, grey). ``cut`` holds the outlines of the items,
-``engrave`` the edges of what is left bare inside them, as the hole of a ring that was
-packed as a disc. Where other lines are to be cut, outlines are on the layer ``items``."""
+``engrave`` lines that go with them, and the edges of what is left bare inside them, as the hole of
+a ring that was packed as a disc. Where other lines are to be cut, outlines are on ``items``."""
 
 ITEMS = {"items": 9}
 """Name and colour number (light grey) of the layer of outlines that are not cut."""
@@ -70,20 +71,20 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
     True
     """
     lines = [
-        (lot, ring)
+        (lot, line)
         for lot in _lots(layout, cut or CutOptions())
-        for ring in _to_paper(layout, lot.rings)
+        for line in _to_paper(layout, lot.lines)
     ]
-    points = np.concatenate([ring for _, ring in lines])
+    points = np.concatenate([line.points for _, line in lines])
     with _without_dates():
         drawing = _empty_drawing(layout, {lot.layer for lot, _ in lines})
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
-        for lot, ring in lines:
-            line = space.add_lwpolyline([], close=not lot.is_open, dxfattribs={"layer": lot.layer})
-            line.lwpoints = LinePoints(ring)  # type: ignore[assignment]
+        for lot, line in lines:
+            drawn = space.add_lwpolyline([], close=line.is_closed, dxfattribs={"layer": lot.layer})
+            drawn.lwpoints = LinePoints(line.points, line.bulges)  # type: ignore[assignment]
             if lot.said:
-                line.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
+                drawn.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
         stream = io.StringIO()
         drawing.write(stream)
     return drawing.encode(stream.getvalue())
@@ -114,45 +115,67 @@ def _empty_drawing(layout: Layout, used: Set[str]) -> Drawing:
 
 @dataclass(frozen=True, eq=False)
 class _Lot:
-    """Rings that belong together, in place, canvas units; open ones are lines with two ends.
+    """Lines that belong together, in place, canvas units.
 
     ``said`` are texts that go with each: of the container the gap that was promised and whether
     areas are in shares, of an item its number, name and weight.
     """
 
     layer: str
-    rings: list[FloatArray]
+    lines: list[ArcLine]
     said: tuple[str, ...] = ()
-    is_open: bool = False
 
 
 def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
+    curves = PRECISION * layout.container.side
     is_other = cut.kiss is not None or cut.line == "silhouette"
     walls = layout.container.walls
     layer = "container" if walls is None else "room"
-    yield _Lot(layer, layout.container.outline.rings, _promise(layout))
-    yield _Lot("container", list(walls or ()), is_open=True)
-    bare = {item: item for item in layout.items}
-    details = {key: _bare_rings(item) for key, item in bare.items()}
+    yield _Lot(layer, _straight(layout.container.outline.rings), _promise(layout))
+    yield _Lot("container", _straight(walls or (), is_closed=False))
     weights = stated_weights(layout)
+    drawn = {item: _lines_of(item) for item in layout.items}
     for k, item in enumerate(layout.items):
         name = " ".join(sound_text(item.label.name or item.name).split())[:NAME_LENGTH]
+        own, matrix = drawn[item], layout.poses.matrix(k)
+        outline = (
+            [line.mapped(matrix, curves) for line in own.cut]
+            if own.cut else _straight(layout.outlines[k].rings)
+        )  # fmt: skip
         layer = "items" if is_other else "cut"
-        yield _Lot(layer, layout.outlines[k].rings, (str(k + 1), name, weights[k] or "1"))
-        matrix = layout.poses.matrix(k)
-        yield _Lot("engrave", [affine.apply(matrix, ring) for ring in details[item]])
+        yield _Lot(layer, outline, (str(k + 1), name, weights[k] or "1"))
+        yield _Lot("engrave", [line.mapped(matrix, curves) for line in own.engraved])
     if is_other:
-        yield _Lot("cut", cut_rings(layout, cut))
+        yield _Lot("cut", _straight(cut_rings(layout, cut)))
+
+
+def _straight(rings: Iterable[FloatArray], *, is_closed: bool = True) -> list[ArcLine]:
+    return [ArcLine(ring, np.zeros(len(ring)), is_closed) for ring in rings]
+
+
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """Lines of an item in its own units; none to cut where those are of its outline as placed."""
+
+    cut: Sequence[ArcLine]
+    engraved: Sequence[ArcLine]
+
+
+def _lines_of(item: Item) -> _Lines:
+    if isinstance(item.art, LineArt):
+        return _Lines(item.art.cut, item.art.engraved)
+    return _Lines((), _straight(_bare_rings(item)))
 
 
 @dataclass(frozen=True, eq=False)
 class LinePoints:
-    """Points of a line ``(n, 2)`` as ezdxf asks for them when it writes.
+    """Points of a line ``(n, 2)``, and its bulges, as ezdxf asks for them when it writes.
 
     In place of its own, which make two tags of each: half a million points took 5 s.
     """
 
     points: FloatArray
+    bulges: FloatArray
 
     def __len__(self) -> int:
         return len(self.points)
@@ -163,7 +186,10 @@ class LinePoints:
 
     def dxfstr(self) -> str:
         """Text that is written in its place."""
-        return " 10\n%s\n 20\n%s\n" * len(self.points) % tuple(self.points.ravel().tolist())
+        if not self.bulges.any():
+            return " 10\n%s\n 20\n%s\n" * len(self.points) % tuple(self.points.ravel().tolist())
+        rows = np.column_stack([self.points, self.bulges])
+        return " 10\n%s\n 20\n%s\n 42\n%s\n" * len(rows) % tuple(rows.ravel().tolist())
 
 
 def _promise(layout: Layout) -> tuple[str, ...]:
@@ -184,14 +210,15 @@ def _bare_rings(item: Item) -> list[FloatArray]:
     return [ring for part in parts for ring in oriented_rings(part)]
 
 
-def _to_paper(layout: Layout, rings: Iterable[FloatArray]) -> Iterator[FloatArray]:
-    """Rings as they are written: real units, y up, rounded."""
+def _to_paper(layout: Layout, lines: Iterable[ArcLine]) -> Iterator[ArcLine]:
+    """Lines as they are written: real units, y up, points rounded."""
     container = layout.container
     scale = convert(1.0, container.unit, paper_unit(container.unit))
     flip = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * container.height]])
     digits = decimals(container.side * scale * PRECISION)
-    for ring in rings:
-        yield np.round(affine.apply(flip, ring), digits)
+    for line in lines:
+        drawn = line.mapped(flip, 0.0)
+        yield replace(drawn, points=np.round(drawn.points, digits))
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
@@ -197,7 +198,7 @@ def test_groups_that_were_moved_are_measured_where_they_are(tmp_path: Path) -> N
         ("a.dxf", "PACKWORK", "OTHER", "has lines on the layer cut that name no item"),
         ("a.dxf", "$INSUNITS", "$OUNITS", "states no size and unit"),
         ("a.dxf", "  0\nSECTION", "zero\nSECTION", "is not DXF in text form"),
-        ("a.dxf", " 70\n1\n", " 70\n0\n", "that is open or bent"),
+        ("a.dxf", " 70\n1\n", " 70\n0\n", "that is open"),
     ],
 )  # fmt: skip
 def test_files_that_are_not_ours(
@@ -212,6 +213,17 @@ def test_files_that_are_not_ours(
     with pytest.raises(ReadError, match=problem) as caught:
         read_written(path)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("bulge", ["1e9", "nan", "wide"])
+def test_sides_that_are_bent_beyond_all_sense_are_refused(bulge: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.dxf"
+    write(layout_of(builtin_item("heart")), path)
+    head, _, lines = path.read_text(encoding="utf-8").rpartition("LWPOLYLINE")
+    bent = re.sub(r"( 20\n[^\n]+\n)", rf"\1 42\n{bulge}\n", lines, count=1)
+    path.write_text(f"{head}LWPOLYLINE{bent}", encoding="utf-8")
+    with pytest.raises(ReadError, match="whose points are none"):
+        read_written(path)
 
 
 def test_other_endings(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.geometry.arcs import ArcLine
 from packwork.geometry.polygon import Region, region
 from packwork.readers.layouts.assembly import (
     FoundItem,
@@ -30,8 +31,15 @@ from packwork.units import Unit
 APPLICATION = "PACKWORK"
 """Name under which our files say what a line belongs to."""
 
-OPEN_LAYER = "container"
-"""Where lines may be open: the walls of a container that has openings."""
+OPEN_LAYERS = ("container", "engrave")
+"""Where lines may be open: walls of a container that has openings, and what is not cut."""
+
+MEASURED_FLATTENING = 2.5e-7
+"""Largest distance of arcs from the chords that are measured, as a share of the sheet's longer
+side: a quarter of the least gap that is certified."""
+
+MOST_BENT = 1e6
+"""Bulge of an arc at most; of a full circle it is infinite. Chosen."""
 
 MOST_LINES = 6_000_000
 """Of a file, two for each tag: one takes about 100 bytes. Larger: a gigabyte. Chosen."""
@@ -44,12 +52,11 @@ _FIRST_EXTENDED = 1_000
 
 @dataclass(frozen=True, eq=False)
 class DxfLine:
-    """A polyline: points ``(n, 2)`` in drawing units, y up, and what our files say of it."""
+    """A polyline in drawing units, y up, and what our files say of it."""
 
     layer: str
-    points: FloatArray
+    line: ArcLine
     said: tuple[str, ...]
-    is_closed: bool = True
 
 
 def tags_of(text: str) -> list[Tag]:
@@ -100,7 +107,7 @@ def lines_of(tags: Sequence[Tag]) -> list[DxfLine]:
     >>> corners = [(10, "0"), (20, "0"), (10, "2"), (20, "0"), (10, "2"), (20, "1")]
     >>> tags = [(2, "ENTITIES"), (0, "LWPOLYLINE"), (8, "cut"), (70, "1"), *corners, (0, "EOF")]
     >>> line, = lines_of(tags)
-    >>> line.layer, line.points[2].tolist()
+    >>> line.layer, line.line.points[2].tolist()
     ('cut', [2.0, 1.0])
     """
     return [_line(own) for kind, own in _entities(tags) if kind == "LWPOLYLINE"]
@@ -124,15 +131,30 @@ def _line(tags: Sequence[Tag]) -> DxfLine:
     plain = [tag for tag in tags if tag[0] < _FIRST_EXTENDED]
     layer = next((value for code, value in plain if code == 8), "")
     flags = next((_number(value) for code, value in plain if code == 70), 0.0)
-    x, y = ([_number(value) for code, value in plain if code == axis] for axis in (10, 20))
-    is_bent = any(code == 42 and _number(value) != 0 for code, value in plain)
     is_closed = flags == flags and bool(int(flags) & _CLOSED)
-    if is_bent or not (is_closed or layer == OPEN_LAYER):
-        raise UnfitError(f"holds a line on layer {layer[:20]!r} that is open or bent")
+    if not (is_closed or layer in OPEN_LAYERS):
+        raise UnfitError(f"holds a line on layer {layer[:20]!r} that is open")
+    x, y = ([_number(value) for code, value in plain if code == axis] for axis in (10, 20))
+    bulges = _bulges(plain)
+    is_bent = any(bulges)
     is_sane = all(abs(number) <= MAX_COORDINATE for number in (*x, *y))
-    if len(x) != len(y) or len(x) < (3 if is_closed else 2) or not is_sane:
+    is_sane = is_sane and all(abs(bulge) <= MOST_BENT for bulge in bulges)
+    least = 3 if is_closed and not is_bent else 2
+    if not len(x) == len(y) == len(bulges) or len(x) < least or not is_sane:
         raise UnfitError(f"holds a line on layer {layer[:20]!r} whose points are none")
-    return DxfLine(layer, np.column_stack([x, y]), tuple(_said(tags)), is_closed)
+    line = ArcLine(np.column_stack([x, y]), np.array(bulges), is_closed)
+    return DxfLine(layer, line, tuple(_said(tags)))
+
+
+def _bulges(tags: Sequence[Tag]) -> list[float]:
+    """Bulge of the side that begins at each point, 0 unless it is stated."""
+    found: list[float] = []
+    for code, value in tags:
+        if code == 10:
+            found.append(0.0)
+        elif code == 42 and found:
+            found[-1] = _number(value)
+    return found
 
 
 def _said(tags: Sequence[Tag]) -> Iterator[str]:
@@ -173,22 +195,23 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     # A container that has openings shows its walls; what is measured has a layer of its own.
     seen = [line for line in lines if line.layer == "container"]
     room = [line for line in lines if line.layer == "room"]
-    walls = room or [line for line in seen if line.is_closed]
+    walls = room or [wall for wall in seen if wall.line.is_closed]
     if not walls:
         raise UnfitError(f"has no line on the layer container, {_NOT_OURS}")
     gap, shares = _promise(walls[0])
     # Lines of items have a layer of their own where others are cut.
     layer = "items" if any(line.layer == "items" for line in lines) else "cut"
-    items = _items([line for line in lines if line.layer == layer], height)
+    paper = _Paper(height, MEASURED_FLATTENING * max(width, height))
+    items = _items([line for line in lines if line.layer == layer], paper)
     sheet = FoundSheet(
         width=width,
         height=height,
         unit=unit,
-        container=_region(walls, height),
+        container=paper.region(walls),
         gap=gap,
         areas_in_shares=shares,
         items=items,
-        walls=tuple(_down(line.points, height) for line in seen) if room else None,
+        walls=tuple(paper.down(wall.line) for wall in seen) if room else None,
         said={"not_kept": [LINES_ALONE], "changed": _lost(walls[0], items)},
     )
     return assembled(sheet, name)
@@ -217,7 +240,24 @@ def _lost(wall: DxfLine, items: Sequence[FoundItem]) -> list[str]:
     return [f"{len(items)} of {stated[:9]} items are in the file"]
 
 
-def _items(lines: Sequence[DxfLine], height: float) -> list[FoundItem]:
+@dataclass(frozen=True)
+class _Paper:
+    """Height of a sheet, and how far chords may lie off arcs."""
+
+    height: float
+    tolerance: float
+
+    def region(self, lines: Sequence[DxfLine]) -> Region:
+        """What closed lines enclose, y down."""
+        return region([self.down(one.line) for one in lines], "evenodd")
+
+    def down(self, line: ArcLine) -> FloatArray:
+        """Points of a line, y turned down from the sheet's top."""
+        points = line.flattened(self.tolerance)
+        return np.column_stack([points[:, 0], self.height - points[:, 1]])
+
+
+def _items(lines: Sequence[DxfLine], paper: _Paper) -> list[FoundItem]:
     """Items in the order of their numbers; each may have several lines."""
     together: dict[str, list[DxfLine]] = {}
     for line in lines:
@@ -225,15 +265,6 @@ def _items(lines: Sequence[DxfLine], height: float) -> list[FoundItem]:
             raise UnfitError(f"has lines on the layer cut that name no item, {_NOT_OURS}")
         together.setdefault(line.said[0], []).append(line)
     return [
-        FoundItem(own[0].said[1], _region(own, height), sound_weight(own[0].said[2]))
+        FoundItem(own[0].said[1], paper.region(own), sound_weight(own[0].said[2]))
         for own in together.values()
     ]
-
-
-def _region(lines: Sequence[DxfLine], height: float) -> Region:
-    return region([_down(line.points, height) for line in lines], "evenodd")
-
-
-def _down(points: FloatArray, height: float) -> FloatArray:
-    """Points of a file, y turned down from the sheet's top."""
-    return np.column_stack([points[:, 0], height - points[:, 1]])

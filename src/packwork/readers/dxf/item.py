@@ -1,0 +1,256 @@
+"""DXF files to items, one for each outline that lies in no other.
+
+Lines to engrave, and open ones, travel with the part that they lie in. Outlines with straight sides
+lie around the true curves, by ``bezier.FLATTENING`` of the part's size at most; the curves are kept
+in the item's art, as arcs.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import shapely
+from scipy.spatial import KDTree
+from shapely.geometry import LineString, Polygon
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
+from packwork.geometry.arcs import ArcLine
+from packwork.geometry.bezier import FLATTENING
+from packwork.geometry.overlay import valid
+from packwork.geometry.polygon import Region
+from packwork.phrasing import number_of
+from packwork.readers.dxf.entities import (
+    MAX_DXF_BYTES,
+    CadDrawing,
+    Piece,
+    read_drawing,
+)
+from packwork.readers.dxf.rings import RingPart, nested, place, rings_of, size_of
+from packwork.readers.files import read_bytes, stem
+from packwork.readers.pages import Read
+from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
+from packwork.readers.regions import Holes, centred
+from packwork.scene.item import Item, LineArt
+from packwork.scene.notation import arc_path_data, decimals
+from packwork.units import convert
+
+MOST_ITEMS = 2_000
+"""Parts of one file. Chosen: as many as lie on a sheet."""
+
+ENGRAVED = re.compile(r"engrav|etch|grav|mark|text|score|raster|scribe", re.IGNORECASE)
+"""Names of layers of what is not cut through."""
+
+IGNORED = re.compile(r"constr|dimension|guide|\bdims?\b|border|title", re.IGNORECASE)
+"""Names of layers of what is no part of a piece."""
+
+OURS = {"container", "room"}
+"""Layers of the sheet in drawings that we wrote."""
+
+LEAST_MM, MOST_MM = 1e-3, 1e6
+"""Sizes of a part beyond which its unit is a mistake. Chosen."""
+
+FILL, INK = "#8fb48c", "#20302a"
+"""Colours of a part, and of what is engraved on it, on screen. Chosen by eye."""
+
+ENGRAVED_PX = 1.0
+"""Width of an engraved line on screen: a quarter of a millimetre. Chosen by eye."""
+
+_THINNEST = 1 / 200
+"""The same as a share of the part's size, at most."""
+
+_DIGITS = 1e-8
+"""Last digit of a path's coordinates, as a share of the part's size."""
+
+
+def read_dxf(path: str | Path, holes: Holes = "fill") -> list[Read]:
+    """Items of a DXF file, in px of its unit's true size; holes are those of a part's outline.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read, or an outline is open, crosses itself or another one.
+    """
+    with reading_file(str(path)), one_budget():
+        parts = cad_parts(read_bytes(path, MAX_DXF_BYTES))
+        name = stem(path)
+        names = [name] if len(parts) == 1 else [f"{name} {k}" for k in range(1, len(parts) + 1)]
+        return [
+            Read(_item(part, called, str(path), holes), str(path))
+            for part, called in zip(parts, names, strict=True)
+        ]
+
+
+@dataclass(frozen=True, eq=False)
+class CadPart:
+    """Lines to cut, the outer first, and to engrave: in px, y down, positive area but for holes."""
+
+    cut: tuple[ArcLine, ...]
+    engraved: tuple[ArcLine, ...]
+    region: Region
+
+
+def cad_parts(data: bytes) -> list[CadPart]:
+    """Parts of a DXF's bytes, in the order of their outlines there."""
+    drawing = read_drawing(data)
+    px = _px_of(drawing)
+    left_out = Counter(drawing.left_out)
+    cut, engraved = list[Piece](), list[Piece]()
+    for piece in drawing.pieces:
+        if IGNORED.search(piece.layer) or piece.layer.casefold() in OURS:
+            left_out[f"on layer {piece.layer[:40]!r}"] += 1
+        else:
+            (engraved if ENGRAVED.search(piece.layer) else cut).append(piece)
+    rings, loose = rings_of(cut)
+    parts, doubled = nested(rings)
+    if not parts:
+        raise UnfitError(_why_none(cut, loose, engraved, left_out))
+    if len(parts) > MOST_ITEMS:
+        raise UnfitError(f"holds {len(parts):,} parts, {MOST_ITEMS:,} are the most")
+    marked = _engraved(parts, engraved, loose, left_out)
+    if doubled:
+        notice(f"{number_of(doubled, 'outline')} that lay on another was taken once")
+    if left_out:
+        told = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
+        notice(f"left out: {told}; text and hatches have to be made curves to be engraved")
+    flip = np.array([[px, 0.0, 0.0], [0.0, -px, 0.0]])
+    return [_part(part, own, flip) for part, own in zip(parts, marked, strict=True)]
+
+
+def _px_of(drawing: CadDrawing) -> float:
+    """Pixels of one unit of a drawing; where it states none, that is said."""
+    millimetres = drawing.millimetres
+    if millimetres is None:
+        is_inch = drawing.is_metric is False
+        unit, millimetres = ("inches", 25.4) if is_inch else ("mm", 1.0)
+        notice(f"states no unit; it is taken for {unit}")
+    return millimetres * convert(1.0, "mm", "px")
+
+
+def _why_none(
+    cut: Sequence[Piece], loose: Sequence[Piece], engraved: Sequence[Piece], left_out: Counter[str]
+) -> str:
+    if loose:
+        return _open_at(loose, loose[0])
+    if engraved and not cut:
+        layers = ", ".join(sorted({piece.layer[:40] for piece in engraved})[:4])
+        return f"has lines to engrave alone, on layers such as {layers}; outlines go on others"
+    if cut:
+        first = cut[0]
+        return (
+            f"layer {first.layer[:40]!r}: the {first.kind} at {place(first.line.points[0])} has no "
+            "area, and there is no other outline"
+        )
+    others = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
+    return f"holds no outline{f', but {others}' if others else ''}; export lines and curves"
+
+
+def _open_at(loose: Sequence[Piece], piece: Piece) -> str:
+    ends = np.concatenate([[one.line.points[0], one.line.points[-1]] for one in loose])
+    own = np.array([piece.line.points[0], piece.line.points[-1]])
+    gaps = KDTree(ends).query(own, k=min(3, len(ends)))[0]
+    # The nearest of those is the end itself; what it meets is no gap.
+    free = max(range(2), key=lambda k: gaps[k][1])
+    return (
+        f"layer {piece.layer[:40]!r}: the {piece.kind} at {place(own[free])} is open; "
+        f"the next end is {gaps[free][1]:.3g} away"
+    )
+
+
+def _engraved(
+    parts: Sequence[RingPart],
+    engraved: Sequence[Piece],
+    loose: Sequence[Piece],
+    left_out: Counter[str],
+) -> list[list[ArcLine]]:
+    """Lines that go with each part; what lies beyond its edges is cut off."""
+    slack = FLATTENING * size_of([*engraved, *loose])
+    regions = [
+        Polygon(part.outer.polygon.exterior, [hole.polygon.exterior for hole in part.holes])
+        for part in parts
+    ]
+    tree = shapely.STRtree(regions)
+    found: list[list[ArcLine]] = [[] for _ in parts]
+    for piece in (*engraved, *loose):
+        points = piece.line.flattened(slack or 1e-9)
+        line = LineString(np.vstack([points, points[:1]]) if piece.line.is_closed else points)
+        near = [int(k) for k in tree.query(line, predicate="dwithin", distance=slack)]
+        inside = [k for k in near if regions[k].buffer(2 * slack).covers(line)]
+        if inside:
+            found[inside[0]].append(piece.line)
+        elif any(piece is one for one in loose):
+            raise UnfitError(_open_at(loose, piece))
+        elif not near:
+            left_out["to engrave beside all parts"] += 1
+        else:
+            left_out["engraved beyond an edge"] += 1
+            for k in near:
+                found[k] += _inside(line, regions[k])
+    if loose:
+        notice(f"{number_of(len(loose), 'open line')} inside parts will be engraved")
+    return found
+
+
+def _inside(line: LineString, region: Polygon) -> Iterator[ArcLine]:
+    for part in shapely.get_parts(shapely.intersection(line, region)):
+        points = shapely.get_coordinates(part)
+        if len(points) > 1:
+            yield ArcLine(points, np.zeros(len(points)))
+
+
+def _part(part: RingPart, engraved: Iterable[ArcLine], flip: FloatArray) -> CadPart:
+    """Lines in px; a map that mirrors makes an outer ring run the other way."""
+    outer = part.outer.line.mapped(flip, math.inf).reversed()
+    holes = [hole.line.mapped(flip, math.inf) for hole in part.holes]
+    size = float(np.ptp(shapely.get_coordinates(part.outer.polygon), axis=0).max()) * flip[0, 0]
+    millimetres = convert(size, "px", "mm")
+    if not LEAST_MM <= millimetres <= MOST_MM:
+        raise UnfitError(f"holds a part of {millimetres:.3g} mm; what is the drawing's unit?")
+    tolerance = FLATTENING * size
+    shell, *inner = (line.flattened(tolerance, around=True) for line in (outer, *holes))
+    region = Polygon(shell, inner)
+    return CadPart(
+        (outer, *holes), tuple(line.mapped(flip, math.inf) for line in engraved),
+        region if region.is_valid else valid(region),
+    )  # fmt: skip
+
+
+def _item(part: CadPart, name: str, source: str, holes: Holes) -> Item:
+    outline, ink, move = centred(part.region, holes)
+    cut, engraved = (
+        tuple(line.mapped(move, math.inf) for line in lines) for lines in (part.cut, part.engraved)
+    )
+    size = outline.extent
+    digits = decimals(_DIGITS * size)
+    path = "".join(arc_path_data(line, digits) for line in cut)
+    markup = f'<path fill="{FILL}" fill-rule="evenodd" d="{path}"/>'
+    width = min(ENGRAVED_PX, _THINNEST * size)
+    shown = "".join(_shown(engraved, ink.region, width, digits))
+    if shown:
+        markup += (
+            f'<path fill="none" stroke="{INK}" stroke-width="{width:.6g}" '
+            f'stroke-linejoin="round" d="{shown}"/>'
+        )
+    return Item(
+        name, source, outline, ink,
+        LineArt(markup, affine.identity(), cut=cut, engraved=engraved),
+    )  # fmt: skip
+
+
+def _shown(engraved: Iterable[ArcLine], region: Region, width: float, digits: int) -> Iterator[str]:
+    """Paths of engraved lines, away from all edges by their width."""
+    room = region.buffer(-width)
+    for line in engraved:
+        points = line.flattened(width / 10)
+        whole = LineString(np.vstack([points, points[:1]]) if line.is_closed else points)
+        if room.contains(whole):
+            yield arc_path_data(line, digits)
+        else:
+            for part in _inside(whole, room):
+                yield arc_path_data(part, digits)

@@ -1,0 +1,107 @@
+"""Parts from DXFs on sheets that are DXFs: units, true curves, layers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from typer.testing import Result
+
+import packwork as pw
+
+Command = Callable[..., Result]
+
+
+@pytest.fixture
+def shop(folder: Path) -> Path:
+    """A washer, an oblong hole, and a mark, of mm; a disc of inches."""
+    washer = ezdxf.new(units=4)
+    space = washer.modelspace()
+    space.add_circle((100, 50), 12)
+    space.add_circle((100, 50), 4.25)
+    space.add_lwpolyline([(92, 48, 0), (93, 48, 1), (93, 50, 0), (92, 50, 1)], "xyb", close=True)
+    space.add_arc((100, 50), 8, 20, 110, dxfattribs={"layer": "ETCH"})
+    (folder / "parts").mkdir()
+    washer.saveas(folder / "parts" / "washer.dxf")
+    disc = ezdxf.new(units=1)
+    disc.modelspace().add_circle((0, 0), 0.5)
+    disc.saveas(folder / "disc.dxf")
+    return folder
+
+
+def bent(path: Path, layer: str) -> list[np.ndarray]:
+    """Rows x, y and bulge of each line of a layer."""
+    lines = ezdxf.readfile(path).modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')
+    return [np.array(line.get_points("xyb")) for line in lines]  # type: ignore[attr-defined]
+
+
+def radii(rows: np.ndarray) -> np.ndarray:
+    """Radius of each arc of a closed line."""
+    sides = np.hypot(*(np.roll(rows[:, :2], -1, axis=0) - rows[:, :2]).T)
+    with np.errstate(divide="ignore"):
+        return np.asarray(sides * (1 + rows[:, 2] ** 2) / (4 * np.abs(rows[:, 2])))
+
+
+def test_circles_stay_circles_to_a_millionth_of_a_millimetre(shop: Path, packwork: Command) -> None:
+    result = packwork("nest 100x60mm parts*5 --rotate free --kerf 1mm --passes 5 -o a.dxf")
+    assert result.exit_code == 0, result.output
+    rings = bent(shop / "a.dxf", "cut")
+    assert len(rings) == 15
+    circles = [ring for ring in rings if len(ring) == 2]
+    found = sorted(float(radius) for ring in circles for radius in radii(ring))
+    assert found == pytest.approx([4.25] * 10 + [12] * 10, abs=1e-6)
+    centres = [ring[:, :2].mean(axis=0) for ring in circles]
+    pairs = zip(centres[::2], centres[1::2], strict=True)
+    assert max(float(np.hypot(*(one - other))) for one, other in pairs) < 1e-6
+    marks = bent(shop / "a.dxf", "engrave")
+    assert len(marks) == 5
+    for mark, centre in zip(marks, centres[::2], strict=True):
+        assert np.hypot(*(mark[:, :2] - centre).T) == pytest.approx([8] * 3, abs=1e-6)
+    assert packwork("measure a.dxf").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("sheet", "unit", "radius"),
+    [("4x3in", 1, 12 / 25.4), ("10x8cm", 5, 1.2), ("100x80mm", 4, 12)],
+)
+def test_parts_are_as_large_on_sheets_of_any_unit(
+    shop: Path, packwork: Command, sheet: str, unit: int, radius: float
+) -> None:
+    result = packwork(f"nest {sheet} parts disc.dxf --passes 5 -o a.dxf -o a.geojson")
+    assert result.exit_code == 0, result.output
+    assert ezdxf.readfile(shop / "a.dxf").header["$INSUNITS"] == unit
+    circles = [radii(ring).tolist() for ring in bent(shop / "a.dxf", "cut") if len(ring) == 2]
+    share = radius / 12
+    assert [round(one[0] / share, 6) for one in circles] == [12, 4.25, 12.7]
+    areas = pw.Layout.load(shop / "a.geojson").areas / share**2
+    assert areas[1] == pytest.approx(np.pi * 12.7**2, rel=1e-4)
+
+
+def test_what_a_drawing_shows_is_on_pictures_and_drawings_too(
+    shop: Path, packwork: Command
+) -> None:
+    result = packwork("nest 100x60mm parts*2 --passes 5 -o a.svg -o a.pdf")
+    assert result.exit_code == 0, result.output
+    assert "certified" in result.output
+    assert 'stroke="#20302a"' in (shop / "a.svg").read_text(encoding="utf-8")
+    assert packwork("measure a.svg").exit_code == 0
+
+
+def test_a_file_that_cannot_be_cut_is_one_line(shop: Path, packwork: Command) -> None:
+    open_one = ezdxf.new(units=4)
+    open_one.modelspace().add_lwpolyline([(0, 0), (9, 0), (9, 9)], dxfattribs={"layer": "CUT"})
+    open_one.saveas(shop / "open.dxf")
+    result = packwork("nest 100x60mm open.dxf*3 --passes 5 -o a.dxf")
+    assert result.exit_code == 2
+    assert "open.dxf: layer 'CUT': the LWPOLYLINE at (0, 0) is open" in result.output
+    assert result.output.count("\n") == 1
+    assert not (shop / "a.dxf").exists()
+
+
+def test_icons_may_be_dxfs_as_well(shop: Path, packwork: Command) -> None:
+    result = packwork("fill circle parts -n 6 --effort draft --levels 50 -o a.dxf")
+    assert result.exit_code == 0, result.output
+    assert packwork("measure a.dxf").exit_code == 0
