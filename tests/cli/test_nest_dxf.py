@@ -105,3 +105,15 @@ def test_icons_may_be_dxfs_as_well(shop: Path, packwork: Command) -> None:
     result = packwork("fill circle parts -n 6 --effort draft --levels 50 -o a.dxf")
     assert result.exit_code == 0, result.output
     assert packwork("measure a.dxf").exit_code == 0
+
+
+def test_a_sheet_may_be_a_dxf(shop: Path, packwork: Command) -> None:
+    hide = ezdxf.new(units=5)
+    hide.modelspace().add_ellipse((0, 0), (6, 0), 0.6)
+    hide.modelspace().add_circle((2, 0), 0.5)
+    hide.saveas(shop / "hide.dxf")
+    result = packwork("nest hide.dxf parts*4 --rotate none --passes 300 -o a.dxf")
+    assert result.exit_code == 0, result.output
+    layout = pw.Layout.load(shop / "a.dxf")
+    assert (layout.container.width, layout.container.unit) == (pytest.approx(120), "mm")
+    assert packwork("measure a.dxf").exit_code == 0

@@ -26,8 +26,8 @@ from packwork.sources import stored
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 
 _FORMS = (
-    "a PNG or JPEG mask, an SVG, text:WORD, around:IMAGE or a built-in name such as circle, heart "
-    "or page"
+    "a PNG or JPEG mask, an SVG, a DXF, text:WORD, around:IMAGE or a built-in name such as circle, "
+    "heart or page"
 )
 
 SHEETS = ("page", "none")
@@ -41,7 +41,7 @@ def read_container(
     quiet: QuietOptions | None = None,
     reading: ReadOptions | None = None,
 ) -> Container:
-    """Container of a mask, an SVG, ``text:WORD``, ``around:IMAGE`` or a built-in name.
+    """Container of a mask, an SVG, a DXF, ``text:WORD``, ``around:IMAGE`` or a built-in name.
 
     A path that exists wins over a name.
 
@@ -126,7 +126,7 @@ def _container(
     if text.startswith(AROUND):
         as_drawn = partial(read_container, reading=AS_DRAWN)
         return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), as_drawn)
-    if path.suffix.lower() in {".svg", ".svgz", *PICTURE_ENDINGS} or len(path.parts) > 1:
+    if path.suffix.lower() in {".svg", ".svgz", ".dxf", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
         raise ReadError(text, f"there is no such file{hint}")
@@ -142,6 +142,11 @@ def _container_of_file(
     if ending in {".svg", ".svgz"}:
         data = read_bytes(path, MAX_BYTES)
         return container_of_svg(data, stem(path), source, side, reading)
+    if ending == ".dxf":
+        # Loads what no other file needs.
+        from packwork.readers.dxf.item import MAX_DXF_BYTES, container_of_dxf
+
+        return container_of_dxf(read_bytes(path, MAX_DXF_BYTES), stem(path), source, side)
     if ending in PICTURE_ENDINGS:
         mask = trace_mask(path, reading.alpha_threshold)
         with reading_file(source):

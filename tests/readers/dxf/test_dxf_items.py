@@ -19,6 +19,8 @@ from hypothesis import strategies as st
 
 from packwork.errors import ReadError
 from packwork.geometry.arcs import ArcLine
+from packwork.geometry.outline import Outline
+from packwork.readers.container import read_container
 from packwork.readers.dxf import entities
 from packwork.readers.dxf.item import CadPart, cad_parts, read_dxf
 from packwork.readers.items import read_items
@@ -223,6 +225,28 @@ def test_the_drawing_of_an_item_covers_its_outline(
     drawing(plate).saveas(tmp_path / "plate.dxf")
     (item,) = read_items(tmp_path / "plate.dxf", holes="keep").items
     assert art_iou(item) > 0.995
+
+
+def test_a_container_lies_within_its_curves_in_mm(tmp_path: Path) -> None:
+    def draw(space: Modelspace) -> None:
+        space.add_lwpolyline(
+            [(0, 0, -0.3), (100, 0, 0), (100, 60, 0.3), (0, 60, 0)], format="xyb", close=True
+        )
+        space.add_circle((50, 40), 10)
+
+    drawing(draw, unit=5).saveas(tmp_path / "hide.dxf")
+    container = read_container(tmp_path / "hide.dxf")
+    assert container.unit == "mm"
+    assert container.width == pytest.approx(1000)
+    true = Outline.from_rings([
+        line.flattened(1e-5) / MM for line in cad_parts((tmp_path / "hide.dxf").read_bytes())[0].cut
+    ]).region  # fmt: skip
+    left, top, _, _ = true.bounds
+    moved = shapely.affinity.translate(true, -left, -top)
+    region = container.outline.region
+    assert shapely.difference(region, moved).area < 1e-4 * region.length
+    assert moved.area - region.area < 2e-5 * 1000 * region.length
+    assert read_container(tmp_path / "hide.dxf", 300.0).width == 300
 
 
 def test_layers_and_open_lines_are_engraved(caplog: pytest.LogCaptureFixture) -> None:

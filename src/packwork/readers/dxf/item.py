@@ -1,4 +1,4 @@
-"""DXF files to items, one for each outline that lies in no other.
+"""DXF files to items, one for each outline that lies in no other, and to containers.
 
 Lines to engrave, and open ones, travel with the part that they lie in. Outlines with straight sides
 lie around the true curves, by ``bezier.FLATTENING`` of the part's size at most; the curves are kept
@@ -11,7 +11,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,7 @@ from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import valid
-from packwork.geometry.polygon import Region
+from packwork.geometry.polygon import Region, polygon_parts
 from packwork.phrasing import number_of
 from packwork.readers.dxf.entities import (
     MAX_DXF_BYTES,
@@ -37,6 +37,7 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred
+from packwork.scene.container import Container, placed_container
 from packwork.scene.item import Item, LineArt
 from packwork.scene.notation import arc_path_data, decimals
 from packwork.units import convert
@@ -96,8 +97,28 @@ class CadPart:
     region: Region
 
 
-def cad_parts(data: bytes) -> list[CadPart]:
-    """Parts of a DXF's bytes, in the order of their outlines there."""
+def container_of_dxf(data: bytes, name: str, source: str, side: float | None = None) -> Container:
+    """Container of a DXF's bytes, its canvas the box of all outlines: in mm, or scaled to ``side``.
+
+    Outlines lie within the true curves, so that what is laid inside them is inside these.
+    """
+    with reading_file(source), one_budget():
+        regions = [part.region for part in cad_parts(data, within=True)]
+        whole = regions[0] if len(regions) == 1 else shapely.MultiPolygon(
+            [polygon for region in regions for polygon in polygon_parts(region)]
+        )  # fmt: skip
+        left, top, right, bottom = whole.bounds
+        canvas = left, top, right - left, bottom - top
+        own = convert(max(canvas[2:]), "px", "mm")
+        placed = placed_container(name, source, whole, canvas, own if side is None else side)
+    return replace(placed, unit="mm") if side is None else placed
+
+
+def cad_parts(data: bytes, *, within: bool = False) -> list[CadPart]:
+    """Parts of a DXF's bytes, in the order of their outlines there.
+
+    Their regions lie around what the lines enclose, or ``within`` it.
+    """
     drawing = read_drawing(data)
     px = _px_of(drawing)
     left_out = Counter(drawing.left_out)
@@ -120,7 +141,7 @@ def cad_parts(data: bytes) -> list[CadPart]:
         told = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
         notice(f"left out: {told}; text and hatches have to be made curves to be engraved")
     flip = np.array([[px, 0.0, 0.0], [0.0, -px, 0.0]])
-    return [_part(part, own, flip) for part, own in zip(parts, marked, strict=True)]
+    return [_part(part, own, flip, within=within) for part, own in zip(parts, marked, strict=True)]
 
 
 def _px_of(drawing: CadDrawing) -> float:
@@ -204,7 +225,9 @@ def _inside(line: LineString, region: Polygon) -> Iterator[ArcLine]:
             yield ArcLine(points, np.zeros(len(points)))
 
 
-def _part(part: RingPart, engraved: Iterable[ArcLine], flip: FloatArray) -> CadPart:
+def _part(
+    part: RingPart, engraved: Iterable[ArcLine], flip: FloatArray, *, within: bool
+) -> CadPart:
     """Lines in px; a map that mirrors makes an outer ring run the other way."""
     outer = part.outer.line.mapped(flip, math.inf).reversed()
     holes = [hole.line.mapped(flip, math.inf) for hole in part.holes]
@@ -213,7 +236,9 @@ def _part(part: RingPart, engraved: Iterable[ArcLine], flip: FloatArray) -> CadP
     if not LEAST_MM <= millimetres <= MOST_MM:
         raise UnfitError(f"holds a part of {millimetres:.3g} mm; what is the drawing's unit?")
     tolerance = FLATTENING * size
-    shell, *inner = (line.flattened(tolerance, around=True) for line in (outer, *holes))
+    # Seen the other way, what is outside a line is inside.
+    seen = [line.reversed() if within else line for line in (outer, *holes)]
+    shell, *inner = (line.flattened(tolerance, around=True) for line in seen)
     region = Polygon(shell, inner)
     return CadPart(
         (outer, *holes), tuple(line.mapped(flip, math.inf) for line in engraved),
