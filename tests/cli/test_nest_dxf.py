@@ -8,9 +8,11 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 from typer.testing import Result
 
 import packwork as pw
+from packwork.geometry.arcs import ArcLine
 
 Command = Callable[..., Result]
 
@@ -117,3 +119,43 @@ def test_a_sheet_may_be_a_dxf(shop: Path, packwork: Command) -> None:
     layout = pw.Layout.load(shop / "a.dxf")
     assert (layout.container.width, layout.container.unit) == (pytest.approx(120), "mm")
     assert packwork("measure a.dxf").exit_code == 0
+
+
+def hook(folder: Path) -> None:
+    """A part that is another one turned over."""
+    document = ezdxf.new(units=4)
+    corners = [(0, 0, 0), (30, 0, 0.4), (30, 8, 0), (8, 8, 0), (8, 20, 0), (0, 20, 0)]
+    document.modelspace().add_lwpolyline(corners, "xyb", close=True)
+    document.saveas(folder / "hook.dxf")
+
+
+def is_turned(points: np.ndarray) -> bool:
+    """Whether the shorter neighbour of its longest side comes before that, counter-clockwise."""
+    ring = points if shapely.is_ccw(shapely.LinearRing(points)) else points[::-1]
+    sides = np.hypot(*(np.roll(ring, -1, axis=0) - ring).T)
+    first = int(sides.argmax())
+    return bool(sides[first - 1] < sides[(first + 1) % len(sides)])
+
+
+def test_parts_that_are_turned_over_are_written_so(shop: Path, packwork: Command) -> None:
+    hook(shop)
+    line = "nest 40mm hook.dxf*9 --mirror --kerf 1mm --passes 200"
+    result = packwork(f"{line} -o a.dxf -o a.geojson")
+    assert result.exit_code == 0, result.output
+    layout = pw.Layout.load(shop / "a.geojson")
+    turned = 0
+    for rows, outline in zip(bent(shop / "a.dxf", "cut"), layout.outlines, strict=True):
+        line_there = ArcLine(rows[:, :2] * (1, -1) + (0, 40), -rows[:, 2], is_closed=True)
+        true = shapely.Polygon(line_there.flattened(1e-4))
+        assert shapely.symmetric_difference(true, outline.region).area < 0.05
+        turned += is_turned(rows[:, :2])
+    assert 0 < turned < 9
+
+
+def test_more_parts_go_on_a_sheet_that_is_a_dxf_of_ours(shop: Path, packwork: Command) -> None:
+    hook(shop)
+    assert packwork("nest 120x60mm parts*2 --passes 100 -o a.dxf").exit_code == 0
+    result = packwork("nest a.dxf hook.dxf --passes 900 -o b.dxf")
+    assert result.exit_code == 0, result.output
+    assert packwork("measure b.dxf").exit_code == 0
+    assert len(bent(shop / "b.dxf", "cut")) == 7

@@ -234,7 +234,7 @@ def _is_nest(source: str) -> bool:
     from packwork.readers.layouts.read import holds_layout
 
     ending = Path(source).suffix.lower()
-    return ending == ".geojson" or (ending == ".svg" and holds_layout(source))
+    return ending == ".geojson" or (ending in {".svg", ".dxf"} and holds_layout(source))
 
 
 def _asked(

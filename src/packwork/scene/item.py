@@ -179,7 +179,7 @@ class VectorArt:
 class LineArt(VectorArt):
     """A drawing of lines for a machine, whose arcs are kept beside the markup that shows them.
 
-    ``cut``: closed lines round the item and its holes, in its own units.
+    ``cut``: closed lines round the item and its holes, in the units of the markup.
     ``engraved``: lines that go with it.
     """
 

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import oriented_rings, polygon_parts
@@ -137,7 +138,8 @@ def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
     drawn = {item: _lines_of(item) for item in layout.items}
     for k, item in enumerate(layout.items):
         name = " ".join(sound_text(item.label.name or item.name).split())[:NAME_LENGTH]
-        own, matrix = drawn[item], layout.poses.matrix(k)
+        own = drawn[item]
+        matrix = affine.compose(layout.poses.matrix(k), own.matrix)
         outline = (
             [line.mapped(matrix, curves) for line in own.cut]
             if own.cut else _straight(layout.outlines[k].rings)
@@ -155,16 +157,20 @@ def _straight(rings: Iterable[FloatArray], *, is_closed: bool = True) -> list[Ar
 
 @dataclass(frozen=True, eq=False)
 class _Lines:
-    """Lines of an item in its own units; none to cut where those are of its outline as placed."""
+    """Lines of an item, and a map (2 x 3) to its own units.
+
+    None to cut: those of its outline as placed.
+    """
 
     cut: Sequence[ArcLine]
     engraved: Sequence[ArcLine]
+    matrix: FloatArray
 
 
 def _lines_of(item: Item) -> _Lines:
     if isinstance(item.art, LineArt):
-        return _Lines(item.art.cut, item.art.engraved)
-    return _Lines((), _straight(_bare_rings(item)))
+        return _Lines(item.art.cut, item.art.engraved, item.art.matrix)
+    return _Lines((), _straight(_bare_rings(item)), affine.identity())
 
 
 @dataclass(frozen=True, eq=False)

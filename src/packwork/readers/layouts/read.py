@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES, parse_xml
 from packwork.readers.layouts import HANDED_IN
-from packwork.readers.layouts.dxf import layout_of_dxf
+from packwork.readers.layouts.dxf import APPLICATION, layout_of_dxf
 from packwork.readers.layouts.foreign_svg import group_named
 from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
 from packwork.readers.layouts.svg import layout_of_svg
@@ -23,6 +24,10 @@ which paths."""
 
 SESSION = ".packwork"
 """Ending of session files: layouts with all that undo leads to. Their reader is handed in."""
+
+
+_OURS = re.compile(rb"^1001\s+" + APPLICATION.encode() + rb"\s*$", re.MULTILINE)
+"""Tag in a DXF before what we say of a line."""
 
 
 def is_drawn(path: str | Path) -> bool:
@@ -48,7 +53,9 @@ def is_session(path: str | Path) -> bool:
 
 
 def holds_layout(path: str | Path) -> bool:
-    """Whether an SVG is one of ours, a layout, and no drawing to be packed."""
+    """Whether an SVG or DXF is one of ours, a layout, and no drawing to be packed."""
+    if Path(path).suffix.lower() == ".dxf":
+        return _OURS.search(read_bytes(path, MAX_LAYOUT_BYTES)) is not None
     try:
         root = parse_xml(read_bytes(path, MAX_BYTES))
     except UnfitError:
