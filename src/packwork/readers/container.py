@@ -144,7 +144,8 @@ def _container_of_file(
         return container_of_svg(data, stem(path), source, side, reading)
     if ending == ".dxf":
         # Loads what no other file needs.
-        from packwork.readers.dxf.item import MAX_DXF_BYTES, container_of_dxf
+        from packwork.readers.dxf.entities import MAX_DXF_BYTES
+        from packwork.readers.dxf.item import container_of_dxf
 
         return container_of_dxf(read_bytes(path, MAX_DXF_BYTES), stem(path), source, side)
     if ending in PICTURE_ENDINGS:
