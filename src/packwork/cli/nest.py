@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -40,7 +42,9 @@ def nest(
     parts: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="PART...", help="DXF or SVG files, folders; part.dxf*12 for twelve."
+            metavar="PART...",
+            help="DXF or SVG files, folders; part.dxf*12 for twelve. Or a table of them, with the "
+            "columns file, count and, where wanted, name, rotate, mirror, optional, priority.",
         ),
     ] = None,
     rotate: Annotated[
@@ -247,8 +251,6 @@ def _asked(
 ) -> tuple[list[Sheet], list[SheetPart]]:
     """Sheets and parts of a command line."""
     from packwork.readers.instances import is_instance, read_instance
-    from packwork.readers.items import read_items
-    from packwork.recipe.rules import Rotation
     from packwork.units import convert
     from packwork.uses.nesting import Sheet, SheetPart
 
@@ -265,18 +267,74 @@ def _asked(
     if not named and not optional:
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.dxf*12")
     sheets = _sheets(sheet)
-    turned = Rotation.parse(rotate)
-    angles = turned.choices
-    if turned.limit is not None:
-        steps = WITHIN_LIMIT if turned.limit > 0 else 0
-        angles = tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
-    parts = []
-    for text in [*named, *optional]:
-        source, count = _counted(text)
-        parts += [
-            SheetPart(item=item, count=1 if count is None else count, angles=angles,
-                      scale=convert(1.0, "px", sheets[0].unit), mirrors=mirror,
-                      is_optional=text in optional)
-            for item in read_items(source, holes=holes).items
-        ]  # fmt: skip
+    usual = {"rotate": rotate, "mirror": "yes" if mirror else "no"}
+    parts = [
+        part
+        for k, text in enumerate([*named, *optional])
+        for part in _parts(
+            text, {**usual, "optional": "yes" if k >= len(named) else "no"}, holes,
+            convert(1.0, "px", sheets[0].unit),
+        )
+    ]  # fmt: skip
     return sheets, parts
+
+
+RULES = ("rotate", "mirror", "optional", "priority")
+"""Columns of a cut list that say how its parts may lie."""
+
+
+def _parts(
+    text: str, usual: Mapping[str, str], holes: Literal["keep", "fill"], scale: float
+) -> Iterator[SheetPart]:
+    """Parts of a file, a folder or a cut list; rules that none of its rows has are the usual."""
+    from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
+    from packwork.readers.items import read_items
+    from packwork.uses.nesting import SheetPart
+
+    source, times = _counted(text)
+    rows: Iterable[CutListRow] = [CutListRow(file=source)]
+    if is_cut_list(source):
+        rows = read_cut_list(source, RULES)
+    for row in rows:
+        rules = {**usual, **row.rules}
+        try:
+            angles, priority = _angles(rules["rotate"]), _whole(rules.get("priority", "0"))
+            mirrors, is_optional = (_is_yes(name, rules[name]) for name in ("mirror", "optional"))
+        except RecipeError as error:
+            raise ReadError(source, f"{row.where}: {error}") if row.where else error from None
+        items = read_items(row.file, holes=holes).items
+        for k, item in enumerate(items, start=1):
+            name = f"{row.name} {k}" if len(items) > 1 else row.name
+            yield SheetPart(
+                item=replace(item, name=name) if row.name else item,
+                count=row.count * (1 if times is None else times), angles=angles, scale=scale,
+                mirrors=mirrors, is_optional=is_optional, priority=priority,
+            )  # fmt: skip
+
+
+def _angles(rotate: str) -> tuple[float, ...] | None:
+    """Allowed angles in radians; None for any."""
+    from packwork.recipe.rules import Rotation
+
+    turned = Rotation.parse(rotate)
+    if turned.limit is None:
+        return turned.choices
+    steps = WITHIN_LIMIT if turned.limit > 0 else 0
+    return tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text[:9])
+    except ValueError:
+        raise RecipeError("priority", f"is a whole number, not {text[:20]!r}") from None
+
+
+def _is_yes(name: str, text: str) -> bool:
+    word = text.casefold()
+    if word not in {*_YES, *_NO}:
+        raise RecipeError(name, f"is yes or no, not {text[:20]!r}")
+    return word in _YES
+
+
+_YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
