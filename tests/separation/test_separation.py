@@ -153,7 +153,9 @@ def test_losses_kept_up_by_moves_are_those_of_the_poses() -> None:
         kept = layout.losses.copy()
         put_all(layout.poses, layout.arrays, problem.shapes, problem.turns, layout.weights,
                 layout.losses, layout.sheet, layout.turned, layout.scratch)  # fmt: skip
-        np.testing.assert_allclose(kept, layout.losses, rtol=1e-9, atol=1e-9)
+        np.testing.assert_array_equal(kept > 0.0, layout.losses > 0.0)
+        # Poles have 32 bits.
+        np.testing.assert_allclose(kept, layout.losses, rtol=1e-4)
 
 
 def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
@@ -185,7 +187,9 @@ def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
 def test_poles_lie_inside_and_apart(region: shapely.Polygon) -> None:
     x, y, radius = poles_of(region)
     circles = [
-        shapely.Point(a, b).buffer(r * (1 - 1e-9)) for a, b, r in zip(x, y, radius, strict=True)
+        shapely.Point(a, b).buffer(r * (1 - 1e-9))
+        for a, b, r in zip(x, y, radius, strict=True)
+        if r
     ]
     assert all(region.buffer(1e-9).covers(circle) for circle in circles)
     assert overlap(circles) < 1e-6 * region.area

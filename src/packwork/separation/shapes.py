@@ -31,8 +31,8 @@ FREE_TURNS = 32
 POLE_CELLS = 100
 """Cells of the longer side of the grid on which poles are sought."""
 
-MOST_POLES, FEWEST_POLES, POLE_COVER = 21, 16, 0.8
-"""Poles stop when they cover that share of a part; more are dearer, fewer tell depth worse."""
+POLES = 16
+"""Poles of each part, a multiple of what a processor works out at once."""
 
 DECAY_SHARE = 0.01
 """Depth below which the price of an overlap falls off slowly, over a part's diameter."""
@@ -135,7 +135,10 @@ def edges_of(region: Region) -> Floats:
 
 @lru_cache(maxsize=4096)
 def poles_of(region: Region) -> Floats:
-    """Circles inside a region that do not overlap, each the largest that is left (greedily)."""
+    """Circles inside a region that do not overlap, each the largest that is left (greedily).
+
+    Where no more have room, the last ones are points, at the centre of the first.
+    """
     x0, y0, x1, y1 = region.bounds
     cell = max(x1 - x0, y1 - y0) / POLE_CELLS
     x, y = (one.ravel() for one in np.meshgrid(np.arange(x0 + cell / 2, x1, cell),
@@ -144,20 +147,18 @@ def poles_of(region: Region) -> Floats:
     x, y = x[inside], y[inside]
     room = shapely.distance(region.boundary, shapely.points(x, y))
     poles: list[tuple[float, float, float]] = []
-    covered = 0.0
-    while len(room) and len(poles) < MOST_POLES:
+    while len(room) and len(poles) < POLES:
         k = int(np.argmax(room))
         radius = float(room[k])
-        is_enough = len(poles) >= FEWEST_POLES and covered > POLE_COVER * region.area
-        if radius < cell / 2 or is_enough:
+        if radius < cell / 2:
             break
         poles.append((float(x[k]), float(y[k]), radius))
-        covered += math.pi * radius**2
         room = np.minimum(room, np.hypot(x - x[k], y - y[k]) - radius)
     if not poles:
         # Thinner than a cell.
         inner = region.representative_point()
         poles.append((inner.x, inner.y, float(shapely.distance(region.boundary, inner))))
+    poles += [(*poles[0][:2], 0.0)] * (POLES - len(poles))
     return np.array(poles).T.copy()
 
 

@@ -72,7 +72,7 @@ class WorkerState:
     arrays: tuple[Any, ...]
     weights: Floats
     losses: Floats
-    turned: tuple[Floats, Floats]
+    turned: tuple[Floats, npt.NDArray[np.float32]]
     scratch: tuple[Any, ...]
     random: npt.NDArray[np.uint64]
     image: npt.NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0), np.float32))
@@ -98,10 +98,10 @@ class WorkerState:
         most, many = np.diff(edge_at).max() + 1, np.diff(pole_at).max()
         layout = cls(
             problem, np.array([length, problem.height]),
-            (items, index, np.hstack(own), np.hstack(inner)),
+            (items, index, np.hstack(own), np.hstack(inner).astype(np.float32)),
             np.ones((count, count)), np.zeros((count, count)),
-            (np.empty((4, most)), np.empty((3, many))),
-            (np.empty((4, most)), np.empty((2, many)), np.empty(count, np.int64),
+            (np.empty((4, most)), np.empty((3, many), np.float32)),
+            (np.empty((4, most)), np.empty((2, many), np.float32), np.empty(count, np.int64),
              np.empty(count), np.empty(most, np.int64), np.empty(4)),
             np.array([seed], np.uint64),
         )  # fmt: skip

@@ -33,7 +33,7 @@ def outside_price(x0, y0, x1, y1, sheet, penalty):
 
 @helper
 def pole_overlap(x, y, turned_poles, count, poles, first, last, decay, lanes):
-    """Sum over pairs of poles of their depths, and the greatest depth.
+    """Sum over pairs of poles of their depths, and the greatest depth, both to 32 bits.
 
     Depths below ``decay`` fall off as its square over the distance, never to 0. ``lanes``: two rows
     of scratch; sums run beside one another in a fixed order, so that no machine rounds otherwise.
@@ -42,21 +42,23 @@ def pole_overlap(x, y, turned_poles, count, poles, first, last, decay, lanes):
     for q in range(wide):
         lanes[0, q] = 0.0
         lanes[1, q] = -np.inf
-    square, twice = decay * decay, 2.0 * decay
+    shallow = np.float32(decay)
+    square, twice = shallow * shallow, shallow + shallow
+    left, top = np.float32(x), np.float32(y)
     for p in range(count):
-        px, py, radius = x + turned_poles[0, p], y + turned_poles[1, p], turned_poles[2, p]
+        px, py, radius = left + turned_poles[0, p], top + turned_poles[1, p], turned_poles[2, p]
         for q in range(wide):
             dx, dy = px - poles[0, first + q], py - poles[1, first + q]
             other = poles[2, first + q]
-            depth = radius + other - math.sqrt(dx * dx + dy * dy)
-            decayed = depth if depth >= decay else square / (twice - depth)
+            depth = radius + other - np.sqrt(dx * dx + dy * dy)
+            decayed = depth if depth >= shallow else square / (twice - depth)
             lanes[0, q] += decayed * (min(other, radius))
             lanes[1, q] = max(lanes[1, q], depth)
     total, deepest = 0.0, -np.inf
     for q in range(wide):
         total += lanes[0, q]
         deepest = max(deepest, lanes[1, q])
-    return math.pi * total + square, deepest
+    return math.pi * total + decay * decay, deepest
 
 
 @helper
@@ -153,7 +155,8 @@ def price(i, x, y, bound, row, layout, weights, turned, sheet, scratch):
             x, y, own_poles, pole_count, poles, index[j, POLE], index[j, POLE_END], decay, lanes
         )
         cost = math.sqrt(area) * penalty * items[j, PENALTY]
-        if depth <= 0.0:
+        if depth <= decay:
+            # Not deep enough for poles to tell, rounded as they are.
             waiting[left], prices[left] = j, cost
             left += 1
             continue
