@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from packwork import uses
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.table import read_table
@@ -162,7 +163,12 @@ def test_marks_go_to_the_values_of_their_names() -> None:
         (LANDS, {"color_by": "mass"}, "color_by: there is no column"),
         (LANDS, {"size_by": "land"}, "holds text such as 'Peru', no numbers; those of numbers"),
         ([{"a": 0}, {"a": 0}], {"size_by": "a"}, "no row can be shown: 'a' is 0 in 2 rows"),
-        ([{"a": 1}] * 100_000, {}, r"100,000 marks; at most 5,000 .* --unit 20 or more"),
+        ([{"a": 1}] * 100_001, {}, r"100,001 marks; at most 5,000 .* --unit 50 or more"),
+        (
+            [{"a": 1}] * 100_000,
+            {"mark": "star"},
+            r"100,000 marks; at most 5,000 .* --unit 20 or more",
+        ),
         (LANDS, {"size_by": "kg", "unit": 1e-99}, "more than 1,000,000,000 marks; .* --unit 0.01"),
         ([{"a": 1}, {"a": 1e9}], {"size_by": "a"}, "at most 1e\\+06 can be shown"),
         (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
@@ -175,6 +181,15 @@ def test_bad_data_are_one_clear_line(rows: Any, options: dict[str, Any], message
     with pytest.raises(PackworkError, match=message) as caught:
         chart(rows, **options)
     assert "\n" not in str(caught.value)
+
+
+def test_more_marks_than_levels_can_place_are_taken_as_circles_that_jam() -> None:
+    rows = [{"a": 1}] * 6_000
+    jammed = uses.read(chart_recipe("circle", rows))
+    assert "JamDiscs" in [type(step).__name__ for step in jammed.use.steps(jammed)]
+    drawn = uses.read(chart_recipe("circle", rows, force=["down"]))
+    with pytest.raises(PackworkError, match="6,000 marks; more than 5,000 have to be circles"):
+        drawn.use.steps(drawn)
 
 
 def test_the_unit_that_is_offered_is_enough() -> None:

@@ -38,6 +38,9 @@ MOST_MARKS = 5_000
 """Marks of one chart: on a canvas of 600 px each would be 5 px wide. More could not be told
 apart. Derived."""
 
+MOST_CIRCLES = 100_000
+"""The same of circles, of which far more fit on a large sheet in little time. Chosen."""
+
 MOST_COMPARED = 4 * MOST_MARKS
 """Rows at most that are compared with each other: of more, most are empty."""
 
@@ -223,7 +226,8 @@ def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], Flo
     else:
         with np.errstate(over="ignore"):  # of a tiny unit: too many in any case
             total = float(np.ceil(amounts / unit - SPECK).sum())
-    if total > MOST_MARKS:
+    are_circles = unit is None and not options.mark and options.mark_by is None
+    if total > (MOST_CIRCLES if are_circles else MOST_MARKS):
         said = f"{total:,.0f}" if total < LARGE else f"more than {LARGE:,}"
         least = round_up((total if unit is None else float(amounts.sum())) / MOST_MARKS)
         raise RecipeError(

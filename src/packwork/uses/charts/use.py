@@ -34,6 +34,7 @@ from packwork.uses.charts.layout import Chart, spread_out
 from packwork.uses.charts.legend import legend_notes
 from packwork.uses.charts.mark_labels import mark_labels
 from packwork.uses.charts.marks import ChartRead, read_chart
+from packwork.uses.charts.rows import MOST_MARKS
 from packwork.uses.collage import filling, placing, reporting
 
 CLOSE = 0.03
@@ -54,8 +55,14 @@ class ChartUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """As icons, or groups one after another; discs closer together where there are so many."""
-        gap = close_gap(job, Verbs.CHART, CLOSE)
-        if gap >= job.plan.gap or self.chart.has_bars or not jams_discs(job):
+        gap, jams = close_gap(job, Verbs.CHART, CLOSE), jams_discs(job) and not self.chart.has_bars
+        if len(job.items) > MOST_MARKS and not jams:
+            raise RecipeError(
+                "unit",
+                f"there are {len(job.items):,} marks; more than {MOST_MARKS:,} have to be circles "
+                "without bars, rules, forces or an earlier layout: use a larger unit",
+            )
+        if gap >= job.plan.gap or not jams:
             return self._listed(job)
         return [Replan(gap=gap), *self._listed(job.replanned(gap=gap)), RemarkGap("marks")]
 
