@@ -20,7 +20,8 @@ from shapely.affinity import rotate, translate
 from benchmarks.peers.peering import version
 from packwork.readers.instances import Instance, read_instance
 from packwork.separation.strip import WorkBound
-from packwork.uses.nesting import Nest, Sheet, SheetPart, nest
+from packwork.uses.nested import Nest, Sheet, SheetPart
+from packwork.uses.nesting import nest
 
 MOST_OVERLAP = 1e-9
 """Share of the parts' area that rounding may make of touching ones."""

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from packwork.api.inputs import read_container, read_items
     from packwork.api.judging import finish, measure
     from packwork.api.layout import Layout
+    from packwork.api.nesting import Nest, nest
     from packwork.api.parts import Placement
     from packwork.api.series import Series, chart_series, series
     from packwork.api.session import Session
@@ -54,6 +55,7 @@ __all__ = [
     "Item",
     "Layout",
     "Metrics",
+    "Nest",
     "Outline",
     "PackworkError",
     "Placement",
@@ -76,6 +78,7 @@ __all__ = [
     "finish",
     "fit_outline",
     "measure",
+    "nest",
     "photos",
     "pile",
     "read_container",
@@ -99,6 +102,7 @@ _HOMES = {
     "Item": "packwork.scene.item:Item",
     "Layout": "packwork.api.layout:Layout",
     "Metrics": "packwork.metrics.measure:Metrics",
+    "Nest": "packwork.api.nesting:Nest",
     "Outline": "packwork.geometry.outline:Outline",
     "PackworkError": "packwork.errors:PackworkError",
     "Placement": "packwork.api.parts:Placement",
@@ -120,6 +124,7 @@ _HOMES = {
     "finish": "packwork.api.judging:finish",
     "fit_outline": "packwork.fit.fitted:fit_outline",
     "measure": "packwork.api.judging:measure",
+    "nest": "packwork.api.nesting:nest",
     "photos": "packwork.api.verbs:photos",
     "pile": "packwork.api.verbs:pile",
     "read_container": "packwork.api.inputs:read_container",

@@ -9,10 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from packwork.separation.shapes import Floats
-from packwork.separation.strip import EXPLORED, LONGER, PATIENCE_AT_END, START, Strip, StripSearch
+from packwork.separation.strip import EXPLORED, PATIENCE_AT_END, Strip, StripSearch
 
 FIRST_BATCH = 0.1
 """Share of all parts that are brought onto the sheets at once at first."""
+
+SPARSE, MUCH_LONGER = 0.45, 1.5
+"""Density at which parts are brought in first, and how much longer the sheets are cut off where
+some have no room: sheets may be narrow at an end."""
 
 BATCH_PATIENCE = 30
 """Passes without a lower loss after which a batch is halved."""
@@ -45,7 +49,7 @@ class SheetSearch(StripSearch):
         problem = self.problem
         required = np.flatnonzero(~self.is_optional)
         area = float(problem.areas[required].sum())
-        length = min(max(self.ground.length_for(area / START), problem.widest), self.ground.end)
+        length = min(max(self.ground.length_for(area / SPARSE), problem.widest), self.ground.end)
         self.bring_in(required, length, self.ground.end, until)
 
     def bring_in(self, parts: Indices, length: float, longest: float, until: float) -> None:
@@ -66,7 +70,7 @@ class SheetSearch(StripSearch):
             if failed >= len(waiting):
                 # None of them has room: on a longer stretch, or with more patience.
                 if length < longest:
-                    longer = self.ground.next_length(length * LONGER, self.problem.widest)
+                    longer = self.ground.next_length(length * MUCH_LONGER, self.problem.widest)
                     length = min(longer, longest)
                 else:
                     patience = min(2 * patience, PATIENCE_AT_END)

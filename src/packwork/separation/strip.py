@@ -49,6 +49,8 @@ class WorkBound:
     seconds: float = math.inf
     begun: float = math.nan
     done: int = 0
+    met: str = ""
+    """Best result so far, in words."""
 
     def start(self) -> None:
         """Count from now on."""
@@ -176,6 +178,8 @@ class StripSearch:
         """Remember a layout without overlaps, on a strip no longer than need be."""
         boxes = self.layout.arrays[0][: len(self.problem)]
         self.best = Strip(float(boxes[:, X1].max()), poses, boxes[:, X0].copy())
+        left = int(np.isnan(poses[:, 0]).sum())
+        self.work.met = f"{left} parts left" if left else f"length {self.best.length:.5g}"
         return self.best
 
     def shorter(self, best: Strip, share: float) -> None:

@@ -90,6 +90,7 @@ def lay_on_sheets(
         laid, left = _by_sheet(search, np.repeat(kinds, [counts[kind] for kind in kinds]), at)
         if bound is not work:
             work.done += bound.done
+            work.met = f"{sum(left.values()) + len(queue)} parts left"
         if is_last:
             return found + laid, missing + left + Counter(queue)
         if len(laid) == 1 and len(window) < MOST_IN_WINDOW:

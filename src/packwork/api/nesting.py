@@ -1,0 +1,214 @@
+"""Nests in Python: parts of true size on as few sheets as possible."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+from packwork import writers
+from packwork.api.layout import Layout, public
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline, OutlineLike
+from packwork.progress import Stop, never
+from packwork.readers.instances import is_instance
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.separation.strip import WorkBound
+from packwork.units import Unit
+from packwork.uses import nested, nesting
+from packwork.uses.nest_request import (
+    angles_of,
+    length_of,
+    read_parts,
+    read_request,
+    read_sheets,
+)
+
+Part: TypeAlias = Any
+"""A file, as ``bracket.dxf*12``; or an item or outline in memory, in units of the sheet."""
+
+Parts: TypeAlias = Part | Iterable[Part | tuple[Part, int]] | Mapping[Part, int]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Nest:
+    """Sheets with parts on them: what :func:`nest` returns.
+
+    Parameters
+    ----------
+    layouts
+        A layout for each sheet that is used.
+    unplaced
+        Parts that found no room, by name, and how many of each; optional ones are none.
+    length, density
+        Used length of the last sheet, and the share that parts cover of what is used of all.
+    certified
+        Whether exact geometry shows that no two parts overlap and none sticks out.
+    """
+
+    layouts: tuple[Layout, ...]
+    unplaced: Mapping[str, int]
+    length: float
+    density: float
+    certified: bool
+    _nested: nested.Nest
+
+    def __len__(self) -> int:
+        return len(self.layouts)
+
+    def __iter__(self) -> Iterator[Layout]:
+        return iter(self.layouts)
+
+    def __repr__(self) -> str:
+        said = "certified" if self.certified else "not certified"
+        return f"<Nest: {len(self)} sheets, {self.density:.1%} covered, {said}>"
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """Plain numbers and texts, as ``--report`` has them."""
+        return self._nested.report()
+
+    def save(self, path: str | Path, **drawing: Any) -> tuple[Path, ...]:
+        """Write a file for each sheet, ``a-1.dxf`` and so on where there are several.
+
+        Raises
+        ------
+        WriteError
+            If one cannot be written; then none is.
+        """
+        options = writers.write_options(**drawing)
+        paths = [nested.sheet_file(Path(path), k, len(self)) for k in range(1, len(self) + 1)]
+        writers.write_all(
+            [(one, writers.encoded(layout, one, options))
+             for one, layout in zip(paths, self.layouts, strict=True)]
+        )  # fmt: skip
+        return tuple(paths)
+
+
+def nest(
+    sheet: str | os.PathLike[str] | OutlineLike | Container,
+    parts: Parts = (),
+    *,
+    optional: Parts = (),
+    rotate: str = "0,90,180,270",
+    mirror: bool = False,
+    holes: Literal["keep", "fill"] = "keep",
+    kerf: str | float = 0.0,
+    margin: str | float | None = None,
+    time: float = 20.0,
+    passes: int | None = None,
+    seed: int = 0,
+    stop: Stop = never,
+) -> Nest:
+    """Lay parts of true size on as few sheets and as little of the last one as possible.
+
+    Parameters
+    ----------
+    sheet
+        As on the command line: ``"600x400mm"``, ``"600x400mm*2"``, ``"400mm"`` for a strip of open
+        length, ``"hide.svg,600x400mm"``, an instance of strip packing (``.json``); or an outline or
+        a :class:`Container`, of which there is one.
+    parts, optional
+        Files, as ``"bracket.dxf*12"``, or outlines and items in memory, in units of the sheet; each
+        by itself or with a count, ``(outline, 12)``. Optional ones only fill what is left.
+    rotate
+        Allowed angles in degrees, as ``"0,180"``; ``"free"``, ``"none"``, or ``"30"``: up to that.
+    mirror
+        Whether parts may be turned over.
+    holes
+        ``"fill"``: no part lies in the hole of another.
+    kerf, margin
+        Smallest distance of parts, and of parts from the edge; a number is in units of the sheet.
+    time, passes
+        Seconds to search; or passes, which give the same nest again.
+    stop
+        Asked before every pass; True ends with the best so far.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        If a file cannot be used, or a part is larger than every sheet.
+
+    Examples
+    --------
+    >>> tile = [(0, 0), (4, 0), (4, 3), (0, 3)]
+    >>> found = nest("10x10mm", [(tile, 6)], kerf=0.1, passes=200)
+    >>> len(found), len(found.layouts[0]), found.certified
+    (1, 6, True)
+    """
+    if isinstance(sheet, str | os.PathLike) and is_instance(os.fspath(sheet)):
+        sheets, laid = read_request(
+            os.fspath(sheet), [str(part) for part, _ in _pairs(parts)], [], rotate, mirror=mirror,
+            holes=holes,
+        )  # fmt: skip
+    else:
+        sheets = _sheets(sheet)
+        laid = [
+            made
+            for group, is_optional in ((parts, False), (optional, True))
+            for part, count in _pairs(group)
+            for made in _parts(part, count, sheets[0].unit, rotate=rotate, mirror=mirror,
+                               holes=holes, optional=is_optional)
+        ]  # fmt: skip
+    gap = _length("kerf", kerf, sheets[0])
+    away = None if margin is None else _length("margin", margin, sheets[0])
+    work = WorkBound(seconds=time) if passes is None else WorkBound(passes=passes)
+    found = nesting.nest(laid, sheets, gap=gap, margin=away, seed=seed, work=work, stop=stop)
+    return Nest(
+        tuple(public(one.layout) for one in found.sheets),
+        {item.name: count for item, count in found.unplaced},
+        found.length, found.density, found.certified, found,
+    )  # fmt: skip
+
+
+def _pairs(parts: Parts) -> Iterator[tuple[Part, int]]:
+    """Parts, each with its count."""
+    if isinstance(parts, Mapping):
+        yield from parts.items()
+    elif isinstance(parts, str | os.PathLike | Item | Outline) or hasattr(parts, "geom_type"):
+        yield parts, 1
+    else:
+        several: Iterable[Any] = [parts] if _is_pair(parts) else parts
+        for one in several:
+            yield one if _is_pair(one) else (one, 1)
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], int)
+
+
+def _sheets(sheet: Any) -> list[nested.Sheet]:
+    if isinstance(sheet, str | os.PathLike):
+        return read_sheets(os.fspath(sheet))
+    ground = sheet if isinstance(sheet, Container) else Container("sheet", outline=sheet)
+    return [
+        nested.Sheet(height=ground.height, length=ground.width, unit=ground.unit,
+                      name=ground.name, outline=ground.outline, count=1)
+    ]  # fmt: skip
+
+
+def _parts(
+    part: Part, count: int, unit: Unit, *, rotate: str, mirror: bool, holes: Any, optional: bool
+) -> Iterator[nested.SheetPart]:
+    if isinstance(part, str | os.PathLike):
+        text = os.fspath(part) if count == 1 else f"{os.fspath(part)}*{count}"
+        yield from read_parts(text, unit, rotate, mirror=mirror, holes=holes, optional=optional)
+        return
+    item = part if isinstance(part, Item) else Item("part", outline=part)
+    if holes == "fill":
+        item = Item(item.name, outline=item.outline.without_holes(), ink=item.ink, art=item.art)
+    yield nested.SheetPart(
+        item=item, count=count, angles=angles_of(rotate), mirrors=mirror, is_optional=optional
+    )
+
+
+def _length(option: str, value: str | float, sheet: nested.Sheet) -> float:
+    if isinstance(value, str):
+        return length_of(option, value, sheet)
+    if not (math.isfinite(value) and value >= 0.0):
+        raise RecipeError(option, f"is a distance of 0 or more, not {value:g}")
+    return float(value)

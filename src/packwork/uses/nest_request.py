@@ -1,0 +1,185 @@
+"""Sheets and parts of a nest as they are named in words: files, counts, cut lists, instances."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+from packwork.errors import ReadError, RecipeError
+from packwork.readers.container import read_container
+from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
+from packwork.readers.files import exists
+from packwork.readers.instances import is_instance, read_instance
+from packwork.readers.items import read_items
+from packwork.readers.layouts.read import holds_layout, read_written
+from packwork.recipe.rules import Rotation
+from packwork.units import Unit, canvas_size, convert, parse_length
+from packwork.uses.nested import Sheet, SheetPart
+
+Holes: TypeAlias = Literal["keep", "fill"]
+
+WITHIN_LIMIT = 4
+"""Angles tried to each side where parts may turn within a limit."""
+
+_TIMES = re.compile(r"(?P<source>.+)\*(?P<count>[0-9]{1,6})")
+
+RULES = ("rotate", "mirror", "optional", "priority")
+"""Columns of a cut list that say how its parts may lie."""
+
+_YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
+
+
+def length_of(option: str, text: str, sheet: Sheet) -> float:
+    """Length in the sheet's unit; RecipeError names the option."""
+    try:
+        return parse_length(text, sheet.unit, sheet.height)
+    except ValueError as error:
+        raise RecipeError(option, str(error)) from None
+
+
+def _counted(text: str) -> tuple[str, int | None]:
+    """Source and count of ``part.svg*12``; None where no count is given."""
+    met = None if exists(text) else _TIMES.fullmatch(text)
+    return (met["source"], int(met["count"])) if met else (text, None)
+
+
+def read_sheets(text: str) -> list[Sheet]:
+    """Sheets of ``600x400mm*2,hide.svg``; all in the unit of the first."""
+    found = list[Sheet]()
+    for one in [text] if exists(text) else text.split(","):
+        source, count = _counted(one.strip())
+        if exists(source) and _is_nest(source):
+            layout = read_written(source)
+            ground = layout.container
+            found.append(
+                Sheet(height=ground.height, length=ground.width, unit=ground.unit,
+                      name=ground.name, outline=ground.outline, count=1, held=layout)
+            )  # fmt: skip
+            continue
+        if exists(source) or Path(source).suffix:
+            read = read_container(source)
+            found.append(
+                Sheet(height=read.height, length=read.width, unit=read.unit, name=read.name,
+                      outline=read.outline, count=1 if count is None else count)
+            )  # fmt: skip
+            continue
+        try:
+            size = canvas_size(source)
+        except RecipeError as error:
+            raise ReadError(source, str(error).removeprefix("canvas: ")) from None
+        sides = (math.inf, size.width) if size.height is None else (size.width, size.height)
+        found.append(Sheet(length=sides[0], height=sides[1], unit=size.unit, count=count))
+    unit = found[0].unit
+    return [one.scaled(convert(1.0, one.unit, unit), unit) for one in found]
+
+
+def _is_nest(source: str) -> bool:
+    """Whether a file holds a layout of ours, on whose sheet more parts can be laid."""
+    ending = Path(source).suffix.lower()
+    return ending == ".geojson" or (ending in {".svg", ".dxf"} and holds_layout(source))
+
+
+def read_request(
+    sheet: str, named: Sequence[str], optional: Sequence[str], rotate: str, *, mirror: bool,
+    holes: Holes,
+) -> tuple[list[Sheet], list[SheetPart]]:  # fmt: skip
+    """Sheets and parts, as a command line names them; an instance holds its parts.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        If a file cannot be read, or a rule has no meaning.
+    """
+    if is_instance(sheet):
+        if named or optional:
+            raise RecipeError("items", "an instance holds its parts; name none besides")
+        instance = read_instance(sheet)
+        parts = [
+            SheetPart(item=one.item, count=one.count,
+                  angles=None if one.angles is None else tuple(map(math.radians, one.angles)))
+            for one in instance.parts
+        ]  # fmt: skip
+        return [Sheet(height=instance.height, name=instance.name)], parts
+    if not named and not optional:
+        raise RecipeError("items", "there is nothing to nest; name parts, as bracket.dxf*12")
+    sheets = read_sheets(sheet)
+    parts = [
+        part
+        for k, text in enumerate([*named, *optional])
+        for part in read_parts(
+            text, sheets[0].unit, rotate, mirror=mirror, holes=holes, optional=k >= len(named)
+        )
+    ]
+    return sheets, parts
+
+
+def read_parts(
+    text: str, unit: Unit, rotate: str, *, mirror: bool = False, holes: Holes = "keep",
+    optional: bool = False,
+) -> Iterator[SheetPart]:  # fmt: skip
+    """Parts of a file, a folder or a cut list, as ``bracket.dxf*12``, on sheets of a unit.
+
+    Parameters
+    ----------
+    rotate
+        Allowed angles, as ``0,180``, ``free``, ``none`` or ``30``: up to that far.
+    mirror
+        Whether parts may be turned over.
+    holes
+        Whether the holes of parts stay free for others.
+    optional
+        Whether they only fill what is left.
+    """
+    usual = {"rotate": rotate, "mirror": "yes" if mirror else "no",
+             "optional": "yes" if optional else "no"}  # fmt: skip
+    return _parts(text, usual, holes, convert(1.0, "px", unit))
+
+
+def _parts(text: str, usual: Mapping[str, str], holes: Holes, scale: float) -> Iterator[SheetPart]:
+    """Parts of a file, a folder or a cut list; rules that none of its rows has are the usual."""
+    source, times = _counted(text)
+    rows: Iterable[CutListRow] = [CutListRow(file=source)]
+    if is_cut_list(source):
+        rows = read_cut_list(source, RULES)
+    for row in rows:
+        rules = {**usual, **row.rules}
+        try:
+            angles, priority = angles_of(rules["rotate"]), _whole(rules.get("priority", "0"))
+            mirrors, is_optional = (_is_yes(name, rules[name]) for name in ("mirror", "optional"))
+        except RecipeError as error:
+            raise ReadError(source, f"{row.where}: {error}") if row.where else error from None
+        items = read_items(row.file, holes=holes).items
+        for k, item in enumerate(items, start=1):
+            name = f"{row.name} {k}" if len(items) > 1 else row.name
+            yield SheetPart(
+                item=replace(item, name=name) if row.name else item,
+                count=row.count * (1 if times is None else times), angles=angles, scale=scale,
+                mirrors=mirrors, is_optional=is_optional, priority=priority,
+            )  # fmt: skip
+
+
+def angles_of(rotate: str) -> tuple[float, ...] | None:
+    """Allowed angles in radians; None for any."""
+    turned = Rotation.parse(rotate)
+    if turned.limit is None:
+        return turned.choices
+    steps = WITHIN_LIMIT if turned.limit > 0 else 0
+    return tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text[:9])
+    except ValueError:
+        raise RecipeError("priority", f"is a whole number, not {text[:20]!r}") from None
+
+
+def _is_yes(name: str, text: str) -> bool:
+    word = text.casefold()
+    if word not in {*_YES, *_NO}:
+        raise RecipeError(name, f"is yes or no, not {text[:20]!r}")
+    return word in _YES

@@ -1,0 +1,219 @@
+"""Sheets and parts of a nest, and the sheets with parts on them that come of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import shapely
+from shapely.geometry import box
+
+from packwork.errors import RecipeError
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region
+from packwork.metrics.certificate import Promise, broken, unclean
+from packwork.metrics.measure import LayoutMetrics, measure
+from packwork.scene.container import Container
+from packwork.scene.item import Item, mirrored
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.separation.shapes import Floats
+from packwork.units import Unit
+
+
+@dataclass(frozen=True, kw_only=True)
+class SheetPart:
+    """An item of true size, how many of it, and the angles at which it may lie."""
+
+    item: Item
+    count: int = 1
+    angles: tuple[float, ...] | None = (0.0,)
+    """In radians, clockwise on screen; None: any."""
+
+    scale: float = 1.0
+    """Sheet units of one of the item's own."""
+
+    mirrors: bool = False
+    """Whether it may be turned over."""
+
+    priority: int = 0
+    """Parts of a higher one are laid first, and are not left out for those of a lower one."""
+
+    is_optional: bool = False
+    """Whether it only fills what the others leave of the sheets that they take. Not on a strip."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheet:
+    """What parts are laid on: a rectangle, a strip of open length, or any outline."""
+
+    height: float
+    length: float = math.inf
+    unit: Unit = "px"
+    name: str = "sheet"
+    count: int | None = None
+    """How many there are; None: as many as are needed."""
+
+    outline: Outline | None = None
+    """Region of it that may be used, with holes; None: all of it."""
+
+    held: Layout | None = None
+    """What lies on it already, and stays where it is."""
+
+    @property
+    def is_strip(self) -> bool:
+        """True for a strip of open length."""
+        return math.isinf(self.length)
+
+    @cached_property
+    def region(self) -> Region:
+        """Region of a sheet that is no strip."""
+        return box(0.0, 0.0, self.length, self.height) if self.outline is None else (
+            self.outline.region
+        )  # fmt: skip
+
+    def scaled(self, scale: float, unit: Unit) -> Sheet:
+        """The same sheet in another unit, of which one of its own has ``scale``."""
+        if unit == self.unit:
+            return self
+        if self.held is not None:
+            raise RecipeError("sheet", f"{self.name} is in {self.unit}, others are in {unit}")
+        outline = self.outline
+        if outline is not None:
+            outline = outline.mapped(affine.similarity(0.0, 0.0, 0.0, scale))
+        return replace(
+            self, height=self.height * scale, length=self.length * scale, unit=unit, outline=outline
+        )
+
+    def container(self, length: float) -> Container:
+        """The sheet as a container; a strip is cut off at its used length."""
+        if self.is_strip:
+            outline = Outline.box(0.0, 0.0, length, self.height)
+            return Container(self.name, self.name, outline, length, self.height, self.unit)
+        outline = self.outline or Outline.box(0.0, 0.0, self.length, self.height)
+        return Container(self.name, self.name, outline, self.length, self.height, self.unit)
+
+
+@dataclass(frozen=True)
+class NestedSheet:
+    """One sheet with the parts on it.
+
+    ``length``: how far from its left edge it is used, in its unit.
+    """
+
+    layout: Layout
+    metrics: LayoutMetrics
+    length: float
+    faults: tuple[str, ...]
+    certified: bool
+
+    @property
+    def density(self) -> float:
+        """Area of its parts over that of the sheet left of its used length."""
+        outline = self.layout.container.outline.region
+        x0, y0, _, y1 = outline.bounds
+        used = shapely.intersection(outline, box(x0, y0, self.length, y1)).area
+        return float(self.layout.areas.sum() / used)
+
+
+@dataclass(frozen=True)
+class Nest:
+    """All sheets that are used, in their order.
+
+    ``unplaced``: parts that found no room, and how many of each; ``left``: optional ones.
+    """
+
+    sheets: tuple[NestedSheet, ...]
+    unplaced: tuple[tuple[Item, int], ...]
+    left: tuple[tuple[Item, int], ...]
+    about: dict[str, Any]
+
+    @property
+    def length(self) -> float:
+        """Used length of the last sheet, in its unit."""
+        return self.sheets[-1].length if self.sheets else 0.0
+
+    @property
+    def density(self) -> float:
+        """Area of all parts over that of the sheets that they take, the last one as far as used."""
+        areas = [float(one.layout.areas.sum()) for one in self.sheets]
+        used = sum(area / one.density for area, one in zip(areas, self.sheets, strict=True))
+        return sum(areas) / used if used else 0.0
+
+    @property
+    def certified(self) -> bool:
+        """Whether all that is laid keeps what is promised."""
+        return all(one.certified for one in self.sheets)
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Parts of the promise that do not hold, a sentence each."""
+        return tuple(fault for one in self.sheets for fault in one.faults)
+
+    def report(self) -> dict[str, Any]:
+        """Plain numbers and texts for a report file."""
+        sheets = [
+            {"length": one.length, "density": one.density, "parts": len(one.layout.items),
+             "metrics": one.metrics.as_dict()}
+            for one in self.sheets
+        ]  # fmt: skip
+        return {
+            **self.about, "parts": sum(one["parts"] for one in sheets), "length": self.length,
+            "density": self.density, "sheets": sheets,
+            "unplaced": [{"part": item.name, "count": count} for item, count in self.unplaced],
+            "optional_left": [{"part": item.name, "count": count} for item, count in self.left],
+            "faults": list(self.faults), "certified": self.certified,
+        }  # fmt: skip
+
+
+def sheet_file(path: Path, number: int, count: int) -> Path:
+    """File of one of several sheets.
+
+    >>> sheet_file(Path("a.dxf"), 2, 3).name, sheet_file(Path("a.dxf"), 1, 1).name
+    ('a-2.dxf', 'a.dxf')
+    """
+    return path.with_name(f"{path.stem}-{number}{path.suffix}") if count > 1 else path
+
+
+def layout_on(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: float) -> Layout:
+    """Layout of a sheet: what it held, and parts at poses (x, y, angle, side)."""
+    x, y, angle, side = poses.T
+    items = [mirrored(one.item) if over else one.item
+             for one, over in zip(laid, side < 0.0, strict=True)]  # fmt: skip
+    placed = Poses(x, y, angle, np.array([one.scale for one in laid]))
+    right = [item.outline.mapped(placed.matrix(k)).bounds[2] for k, item in enumerate(items)]
+    container = sheet.container(max(right, default=0.0) + edge)
+    if sheet.held is not None:
+        items = [*sheet.held.items, *items]
+        placed = Poses(*(
+            np.concatenate([getattr(sheet.held.poses, one.name), getattr(placed, one.name)])
+            for one in fields(Poses)
+        ))  # fmt: skip
+    return Layout(container, tuple(items), placed, np.ones(len(items)))
+
+
+def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any]) -> NestedSheet:
+    """A sheet, measured; ``edge``: distance that parts keep from its edge."""
+    regions = [outline.region for outline in layout.outlines]
+    length = min(shapely.total_bounds(regions)[2] + edge, layout.container.width)
+    used = {**about, "parts": len(regions), "length": float(length)}
+    manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
+    layout = replace(layout, manifest=manifest)
+    metrics = measure(layout)
+    faults = tuple(broken(promise, layout, metrics.exact))
+    boundary, margin, unit = (
+        layout.container.outline.region.boundary,
+        about["margin"],
+        about["unit"],
+    )
+    nearest = float(shapely.distance(boundary, regions).min())
+    if nearest < margin:
+        faults += (f"a part is {nearest:.3g} {unit} from the edge instead of {margin:.3g} {unit}",)
+    certified = not faults and not unclean(promise, layout, metrics.exact)
+    return NestedSheet(layout, metrics, float(length), faults, certified)

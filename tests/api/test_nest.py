@@ -1,0 +1,68 @@
+"""``packwork.nest``: files and shapes in memory, of true size, saved a file a sheet."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import shapely
+
+import packwork as pw
+
+TILE = shapely.box(0, 0, 40, 30)
+PLATE = shapely.box(0, 0, 60, 60).difference(shapely.box(5, 5, 55, 55))
+DISC = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="30mm" viewBox="0 0 30 30">'
+    '<circle cx="15" cy="15" r="15"/></svg>'
+)
+
+
+def test_files_and_shapes_lie_in_units_of_the_sheet(tmp_path: Path) -> None:
+    (tmp_path / "disc.svg").write_text(DISC, encoding="utf-8")
+    found = pw.nest(
+        "100x80mm", [(TILE, 5), f"{tmp_path / 'disc.svg'}*2"], kerf="1mm", margin=3, passes=150
+    )
+    assert found.certified
+    assert not found.unplaced
+    assert sum(map(len, found)) == 7
+    regions = [outline.region for layout in found for outline in layout.outlines]
+    assert sorted(round(region.area) for region in regions) == [707] * 2 + [1200] * 5
+    room = shapely.box(3, 3, 97, 77).buffer(1e-9)
+    assert all(room.covers(region) for region in regions)
+    paths = found.save(tmp_path / "a.geojson")
+    assert [path.name for path in paths] == [f"a-{k}.geojson" for k in range(1, len(found) + 1)]
+    assert sum(len(pw.Layout.load(path)) for path in paths) == 7
+    assert found.report["certified"]
+
+
+@pytest.mark.parametrize(
+    "parts", [TILE, [TILE], [(TILE, 1)], {TILE: 1}, pw.Item("t", outline=TILE)]
+)
+def test_one_part_may_be_given_in_many_ways(parts: object) -> None:
+    found = pw.nest("50mm", parts, passes=3)
+    assert len(found) == len(found.layouts[0]) == 1
+
+
+def test_a_sheet_is_any_outline_and_holes_are_filled_where_asked() -> None:
+    hide = shapely.Point(60, 60).buffer(60)
+    small = shapely.box(0, 0, 40, 40)
+    inside = pw.nest(hide, [PLATE, small], passes=200)
+    assert inside.certified
+    assert len(inside.layouts[0]) == 2
+    left = pw.nest(shapely.box(0, 0, 61, 61), [PLATE, small], holes="fill", passes=30)
+    assert left.unplaced == {"part": 1}
+
+
+def test_what_is_in_the_way_is_one_line() -> None:
+    with pytest.raises(pw.RecipeError, match="larger one"):
+        pw.nest("30x20mm", TILE, passes=3)
+    with pytest.raises(pw.RecipeError, match="kerf"):
+        pw.nest("300x200mm", TILE, kerf=float("nan"), passes=3)
+    with pytest.raises(pw.RecipeError, match="nothing to nest"):
+        pw.nest("300x200mm", passes=3)
+
+
+def test_a_search_ends_when_it_is_told_to() -> None:
+    found = pw.nest("100mm", (TILE, 30), time=600.0, stop=lambda: True)
+    assert len(found.layouts[0]) == 30
+    assert found.certified
