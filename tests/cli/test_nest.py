@@ -185,6 +185,19 @@ def _hand(region: shapely.Polygon) -> bool:
     return bool(first[0] * second[1] - first[1] * second[0] > 0)
 
 
+def test_the_smallest_square_is_as_long_as_high(shop: Path, packwork: Command) -> None:
+    line = "nest square disc.svg*4 bracket.svg*2 --rotate free --passes 200"
+    assert packwork(f"{line} -o a.geojson --report a.json").exit_code == 0
+    layout = pw.Layout.load(shop / "a.geojson")
+    side = layout.container.width
+    assert layout.container.height == side == pytest.approx(layout.manifest["nest"]["length"])
+    assert len(layout) == 6
+    area = sum(outline.region.area for outline in layout.outlines)
+    assert area < side**2 < 2.2 * area
+    assert packwork("nest square disc.svg*9 --passes 200 -o a.geojson").exit_code == 0
+    assert 90 <= pw.Layout.load(shop / "a.geojson").container.width < 91.5
+
+
 def test_optional_parts_fill_what_the_others_leave(shop: Path, packwork: Command) -> None:
     line = "nest 130x90mm bracket.svg*3 --optional disc.svg*30 --passes 150"
     assert packwork(f"{line} -o a.geojson --report a.json").exit_code == 0

@@ -180,7 +180,7 @@ def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
             for row, begin, end in turns.spans[:, first:last].T
         )
         assert scores[c] == pytest.approx(total, rel=1e-4, abs=1e-3)
-    assert image.shape[0] == problem.rows
+    assert image.shape[0] == math.ceil(12.0 / problem.pixel)
 
 
 @pytest.mark.parametrize("region", [L_SHAPE, RING, TRIANGLE, NEEDLE], ids="LRTN")

@@ -25,8 +25,8 @@ def nest(
             metavar="SHEET",
             help="Width x height with a unit (600x400mm: as many as are needed, 600x400mm*2: two), "
             "an outline (hide.svg), an earlier nest, whose parts stay (nest-1.svg); several with "
-            "commas between them. One number is a strip of that height and open length (400mm). "
-            "Or a strip packing instance (.json).",
+            "commas between them. One number is a strip of that height and open length (400mm); "
+            "square is the smallest one. Or a strip packing instance (.json).",
         ),
     ],
     parts: Annotated[
@@ -169,7 +169,8 @@ def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], li
 
 
 def _summary(found: Nest, sheet: Sheet, certified: bool) -> str:
-    where = f"{found.length:.6g} x {sheet.height:.6g} {sheet.unit}"
+    height = found.length if sheet.is_square else sheet.height
+    where = f"{found.length:.6g} x {height:.6g} {sheet.unit}"
     if len(found.sheets) > 1:
         where = f"{len(found.sheets)} sheets, {found.length:.6g} {sheet.unit} of the last one"
     count = number_of(sum(len(one.layout.items) for one in found.sheets), "part")

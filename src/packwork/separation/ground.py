@@ -38,11 +38,19 @@ class Bay:
 
 @dataclass(frozen=True)
 class Ground:
-    """Sheets side by side, or a strip without end where there are none."""
+    """Sheets side by side, or a strip without end where there are none.
+
+    ``is_square``: a strip always as high as it is long, whatever its ``height``.
+    """
 
     height: float
     bays: tuple[Bay, ...] = ()
     obstacles: tuple[Region, ...] = ()
+    is_square: bool = False
+
+    def height_at(self, length: float) -> float:
+        """Height of a strip of a length."""
+        return length if self.is_square else self.height
 
     @property
     def end(self) -> float:
@@ -51,6 +59,8 @@ class Ground:
 
     def length_for(self, area: float) -> float:
         """Line with that much free area to its left; the end where there is less."""
+        if self.is_square:
+            return math.sqrt(area)
         if not self.bays:
             return area / self.height
         for bay in self.bays:

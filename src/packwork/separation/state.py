@@ -36,16 +36,14 @@ class Problem:
         self.shape_of = np.repeat(np.arange(len(parts)), [part.count for part in parts])
         self.areas = np.array([part.region.area for part in parts])[self.shape_of]
         self.hulls = np.array(hulls)[self.shape_of]
-        longest = ground.end if ground.bays else 4.0 * self.area / ground.height
+        longest = ground.end if ground.bays else ground.length_for(4.0 * self.area)
         # In steps, so that other parts of the same kinds have the same spans.
         middle = math.sqrt(float(np.median(self.hulls))) / PIXELS
         middle = 2.0 ** (round(4.0 * math.log2(middle)) / 4.0)
-        self.pixel = max(middle, longest / MOST_COLUMNS, ground.height / MOST_ROWS)
-        self.rows = math.ceil(ground.height / self.pixel)
+        self.pixel = max(middle, longest / MOST_COLUMNS, ground.height_at(longest) / MOST_ROWS)
         obstacles = [Part(region=region) for region in ground.obstacles]
         self.shapes, self.turns = tables([*parts, *obstacles], self.pixel)
-        self.flattest = flattest(parts, ground.height)
-        widths = np.ptp(self.flattest[0][:, ::2], axis=1)
+        widths = np.ptp(flattest(parts, ground.height)[0][:, ::2], axis=1)
         self.widest, self.narrowest = float(widths.max()), float(widths.min())
         wide = [np.ptp(shapely.get_coordinates(part.region), axis=0).max() for part in parts]
         self.decays = np.array(wide)[self.shape_of] * DECAY_SHARE
@@ -111,11 +109,12 @@ class WorkerState:
     def set_length(self, length: float, poses: Floats) -> None:
         """Make the sheet that long, with parts at these poses."""
         pixel = self.problem.pixel
-        columns = int(np.ceil(length / pixel))
-        if self.image.shape[1] != columns + 1:
-            self.image = np.zeros((self.problem.rows, columns + 1), np.float32)
+        height = self.problem.ground.height_at(length)
+        rows, columns = math.ceil(height / pixel), math.ceil(length / pixel)
+        if self.image.shape != (rows, columns + 1):
+            self.image = np.zeros((rows, columns + 1), np.float32)
             self.scores = np.zeros((3, columns + 2), np.float32)
-        self.sheet[0] = length
+        self.sheet[:] = length, height
         self.put(poses)
 
     def put(self, poses: Floats) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import X0, X1
-from packwork.separation.shapes import Floats, Part
+from packwork.separation.shapes import Floats, Part, flattest
 from packwork.separation.state import Problem, WorkerState
 
 START, LONGER = 0.55, 1.1
@@ -102,15 +102,19 @@ class StripSearch:
         self.pool = ThreadPoolExecutor(workers)
 
     def fallback(self) -> Strip:
-        """All parts beside one another by their boxes, so that there is always a strip to show."""
+        """All parts in columns, so that there is always a strip to show."""
+        return self.columns(self.ground.height)
+
+    def columns(self, height: float) -> Strip:
+        """All parts beside one another by their boxes, in columns up to a height."""
         problem = self.problem
-        boxes, angles = problem.flattest
+        boxes, angles = flattest(problem.parts, height)
         poses = np.ones((len(problem), 4))
         lefts = np.zeros(len(problem))
         left = top = wide = 0.0
         for i in np.argsort(-np.ptp(boxes[problem.shape_of][:, ::2], axis=1), kind="stable"):
             x0, y0, x1, y1 = boxes[problem.shape_of[i]]
-            if top + (y1 - y0) > problem.height:
+            if top + (y1 - y0) > height:
                 left, top, wide = left + wide, 0.0, 0.0
             poses[i, :3] = left - x0, top - y0, angles[problem.shape_of[i]]
             lefts[i] = left
@@ -122,7 +126,7 @@ class StripSearch:
         count, table = len(self.problem), self.problem.turns
         rows = self.random.integers(*table.turn_at[np.add.outer([0, 1], self.problem.shape_of)])
         x = self.random.uniform(0.0, length, count)
-        y = self.random.uniform(0.0, self.problem.height, count)
+        y = self.random.uniform(0.0, self.ground.height_at(length), count)
         return np.column_stack([x, y, table.turns[2, rows], table.turns[3, rows]])
 
     @property
@@ -177,10 +181,14 @@ class StripSearch:
     def keep(self, poses: Floats) -> Strip:
         """Remember a layout without overlaps, on a strip no longer than need be."""
         boxes = self.layout.arrays[0][: len(self.problem)]
-        self.best = Strip(float(boxes[:, X1].max()), poses, boxes[:, X0].copy())
+        self.best = Strip(self.extent(boxes), poses, boxes[:, X0].copy())
         left = int(np.isnan(poses[:, 0]).sum())
         self.work.met = f"{left} parts left" if left else f"length {self.best.length:.5g}"
         return self.best
+
+    def extent(self, boxes: Floats) -> float:
+        """Length that parts with these boxes need."""
+        return float(boxes[:, X1].max())
 
     def shorter(self, best: Strip, share: float) -> None:
         """Cut a share of the length out of the last sheet; what lies right of the cut moves."""

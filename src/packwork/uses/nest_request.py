@@ -20,6 +20,9 @@ from packwork.recipe.rules import Rotation
 from packwork.units import Unit, canvas_size, convert, parse_length
 from packwork.uses.nested import Sheet, SheetPart
 
+SQUARE = "square"
+"""Name of a sheet that is the smallest square."""
+
 Holes: TypeAlias = Literal["keep", "fill"]
 
 WITHIN_LIMIT = 4
@@ -66,6 +69,9 @@ def read_sheets(text: str) -> list[Sheet]:
                 Sheet(height=read.height, length=read.width, unit=read.unit, name=read.name,
                       outline=read.outline, count=1 if count is None else count)
             )  # fmt: skip
+            continue
+        if source == SQUARE:
+            found.append(Sheet(height=math.inf, unit="mm", name=SQUARE))
             continue
         try:
             size = canvas_size(source)

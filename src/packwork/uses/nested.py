@@ -51,7 +51,7 @@ class SheetPart:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """What parts are laid on: a rectangle, a strip of open length, or any outline."""
+    """What parts are laid on: a rectangle, any outline, a strip of open length, a least square."""
 
     height: float
     length: float = math.inf
@@ -68,8 +68,13 @@ class Sheet:
 
     @property
     def is_strip(self) -> bool:
-        """True for a strip of open length."""
+        """True for a strip of open length, and for a square of open side."""
         return math.isinf(self.length)
+
+    @property
+    def is_square(self) -> bool:
+        """True for the smallest square that holds all parts."""
+        return math.isinf(self.height)
 
     @cached_property
     def region(self) -> Region:
@@ -94,8 +99,9 @@ class Sheet:
     def container(self, length: float) -> Container:
         """The sheet as a container; a strip is cut off at its used length."""
         if self.is_strip:
-            outline = Outline.box(0.0, 0.0, length, self.height)
-            return Container(self.name, self.name, outline, length, self.height, self.unit)
+            height = length if self.is_square else self.height
+            outline = Outline.box(0.0, 0.0, length, height)
+            return Container(self.name, self.name, outline, length, height, self.unit)
         outline = self.outline or Outline.box(0.0, 0.0, self.length, self.height)
         return Container(self.name, self.name, outline, self.length, self.height, self.unit)
 
@@ -187,8 +193,9 @@ def layout_on(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: floa
     items = [mirrored(one.item) if over else one.item
              for one, over in zip(laid, side < 0.0, strict=True)]  # fmt: skip
     placed = Poses(x, y, angle, np.array([one.scale for one in laid]))
-    right = [item.outline.mapped(placed.matrix(k)).bounds[2] for k, item in enumerate(items)]
-    container = sheet.container(max(right, default=0.0) + edge)
+    far = [item.outline.mapped(placed.matrix(k)).bounds[2:] for k, item in enumerate(items)]
+    right = max((max(one) if sheet.is_square else one[0] for one in far), default=0.0)
+    container = sheet.container(right + edge)
     if sheet.held is not None:
         items = [*sheet.held.items, *items]
         placed = Poses(*(
@@ -202,6 +209,8 @@ def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any
     """A sheet, measured; ``edge``: distance that parts keep from its edge."""
     regions = [outline.region for outline in layout.outlines]
     length = min(shapely.total_bounds(regions)[2] + edge, layout.container.width)
+    if about["height"] is None:
+        length = layout.container.width
     used = {**about, "parts": len(regions), "length": float(length)}
     manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
     layout = replace(layout, manifest=manifest)

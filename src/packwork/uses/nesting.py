@@ -16,6 +16,7 @@ from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise
 from packwork.separation.ground import Ground
 from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
+from packwork.separation.square import SquareSearch
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
 from packwork.uses.nested import Nest, NestedSheet, Sheet, SheetPart, layout_on, measured
@@ -77,7 +78,10 @@ def nest(
     if sheets[0].is_strip:
         height = sheets[0].height - 2.0 * inset
         _check_fit(parts, kept, [(math.inf, height)], sheets, 2.0 * inset)
-        strip = StripSearch(kept, Ground(height), seed=seed, workers=workers, work=work, stop=stop)
+        search, ground = StripSearch, Ground(height)
+        if sheets[0].is_square:
+            search, ground = SquareSearch, Ground(math.inf, is_square=True)
+        strip = search(kept, ground, seed=seed, workers=workers, work=work, stop=stop)
         kinds, missing = [0], Counter[int]()
         poses = strip.run().poses + np.array([inset, inset, 0.0, 0.0])
         laid = [LaidSheet(0, tuple(strip.problem.shape_of.tolist()), poses)]
@@ -93,7 +97,8 @@ def nest(
             kept, free, seed=seed, workers=workers, work=work, stop=stop
         )  # fmt: skip
     about = {
-        "unit": sheets[0].unit, "height": sheets[0].height,
+        "unit": sheets[0].unit,
+        "height": None if sheets[0].is_square else sheets[0].height,
         "sheet_length": None if sheets[0].is_strip else sheets[0].length,
         "gap": gap, "margin": margin, "passes": work.done, "seed": seed, "workers": workers,
     }  # fmt: skip
@@ -134,6 +139,8 @@ def _longest(parts: Sequence[SheetPart], sheet: Sheet) -> float:
     sides = [one.item.outline.radius * 2.0 * one.scale for one in parts]
     in_a_row = sum(side * one.count for side, one in zip(sides, parts, strict=True))
     areas = sum(one.item.outline.area * one.scale**2 * one.count for one in parts)
+    if sheet.is_square:
+        return min(in_a_row, math.sqrt(SPARSEST * areas) + 2.0 * max(sides))
     return max(sheet.height, min(in_a_row, SPARSEST * areas / sheet.height + 2.0 * max(sides)))
 
 
