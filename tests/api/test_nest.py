@@ -66,3 +66,11 @@ def test_a_search_ends_when_it_is_told_to() -> None:
     found = pw.nest("100mm", (TILE, 30), time=600.0, stop=lambda: True)
     assert len(found.layouts[0]) == 30
     assert found.certified
+
+
+def test_there_is_one_table_and_one_pdf_for_all_sheets(tmp_path: Path) -> None:
+    found = pw.nest("60x45mm", [(TILE, 3)], kerf=1, passes=300)
+    assert len(found) > 1
+    for ending, start in ((".csv", b"\xef\xbb\xbfsheet,number,part,x_mm"), (".pdf", b"%PDF-")):
+        (path,) = found.save(tmp_path / f"a{ending}")
+        assert path.read_bytes().startswith(start)

@@ -27,6 +27,7 @@ from packwork.uses.nest_request import (
     read_request,
     read_sheets,
 )
+from packwork.writers.parts_list import all_sheets_bytes, is_for_all
 
 Part: TypeAlias = Any
 """A file, as ``bracket.dxf*12``; or an item or outline in memory, in units of the sheet."""
@@ -75,12 +76,20 @@ class Nest:
     def save(self, path: str | Path, **drawing: Any) -> tuple[Path, ...]:
         """Write a file for each sheet, ``a-1.dxf`` and so on where there are several.
 
+        There is one PDF for all, with a list of parts, and one table (``.csv``) of their places.
+
         Raises
         ------
         WriteError
             If one cannot be written; then none is.
         """
         options = writers.write_options(**drawing)
+        if is_for_all(path):
+            sheets: list[Any] = list(self.layouts)
+            is_paper = Path(path).suffix.lower() == ".pdf"
+            pages = [writers.encoded(one, path, options) for one in sheets if is_paper]
+            writers.write_all([(Path(path), all_sheets_bytes(path, sheets, pages))])
+            return (Path(path),)
         paths = [nested.sheet_file(Path(path), k, len(self)) for k in range(1, len(self) + 1)]
         writers.write_all(
             [(one, writers.encoded(layout, one, options))

@@ -14,11 +14,10 @@ from urllib.parse import quote
 
 from packwork.batches.task import RowOutcome
 from packwork.errors import WriteError
+from packwork.writers.placements import plain_cell
 
 SEEN = (".svg", ".png", ".jpg", ".jpeg", ".webp")
 """Endings of files that a browser shows as pictures, the best first."""
-
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 _STYLE = (
     "body{font:14px system-ui,sans-serif;margin:2rem;color-scheme:light dark}"
@@ -73,8 +72,7 @@ def report_bytes(path: Path, outcomes: Sequence[RowOutcome]) -> bytes:
 
 
 def _cell(value: Any) -> Any:
-    """A cell that no spreadsheet takes for a formula."""
-    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
+    return plain_cell(value) if isinstance(value, str) else value
 
 
 def index_bytes(path: Path, outcomes: Sequence[RowOutcome]) -> bytes:

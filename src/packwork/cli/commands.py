@@ -30,7 +30,7 @@ SUMMARIES: Mapping[str, str] = {
     "chart": "Show a table's rows, a mark for each, sizes in proportion to numbers.",
     "photos": "Fill a container with photographs.",
     "pile": "Heap items of given sizes, under forces, until they are at rest.",
-    "nest": "Nest parts of true size on as little of a strip or sheet as possible.",
+    "nest": "Nest parts of true size on as few sheets and as little of the last one as possible.",
     "run": "Run a recipe file: the options of [bold]fill[/], kept.",
     "batch": "Run a recipe for each row of a table, on all cores.",
     "edit": "Change a saved layout here and there; the rest makes room, certified again.",

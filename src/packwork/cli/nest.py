@@ -9,12 +9,16 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
+from packwork.offers import Group
 from packwork.phrasing import number_of
 
 if TYPE_CHECKING:
     from packwork.uses.nested import Nest, Sheet
 
 DEFAULT_OUTPUT = Path("nest.svg")
+
+TABLE = ".csv"
+"""Ending of a table of where each part lies."""
 
 
 @shared.by_name
@@ -77,8 +81,19 @@ def nest(
         typer.Option(min=1, help="Passes to search, in place of seconds: the same bytes again."),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Another one gives another nest.")] = 0,
+    output: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--output",
+            "-o",
+            rich_help_panel=Group.WRITTEN.value,
+            show_default="nest.svg",
+            help="File to write, one for each sheet where there are several: .dxf, .svg, .png, "
+            ".jpg, .webp, .tif, .geojson. One for all: .pdf, with a list of parts; .csv, a table "
+            "of where each part lies. May be given several times.",
+        ),
+    ] = None,
     *,
-    output: tuple[Path, ...],
     report: Path | None,
     no_clobber: bool,
     quiet: bool,
@@ -102,7 +117,8 @@ def nest(
         files = list(output or (DEFAULT_OUTPUT,))
         every = [*files, *([report] if report else [])]
         for path in files:
-            writers.check_output(path)
+            if path.suffix.lower() != TABLE:
+                writers.check_output(path, TABLE)
         for path in every:
             writers.check_writable(path)
         writers.check_outputs(every)
@@ -152,19 +168,28 @@ def nest(
 
 
 def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], list[str]]:
-    """Files of all sheets, one for each where there are several, and what is wrong with them."""
+    """Files of all sheets, and what is wrong with them."""
     from packwork import writers
     from packwork.cli.running import faults_in
     from packwork.uses.nested import sheet_file
+    from packwork.writers.parts_list import all_sheets_bytes, is_for_all
 
     # The sheet's edge is to be seen in a picture, and not to be cut.
     options = writers.WriteOptions(png=writers.SvgOptions(background="white", show_container=True))
     drawn, faults = list[tuple[Path, bytes]](), list(found.faults)
-    for k, one in enumerate(found.sheets, start=1):
-        paths = [sheet_file(path, k, len(found.sheets)) for path in files]
-        written = [(path, writers.encoded(one.layout, path, options)) for path in paths]
-        faults += faults_in(written, one.layout, options)
+    layouts, pages = [one.layout for one in found.sheets], list[bytes]()
+    of_all = [path for path in files if is_for_all(path)]
+    for k, layout in enumerate(layouts, start=1):
+        paths = [sheet_file(path, k, len(layouts)) for path in files if path not in of_all]
+        written = [(path, writers.encoded(layout, path, options)) for path in paths]
+        faults += faults_in(written, layout, options)
         drawn += written
+        if any(path.suffix.lower() != TABLE for path in of_all):
+            page = Path(f"page-{k}.pdf")
+            pages.append(writers.encoded(layout, page, options))
+            faults += faults_in([(page, pages[-1])], layout, options)
+    if layouts:
+        drawn += [(path, all_sheets_bytes(path, layouts, pages)) for path in of_all]
     return drawn, faults
 
 

@@ -190,19 +190,23 @@ def sheet_file(path: Path, number: int, count: int) -> Path:
 def layout_on(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: float) -> Layout:
     """Layout of a sheet: what it held, and parts at poses (x, y, angle, side)."""
     x, y, angle, side = poses.T
-    items = [mirrored(one.item) if over else one.item
-             for one, over in zip(laid, side < 0.0, strict=True)]  # fmt: skip
+    over = side < 0.0
+    turned = {one.item: mirrored(one.item) for one in dict.fromkeys(laid) if one.mirrors}
+    items = [turned[one.item] if is_over else one.item
+             for one, is_over in zip(laid, over, strict=True)]  # fmt: skip
     placed = Poses(x, y, angle, np.array([one.scale for one in laid]))
     far = [item.outline.mapped(placed.matrix(k)).bounds[2:] for k, item in enumerate(items)]
     right = max((max(one) if sheet.is_square else one[0] for one in far), default=0.0)
     container = sheet.container(right + edge)
+    before = 0 if sheet.held is None else len(sheet.held.items)
     if sheet.held is not None:
         items = [*sheet.held.items, *items]
         placed = Poses(*(
             np.concatenate([getattr(sheet.held.poses, one.name), getattr(placed, one.name)])
             for one in fields(Poses)
         ))  # fmt: skip
-    return Layout(container, tuple(items), placed, np.ones(len(items)))
+    numbers = (np.flatnonzero(over) + before + 1).tolist()
+    return Layout(container, tuple(items), placed, np.ones(len(items)), {"mirrored": numbers})
 
 
 def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any]) -> NestedSheet:
@@ -211,7 +215,7 @@ def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any
     length = min(shapely.total_bounds(regions)[2] + edge, layout.container.width)
     if about["height"] is None:
         length = layout.container.width
-    used = {**about, "parts": len(regions), "length": float(length)}
+    used = {**about, "parts": len(regions), "length": float(length), **layout.manifest}
     manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
     layout = replace(layout, manifest=manifest)
     metrics = measure(layout)
