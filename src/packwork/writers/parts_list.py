@@ -7,13 +7,11 @@ import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from packwork.errors import WriteError
-from packwork.fonts import bundled_file
 from packwork.geometry.outline import Outline
 from packwork.phrasing import number_of
 from packwork.scene.container import Container
@@ -30,7 +28,7 @@ _PAGE = """\
 #set document(title: list.title, date: none)
 #set page(paper: "a4", margin: 18mm)
 #set text(font: "Libertinus Serif", size: 10pt, number-type: "lining", number-width: "tabular")
-#text(font: "Inter Display", size: 15pt, list.title)
+#text(size: 17pt, weight: "bold", list.title)
 
 #text(fill: luma(90), list.about)
 #v(4mm)
@@ -111,13 +109,13 @@ def _list(sheets: Sequence[Layout]) -> bytes:
         "parts": [_told(entry, container.unit, len(sheets)) for entry in entries],
     }
     try:
-        return bytes(typst.compile(
-            _PAGE.encode(), sys_inputs={"list": json.dumps(told)}, ignore_system_fonts=True,
-            font_paths=[str(Path(bundled_file()).parent)],
-        ))  # fmt: skip
+        pages = typst.compile(
+            _PAGE.encode(), sys_inputs={"list": json.dumps(told)}, ignore_system_fonts=True
+        )
     except RuntimeError as error:
         reason = " ".join(str(error).split())
         raise WriteError("PDF", f"the list of parts cannot be set ({reason})") from error
+    return pages
 
 
 def _entries(sheets: Sequence[Layout]) -> list[_Entry]:
