@@ -20,6 +20,19 @@ DEFAULT_OUTPUT = Path("nest.svg")
 TABLE = ".csv"
 """Ending of a table of where each part lies."""
 
+NestFiles = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--output",
+        "-o",
+        rich_help_panel=Group.WRITTEN.value,
+        show_default="nest.svg",
+        help="File to write, one for each sheet where there are several: .dxf, .svg, .png, "
+        ".jpg, .webp, .tif, .geojson. One for all: .pdf, with a list of parts; .csv, a table "
+        "of where each part lies. May be given several times.",
+    ),
+]
+
 
 @shared.by_name
 def nest(
@@ -81,18 +94,7 @@ def nest(
         typer.Option(min=1, help="Passes to search, in place of seconds: the same bytes again."),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Another one gives another nest.")] = 0,
-    output: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--output",
-            "-o",
-            rich_help_panel=Group.WRITTEN.value,
-            show_default="nest.svg",
-            help="File to write, one for each sheet where there are several: .dxf, .svg, .png, "
-            ".jpg, .webp, .tif, .geojson. One for all: .pdf, with a list of parts; .csv, a table "
-            "of where each part lies. May be given several times.",
-        ),
-    ] = None,
+    output: NestFiles = None,
     *,
     report: Path | None,
     no_clobber: bool,
