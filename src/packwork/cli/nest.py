@@ -118,14 +118,7 @@ def nest(
 
         files = list(output or (DEFAULT_OUTPUT,))
         every = [*files, *([report] if report else [])]
-        for path in files:
-            if path.suffix.lower() != TABLE:
-                writers.check_output(path, TABLE)
-        for path in every:
-            writers.check_writable(path)
-        writers.check_outputs(every)
-        if no_clobber:
-            writers.check_new(every)
+        _check_files(files, every, no_clobber)
         sheets, counted = read_request(
             sheet, parts or [], optional or [], rotate, mirror=mirror, holes=holes
         )
@@ -167,6 +160,20 @@ def nest(
             missing = ", ".join(f"{item.name}*{many}" for item, many in found.unplaced)
             say(f"no room for {missing}; give more sheets, larger ones or more time")
     raise typer.Exit(SHORTFALL if found.unplaced or not certified else 0)
+
+
+def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None:
+    """Refuse, before a run, what could not be written after it; ``every``: reports, too."""
+    from packwork import writers
+
+    for path in files:
+        if path.suffix.lower() != TABLE:
+            writers.check_output(path, TABLE)
+    for path in every:
+        writers.check_writable(path)
+    writers.check_outputs(every)
+    if no_clobber:
+        writers.check_new(every)
 
 
 def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], list[str]]:
