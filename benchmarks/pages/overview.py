@@ -70,6 +70,7 @@ PAGES = {
     "resolution": "constant resolutions against hierarchies",
     "evenness": "what the loss against large gaps is worth",
     "peers": "nesting, word clouds, circles, constraints, autodiff: the same work",
+    "nesting": "strip packing instances beside spyrrow",
     "scaling": "10 to 10,000 items, 50 to 4,000 px, stages, floor, cores",
     "batch": "rates by workers and a cluster, crashes, tables with bad rows, series",
     "speed": "whole runs beside an earlier version, by stage, a first run, memory",

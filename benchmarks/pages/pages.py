@@ -11,6 +11,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 from benchmarks.batch import batch
 from benchmarks.engine import colour, engine, film, live, outlines, scaling_page, speed_page
 from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
+from benchmarks.nest import nest
 from benchmarks.pages import overview
 from benchmarks.paper import paper, resolution
 from benchmarks.peers import peer_pages
@@ -43,9 +44,9 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
         for name, module in {
             "arranging": arranging, "batch": batch, "embeddings": embeddings,
             "charts": charts, "colour": colour, "engine": engine, "files": files_page,
-            "films": film, "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
-            "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,
-            "studio": studio,
+            "films": film, "forces": forces, "live": live, "meaning": meaning, "nesting": nest,
+            "outlines": outlines, "parts": parts, "photos": photos, "quality": quality,
+            "robustness": robustness, "studio": studio,
         }.items()
     },
 }  # fmt: skip
