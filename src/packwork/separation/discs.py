@@ -24,7 +24,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.separation.kernels import discs as kernels
-from packwork.separation.kernels.wall import list_edges
+from packwork.separation.kernels.wall import edge_distances, list_edges
 
 CELLS, LEAST_CELLS, MOST_CELLS = 8.0, 32, 256
 """Cells along the longer side of the grid that lists a container's edges, over the root of the
@@ -52,9 +52,9 @@ the descent at each. More gain a thousandth. Tried."""
 QUENCHED, NEARER = 2e-3, 0.4
 """Excess of the first of them, and factor to the next. Tried."""
 
-SHAKEN, SHAKEN_LOOSEST, SHAKEN_ROUNDS = 0.2, 0.03, 8
-"""Deviation by which discs are shaken, mean radii; first excess and scales on the way down then.
-More forgets what was found, less finds it again. Tried."""
+SHAKEN, SHAKEN_ROUNDS = 0.3, 5
+"""Deviation by which discs are shaken, mean radii, and scales on the way down then. More forgets
+what was found, fewer do not find it again. Tried."""
 
 MOST_SHAKEN = 100
 """Times that a layout is shaken at most. More gain nothing where discs are very few. Tried."""
@@ -62,6 +62,14 @@ MOST_SHAKEN = 100
 PROMISING = 0.999
 """Share of the best scale so far that a shaken layout has to jam at to be looked at closely.
 Larger overlooks better ones, smaller takes longer. Tried."""
+
+ALIKE = 0.05
+"""Range of radii, over their mean, up to which discs begin in a triangular lattice. Larger has no
+room for the larger ones. Chosen."""
+
+OFF_EDGE, LATTICES = 0.45, 16
+"""Distance of a lattice's places from the edge, over that of two, and halvings of the range of the
+latter. Larger leaves the rim empty, smaller presses discs into it. Tried."""
 
 HURRIED = 0.8
 """Share of its scale that a layout keeps whose descent is cut short. Larger leaves overlaps, by
@@ -76,6 +84,9 @@ HALVINGS = 60
 
 Wall = tuple[FloatArray, FloatArray, float, FloatArray, IntArray, IntArray]
 """Edges of a container and the grid that lists them, as kernels take them."""
+
+Found = tuple[float, FloatArray, IntArray]
+"""Scale, ``(n, 2)`` places, and which disc is in which."""
 
 Tell = Callable[[float, FloatArray, float], None]
 """Told of the share of the work done, ``(n, 2)`` centres and the scale."""
@@ -145,24 +156,24 @@ class DiscSearch:
         self._work = work
         self._tell, self._stop = tell, stop
         self._random = np.random.default_rng(seed)
-        self._discs = self._scattered(container)
-        self._owners = self._random.permutation(len(radii))
-        self._scale = self._jammed = self._first_scale(container.area)
+        self._container = container
+        self._are_alike = bool(np.ptp(radii) <= ALIKE * np.mean(radii))
+        self._begin()
 
     def run(self) -> DiscPacking:
         """Centres of all discs, and the largest scale that was found."""
         is_calm = self._work > self._calm
         rounds, every = (CALM_ROUNDS, CALM_EVERY) if is_calm else (ROUNDS, EVERY)
-        self._descend(LOOSEST, rounds, every)
+        self._descend(rounds, every)
         best = self._quenched()
-        for _ in range(MOST_SHAKEN):
+        for trial in range(MOST_SHAKEN):
             if self._done >= self._work or self._stop():
                 break
-            self._discs, self._owners = best[1].copy(), best[2].copy()
-            self._scale = self._jammed = best[0]
-            mean = best[0] * float(self._radii.mean())
-            self._discs += self._random.normal(0.0, SHAKEN * mean, self._discs.shape)
-            self._descend(SHAKEN_LOOSEST, SHAKEN_ROUNDS, CALM_EVERY)
+            if self._are_alike and trial % 2 == 0:
+                self._begin()
+            else:
+                self._shake(best)
+            self._descend(SHAKEN_ROUNDS, CALM_EVERY)
             if self._jammed > PROMISING * best[0]:
                 best = max(best, self._quenched(), key=lambda found: found[0])
         scale, discs, owners = best
@@ -170,8 +181,49 @@ class DiscSearch:
         centres[owners] = discs
         return DiscPacking(centres, scale)
 
-    def _scattered(self, container: Outline) -> FloatArray:
+    def _begin(self) -> None:
+        """Put discs anywhere, far larger than there is room for."""
+        lattice = self._lattice() if self._are_alike else None
+        self._discs = self._scattered() if lattice is None else lattice
+        self._owners = self._random.permutation(len(self._radii))
+        self._scale = self._jammed = self._first_scale(self._container.area)
+
+    def _shake(self, found: Found) -> None:
+        """Put discs near where they lay in a packing."""
+        self._scale = self._jammed = found[0]
+        mean = found[0] * float(self._radii.mean())
+        self._discs = found[1] + self._random.normal(0.0, SHAKEN * mean, found[1].shape)
+        self._owners = found[2].copy()
+
+    def _lattice(self) -> FloatArray | None:
+        """Places ``(n, 2)`` of a triangular lattice, turned and shifted; None if it has fewer."""
+        count, (left, top, right, bottom) = len(self._radii), self._container.bounds
+        middle, turn = np.array([left + right, top + bottom]) / 2, self._random.uniform(0, math.pi)
+        shift = self._random.uniform(-1, 1, 2)
+        cosine, sine = math.cos(turn), math.sin(turn)
+        usual = math.sqrt(2 * self._container.area / (math.sqrt(3) * count))
+
+        def places(spacing: float) -> tuple[FloatArray, FloatArray]:
+            most = math.ceil(math.hypot(right - left, bottom - top) / spacing) + 2
+            row, column = np.mgrid[-most : most + 1, -most : most + 1].reshape(2, -1)
+            points = np.column_stack([column + row / 2 - row // 2, row * math.sqrt(3) / 2])
+            turned = (points + shift) @ np.array([[cosine, sine], [-sine, cosine]])
+            points = middle + spacing * turned
+            far = edge_distances(self._wall, points) / spacing
+            return points[far > OFF_EDGE], far[far > OFF_EDGE]
+
+        low, high = usual / 2, usual
+        for _ in range(LATTICES):
+            spacing = (low + high) / 2
+            low, high = (spacing, high) if len(places(spacing)[0]) >= count else (low, spacing)
+        points, far = places(low)
+        if len(points) < count:
+            return None
+        return np.ascontiguousarray(points[np.sort(np.argsort(-far, kind="stable")[:count])])
+
+    def _scattered(self) -> FloatArray:
         """Random places ``(n, 2)``, those near each other near in memory."""
+        container = self._container
         count, (left, top, right, bottom) = len(self._radii), container.bounds
         shapely.prepare(container.region)
         found = np.empty((0, 2))
@@ -192,9 +244,9 @@ class DiscSearch:
             low, high = (low, middle) if taken > CROWDED * area else (middle, high)
         return low
 
-    def _descend(self, loosest: float, rounds: int, every: int) -> None:
+    def _descend(self, rounds: int, every: int) -> None:
         """Come down to where discs jam, exchanging radii on the way."""
-        for excess in np.geomspace(loosest, TIGHTEST, rounds):
+        for excess in np.geomspace(LOOSEST, TIGHTEST, rounds):
             if self._stop():
                 # What has had no time to come apart has to be far smaller.
                 self._jammed *= HURRIED
@@ -221,7 +273,7 @@ class DiscSearch:
         centres[self._owners] = self._discs
         self._tell(min(self._done / max(self._work, self._calm), 1.0), centres, self._jammed)
 
-    def _quenched(self) -> tuple[float, FloatArray, IntArray]:
+    def _quenched(self) -> Found:
         """Largest scale without a conflict near the one at which discs jam, and where they lie."""
         best = (self._clear_scale(), self._discs.copy(), self._owners.copy())
         for trial in range(QUENCHES):

@@ -151,6 +151,15 @@ def edge_distance(wall, x, y, enough):
     return min(signed, enough)
 
 
+@kernel
+def edge_distances(wall, points):
+    """Signed distances ``(n,)`` of points from the edge, positive inside."""
+    found = np.empty(points.shape[0])
+    for k in range(points.shape[0]):
+        found[k] = edge_distance(wall, points[k, 0], points[k, 1], np.inf)
+    return found
+
+
 @helper
 def edge_push(wall, x, y, reach):
     """Force of the edge on a disc at a point, sum and half the sum of squares of what it lacks.
