@@ -80,8 +80,8 @@ class ArcLine:
             turned = -1.0 if np.linalg.det(matrix[:, :2]) < 0 else 1.0
             return ArcLine(points, turned * self.bulges, self.is_closed)
         found = []
-        for k in range(self.sides):
-            start, end, bulge = self.points[k], self.ends[k], float(self.bulges[k])
+        sides = zip(self.points, self.ends, self.bulges.tolist(), strict=False)
+        for k, (start, end, bulge) in enumerate(sides):
             if bulge == 0.0:
                 found.append(ArcLine(points[[k, (k + 1) % len(points)]], np.zeros(2)))
             else:
@@ -112,12 +112,12 @@ class ArcLine:
         if not self.bulges.any():
             return self.points
         found = []
-        for k in range(self.sides):
-            start, bulge = self.points[k], float(self.bulges[k])
+        sides = zip(self.points, self.ends, self.bulges.tolist(), strict=False)
+        for start, end, bulge in sides:
             found.append(start[None])
             if abs(bulge) > STRAIGHT:
                 is_outer = around and bulge > 0
-                found.append(_along(start, self.ends[k], bulge, tolerance, is_outer=is_outer))
+                found.append(_along(start, end, bulge, tolerance, is_outer=is_outer))
         if not self.is_closed:
             found.append(self.points[-1:])
         return np.concatenate(found)

@@ -219,6 +219,16 @@ def test_each_outline_is_an_item_and_rings_inside_are_holes(tmp_path: Path) -> N
     assert [len(line.points) for line in art.cut] == [2, 2]
 
 
+def test_a_plate_may_have_thousands_of_holes() -> None:
+    def draw(space: Modelspace) -> None:
+        space.add_lwpolyline([(0, 0), (99, 0), (99, 99), (0, 99)], close=True)
+        for k in range(1500):
+            space.add_circle((1 + k % 40 * 2, 1 + k // 40 * 2), 0.5)
+
+    (part,) = parts(draw)
+    assert len(part.cut) == 1501
+
+
 def test_the_drawing_of_an_item_covers_its_outline(
     tmp_path: Path, art_iou: Callable[..., float]
 ) -> None:
@@ -344,9 +354,15 @@ def rows(space: Modelspace) -> None:
     space.add_blockref("DISC", (0, 0), {**TIGHT, "row_count": 30_000, "column_count": 30_000})
 
 
+def concentric(space: Modelspace) -> None:
+    for k in range(600):
+        space.add_circle((0, 0), 1 + k / 100)
+
+
 @pytest.mark.parametrize(
     ("draw", "said"),
     [
+        (concentric, "has 600 outlines inside one another"),
         (lambda space: None, "holds no outline; export lines and curves"),
         (lambda space: space.add_text("A"), "holds no outline, but 1 TEXT"),
         (opened, "layer 'CUT': the LWPOLYLINE at (0, 0) is open; the next end is 0.3 away"),

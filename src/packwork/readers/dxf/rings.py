@@ -30,6 +30,9 @@ SAME = 1e-7
 NEAR_PAIRS = 20
 """Ends, to each, that may lie within that gap, on an average: more are no drawing. Chosen."""
 
+AT_ONCE = 64
+"""Rings whose neighbours are asked for at once: their number is known before it takes memory."""
+
 PAIR_NS = 20_000.0
 """Counted work of comparing two rings whose boxes meet, in nanoseconds. Measured."""
 
@@ -221,9 +224,13 @@ def nested(rings: Sequence[Ring]) -> tuple[list[RingPart], int]:
 def _around(ranked: Sequence[Ring]) -> tuple[list[list[int]], set[int]]:
     """Rings around each, largest first, and those that are the same as a larger one."""
     polygons = np.array([ring.polygon for ring in ranked], dtype=object)
-    small, large = shapely.STRtree(polygons).query(polygons)
-    pairs = [(int(b), int(a)) for a, b in zip(small, large, strict=True) if b < a]
-    spend(PAIR_NS * len(pairs), f"has {len(ranked):,} outlines inside one another")
+    tree = shapely.STRtree(polygons)
+    pairs = list[tuple[int, int]]()
+    for begin in range(0, len(polygons), AT_ONCE):
+        small, large = tree.query(polygons[begin : begin + AT_ONCE])
+        is_pair = large < small + begin
+        spend(PAIR_NS * int(is_pair.sum()), f"has {len(ranked):,} outlines inside one another")
+        pairs += zip(large[is_pair].tolist(), (small[is_pair] + begin).tolist(), strict=True)
     shapely.prepare(polygons)
     around: list[list[int]] = [[] for _ in ranked]
     same: set[int] = set()
