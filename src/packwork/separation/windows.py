@@ -78,7 +78,7 @@ def lay_on_sheets(
             window, optional = window + optional, []
         area = sum(areas[kind] for kind in window)
         chosen = sheets[at : at + _enough(sheets[at:], area)]
-        bound = work if area >= whole else work.part(area / whole)
+        bound = work.part(1.0 if is_last else area / whole) if found or not is_last else work
         whole -= area
         counts = Counter(window)
         kinds = sorted(counts)
