@@ -209,6 +209,21 @@ def test_optional_parts_fill_what_the_others_leave(shop: Path, packwork: Command
     assert said["optional_left"] == [{"part": "disc", "count": 30 - names.count("disc")}]
 
 
+def test_shapes_of_an_instance_may_have_holes_or_be_rectangles(
+    shop: Path, packwork: Command
+) -> None:
+    frame = {"outer": [[0, 0], [4, 0], [4, 4], [0, 4]], "inner": [[[1, 1], [3, 1], [3, 3], [1, 3]]]}
+    box = {"x_min": 2.0, "y_min": 1.0, "width": 1.5, "height": 1.0}
+    shapes = [{"type": "polygon", "data": frame}, {"type": "rectangle", "data": box}]
+    items = [{"id": k, "demand": 1, "shape": shape} for k, shape in enumerate(shapes)]
+    said = {"name": "holed", "strip_height": 4.01, "items": items}
+    (shop / "holed.json").write_text(json.dumps(said), encoding="utf-8")
+    assert packwork("nest holed.json --passes 200 -o a.geojson").exit_code == 0
+    layout = pw.Layout.load(shop / "a.geojson")
+    assert sorted(outline.region.area for outline in layout.outlines) == pytest.approx([1.5, 12])
+    assert layout.container.width < 4.2
+
+
 @pytest.mark.parametrize("ending", ["geojson", "svg"])
 def test_parts_of_an_earlier_nest_stay_where_they_are(
     shop: Path, packwork: Command, ending: str

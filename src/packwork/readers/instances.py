@@ -26,9 +26,52 @@ MAX_COUNT = 10_000
 _Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
 
 
-class _PolygonModel(BaseModel):
+_Ring = Annotated[list[tuple[_Number, _Number]], Field(min_length=3, max_length=10_000)]
+
+
+class _SimplePolygonModel(BaseModel):
     type: Literal["simple_polygon"]
-    data: Annotated[list[tuple[_Number, _Number]], Field(min_length=3, max_length=10_000)]
+    data: _Ring
+
+    @property
+    def polygon(self) -> Polygon:
+        return Polygon(self.data)
+
+
+class _HoledModel(BaseModel):
+    outer: _Ring
+    inner: Annotated[list[_Ring], Field(max_length=1_000)] = []
+
+
+class _PolygonModel(BaseModel):
+    type: Literal["polygon"]
+    data: _HoledModel
+
+    @property
+    def polygon(self) -> Polygon:
+        return Polygon(self.data.outer, self.data.inner)
+
+
+class _BoxModel(BaseModel):
+    x_min: _Number
+    y_min: _Number
+    width: Annotated[_Number, Field(gt=0)]
+    height: Annotated[_Number, Field(gt=0)]
+
+
+class _RectangleModel(BaseModel):
+    type: Literal["rectangle"]
+    data: _BoxModel
+
+    @property
+    def polygon(self) -> Polygon:
+        x, y = self.data.x_min, self.data.y_min
+        return shapely.box(x, y, x + self.data.width, y + self.data.height)
+
+
+_ShapeModel = Annotated[
+    _SimplePolygonModel | _PolygonModel | _RectangleModel, Field(discriminator="type")
+]
 
 
 class _PartModel(BaseModel):
@@ -39,7 +82,7 @@ class _PartModel(BaseModel):
     allowed_orientations: Annotated[list[_Number], Field(min_length=1, max_length=360)] | None = (
         None
     )
-    shape: _PolygonModel
+    shape: _ShapeModel
 
 
 class _InstanceModel(BaseModel):
@@ -102,7 +145,7 @@ def read_instance(path: str | Path) -> Instance:
 
 
 def _part(said: _PartModel, source: str) -> InstancePart:
-    polygon = Polygon(said.shape.data)
+    polygon = said.shape.polygon
     if not polygon.is_valid or polygon.area <= 0.0:
         why = shapely.is_valid_reason(polygon) if polygon.area else "it has no area"
         raise UnfitError(f"part {said.id} is no simple polygon: {why}")
