@@ -278,7 +278,7 @@ def test_layers_and_open_lines_are_engraved(caplog: pytest.LogCaptureFixture) ->
     # The line over the hole is in two, none beyond the edge.
     assert lengths == pytest.approx([7, 10, 37], abs=0.01)
     for said in ("1 open line inside parts", "1 TEXT", "1 engraved beyond an edge",
-                 "1 to engrave beside all parts", "1 what is hidden, or construction"):  # fmt: skip
+                 "1 to engrave beside all parts", "1 hidden or construction"):  # fmt: skip
         assert said in caplog.text
 
 

@@ -153,7 +153,7 @@ class _Walk:
         for entity in entities:
             kind, layer = entity.dxftype(), str(entity.dxf.get("layer", "0"))
             if not self._is_shown(entity, layer):
-                self.left_out["what is hidden, or construction"] += 1
+                self.left_out["hidden or construction"] += 1
                 continue
             try:
                 found = list(self._of_entity(entity, kind, layer))
