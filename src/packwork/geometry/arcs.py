@@ -51,7 +51,7 @@ class ArcLine:
 
     @property
     def ends(self) -> FloatArray:
-        """Where each side ends, ``(sides, 2)``."""
+        """Ends of all sides, ``(sides, 2)``."""
         after = np.roll(self.points, -1, axis=0)
         return after if self.is_closed else after[:-1]
 

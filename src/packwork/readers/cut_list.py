@@ -29,7 +29,7 @@ COLUMNS: Mapping[str, tuple[str, ...]] = {
     "count": ("count", "quantity", "qty", "pieces"),
     "name": ("name", "part", "label"),
 }
-"""What columns are called, in small letters; the first that is there counts."""
+"""Names of columns by their meanings, in small letters; the first that is there counts."""
 
 _COUNT = re.compile(r"[0-9]{1,6}(?:[.,]0*)?")
 

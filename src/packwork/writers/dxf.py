@@ -156,7 +156,7 @@ def _straight(rings: Iterable[FloatArray], *, is_closed: bool = True) -> list[Ar
 
 
 @dataclass(frozen=True, eq=False)
-class _Lines:
+class _ItemLines:
     """Lines of an item, and a map (2 x 3) to its own units.
 
     None to cut: those of its outline as placed.
@@ -167,10 +167,10 @@ class _Lines:
     matrix: FloatArray
 
 
-def _lines_of(item: Item) -> _Lines:
+def _lines_of(item: Item) -> _ItemLines:
     if isinstance(item.art, LineArt):
-        return _Lines(item.art.cut, item.art.engraved, item.art.matrix)
-    return _Lines((), _straight(_bare_rings(item)), affine.identity())
+        return _ItemLines(item.art.cut, item.art.engraved, item.art.matrix)
+    return _ItemLines((), _straight(_bare_rings(item)), affine.identity())
 
 
 @dataclass(frozen=True, eq=False)

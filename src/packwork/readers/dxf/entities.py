@@ -66,7 +66,7 @@ _DWG = re.compile(rb"AC10\d\d")
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class CadLine:
     """A line of a drawing, in its units, y up; ``kind`` is the entity that it was."""
 
     line: ArcLine
@@ -82,7 +82,7 @@ class CadDrawing:
     that elsewhere, None where it says nothing.
     """
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[CadLine, ...]
     left_out: Counter[str]
     millimetres: float | None
     is_metric: bool | None
@@ -100,7 +100,7 @@ def read_drawing(data: bytes) -> CadDrawing:
     if data.count(b"\n") > MOST_LINES:
         raise UnfitError(f"has more than {MOST_LINES:,} lines of text; export the outlines alone")
     document = _parsed(data)
-    walk = _Walk(document)
+    walk = _BlockReader(document)
     pieces = tuple(walk.pieces(document.modelspace()))
     millimetres, is_metric = _unit(document)
     return CadDrawing(pieces, walk.left_out, millimetres, is_metric)
@@ -139,16 +139,16 @@ def _unit(document: Drawing) -> tuple[float | None, bool | None]:
 
 
 @dataclass(eq=False)
-class _Walk:
+class _BlockReader:
     """Reading of one document, and what is left of its bounds."""
 
     document: Drawing
     left_out: Counter[str] = field(default_factory=Counter)
-    blocks: dict[str, list[Piece] | None] = field(default_factory=dict)
+    blocks: dict[str, list[CadLine] | None] = field(default_factory=dict)
     inserts: int = 0
     points: int = 0
 
-    def pieces(self, entities: Any) -> Iterator[Piece]:
+    def pieces(self, entities: Any) -> Iterator[CadLine]:
         """Lines of entities that are shown."""
         for entity in entities:
             kind, layer = entity.dxftype(), str(entity.dxf.get("layer", "0"))
@@ -165,7 +165,7 @@ class _Walk:
             self._count(found)
             yield from found
 
-    def _count(self, found: list[Piece]) -> None:
+    def _count(self, found: list[CadLine]) -> None:
         for piece in found:
             if (
                 not (np.abs(piece.line.points) < FARTHEST).all()
@@ -177,7 +177,7 @@ class _Walk:
                 )
         self.points += self._bounded(found, 1)
 
-    def _bounded(self, found: list[Piece], copies: int) -> int:
+    def _bounded(self, found: list[CadLine], copies: int) -> int:
         """Points of copies of some lines, if no more than are left."""
         count = copies * sum(PIECE_POINTS + len(piece.line.points) for piece in found)
         if self.points + count > MOST_POINTS:
@@ -197,7 +197,7 @@ class _Walk:
                 style = str(held.dxf.get("linetype", ""))
         return not _HIDDEN.match(style)
 
-    def _of_entity(self, entity: Any, kind: str, layer: str) -> Iterator[Piece]:
+    def _of_entity(self, entity: Any, kind: str, layer: str) -> Iterator[CadLine]:
         if kind == "INSERT":
             yield from self._inserted(entity, layer)
             return
@@ -206,9 +206,9 @@ class _Walk:
         if line is None or plane is None:
             self.left_out[kind if line is None else f"{kind} out of the sheet's plane"] += 1
             return
-        yield Piece(line.mapped(plane, math.inf), layer, kind)
+        yield CadLine(line.mapped(plane, math.inf), layer, kind)
 
-    def _inserted(self, insert: Any, layer: str) -> Iterator[Piece]:
+    def _inserted(self, insert: Any, layer: str) -> Iterator[CadLine]:
         name = str(insert.dxf.name)
         copies = max(int(insert.mcount), 1)
         self.inserts += copies
@@ -226,7 +226,7 @@ class _Walk:
                 shown = layer if piece.layer == "0" else piece.layer
                 yield replace(piece, line=line, layer=shown)
 
-    def _block(self, name: str) -> list[Piece]:
+    def _block(self, name: str) -> list[CadLine]:
         """Lines of a block in its own units, read once."""
         key = name.casefold()
         if key not in self.blocks:

@@ -29,7 +29,7 @@ from packwork.phrasing import number_of
 from packwork.readers.dxf.entities import (
     MAX_DXF_BYTES,
     CadDrawing,
-    Piece,
+    CadLine,
     read_drawing,
 )
 from packwork.readers.dxf.rings import RingPart, nested, place, rings_of, size_of
@@ -122,7 +122,7 @@ def cad_parts(data: bytes, *, within: bool = False) -> list[CadPart]:
     drawing = read_drawing(data)
     px = _px_of(drawing)
     left_out = Counter(drawing.left_out)
-    cut, engraved = list[Piece](), list[Piece]()
+    cut, engraved = list[CadLine](), list[CadLine]()
     for piece in drawing.pieces:
         if IGNORED.search(piece.layer) or piece.layer.casefold() in OURS:
             left_out[f"on layer {piece.layer[:40]!r}"] += 1
@@ -155,7 +155,10 @@ def _px_of(drawing: CadDrawing) -> float:
 
 
 def _why_none(
-    cut: Sequence[Piece], loose: Sequence[Piece], engraved: Sequence[Piece], left_out: Counter[str]
+    cut: Sequence[CadLine],
+    loose: Sequence[CadLine],
+    engraved: Sequence[CadLine],
+    left_out: Counter[str],
 ) -> str:
     if loose:
         return _open_at(loose, loose[0])
@@ -172,7 +175,7 @@ def _why_none(
     return f"holds no outline{f', but {others}' if others else ''}; export lines and curves"
 
 
-def _open_at(loose: Sequence[Piece], piece: Piece) -> str:
+def _open_at(loose: Sequence[CadLine], piece: CadLine) -> str:
     ends = np.concatenate([[one.line.points[0], one.line.points[-1]] for one in loose])
     own = np.array([piece.line.points[0], piece.line.points[-1]])
     gaps = KDTree(ends).query(own, k=min(3, len(ends)))[0]
@@ -186,8 +189,8 @@ def _open_at(loose: Sequence[Piece], piece: Piece) -> str:
 
 def _engraved(
     parts: Sequence[RingPart],
-    engraved: Sequence[Piece],
-    loose: Sequence[Piece],
+    engraved: Sequence[CadLine],
+    loose: Sequence[CadLine],
     left_out: Counter[str],
 ) -> list[list[ArcLine]]:
     """Lines that go with each part; what lies beyond its edges is cut off."""

@@ -17,7 +17,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.arcs import ArcLine, joined_lines
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import signed_area
-from packwork.readers.dxf.entities import Piece
+from packwork.readers.dxf.entities import CadLine
 from packwork.readers.reading import UnfitError, spend
 
 JOINED = 5e-5
@@ -55,7 +55,7 @@ class RingPart:
     holes: tuple[Ring, ...]
 
 
-def size_of(pieces: Sequence[Piece]) -> float:
+def size_of(pieces: Sequence[CadLine]) -> float:
     """Longer side of the box of all points; 0 of none."""
     points = [piece.line.points for piece in pieces]
     return float(np.ptp(np.concatenate(points), axis=0).max()) if points else 0.0
@@ -70,7 +70,7 @@ def place(point: FloatArray | Sequence[float]) -> str:
     return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
 
 
-def rings_of(pieces: Sequence[Piece]) -> tuple[list[Ring], list[Piece]]:
+def rings_of(pieces: Sequence[CadLine]) -> tuple[list[Ring], list[CadLine]]:
     """Rings of closed lines and of open ones joined, and the open lines that are left.
 
     Raises ``UnfitError`` where more than two open lines meet, or a ring crosses itself.
@@ -83,7 +83,7 @@ def rings_of(pieces: Sequence[Piece]) -> tuple[list[Ring], list[Piece]]:
     return [ring for ring in found if ring is not None], left
 
 
-def _cleaned(piece: Piece, least: float) -> Piece | None:
+def _cleaned(piece: CadLine, least: float) -> CadLine | None:
     """The piece without sides of no length; None if it has no others."""
     line = piece.line
     lengths = np.hypot(*(line.ends - line.points[: line.sides]).T)
@@ -96,10 +96,10 @@ def _cleaned(piece: Piece, least: float) -> Piece | None:
     least_points = 2 if not line.is_closed or bulges.any() else 3
     if len(points) < least_points:
         return None
-    return Piece(ArcLine(points, bulges, line.is_closed), piece.layer, piece.kind)
+    return CadLine(ArcLine(points, bulges, line.is_closed), piece.layer, piece.kind)
 
 
-def _ring(piece: Piece) -> Ring | None:
+def _ring(piece: CadLine) -> Ring | None:
     line = piece.line
     tolerance = FLATTENING * max(float(np.ptp(line.points, axis=0).max()), 1e-300)
     points = line.flattened(tolerance)
@@ -117,7 +117,7 @@ def _ring(piece: Piece) -> Ring | None:
                 polygon)  # fmt: skip
 
 
-def _joined(pieces: Sequence[Piece], tolerance: float) -> tuple[list[Piece], list[Piece]]:
+def _joined(pieces: Sequence[CadLine], tolerance: float) -> tuple[list[CadLine], list[CadLine]]:
     """Rings of open lines, and those that belong to none."""
     if not pieces:
         return [], []
@@ -147,7 +147,7 @@ def _nodes(ends: FloatArray, tolerance: float) -> IntArray:
     return np.asarray(connected_components(links, directed=False)[1])
 
 
-def _unlike(pieces: Sequence[Piece], nodes: IntArray, tolerance: float) -> list[int]:
+def _unlike(pieces: Sequence[CadLine], nodes: IntArray, tolerance: float) -> list[int]:
     """Numbers of the lines, of those that lie on one another the first."""
     seen: set[tuple[object, ...]] = set()
     found = []
@@ -183,8 +183,8 @@ def _core(chosen: list[int], nodes: IntArray) -> tuple[list[int], dict[int, list
 
 
 def _cycles(
-    pieces: Sequence[Piece], nodes: IntArray, kept: Sequence[int], meeting: dict[int, list[int]]
-) -> Iterator[Piece]:
+    pieces: Sequence[CadLine], nodes: IntArray, kept: Sequence[int], meeting: dict[int, list[int]]
+) -> Iterator[CadLine]:
     left = dict.fromkeys(kept)
     while left:
         first = next(iter(left))
@@ -199,7 +199,7 @@ def _cycles(
         line = joined_lines(chain, is_closed=True)
         if len(line.points) > 2 or line.bulges.any():
             kind = pieces[first].kind if len(chain) == 1 else f"outline of {len(chain)} pieces"
-            yield Piece(line, pieces[first].layer, kind)
+            yield CadLine(line, pieces[first].layer, kind)
 
 
 def nested(rings: Sequence[Ring]) -> tuple[list[RingPart], int]:
