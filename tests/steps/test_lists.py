@@ -47,6 +47,10 @@ def test_a_plain_run_is_six_steps() -> None:
         ({"stroke_width": "even"}, {"FinishThinner", "EvenLines"}),
         ({"count": "auto"}, {"RemarkCount"}),
         ({"least_dpi": 90}, {"TellCoarse"}),
+        ({"sizes": "shared"}, {"Separate"}),
+        ({"sizes": "shared", "effort": "draft"}, set()),
+        ({"sizes": "shared", "count": 41}, set()),
+        ({"sizes": "shared", "force": ["down"]}, {"UnlessTight"}),
     ],
 )
 def test_each_wish_is_a_step_of_its_own(options: dict[str, Any], more: set[str]) -> None:

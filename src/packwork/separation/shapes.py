@@ -48,7 +48,10 @@ class Part:
     region: Region
     count: int = 1
     turns: tuple[float, ...] | None = (0.0,)
-    """Allowed angles in radians, clockwise on screen; None: any."""
+    """Allowed angles in radians, clockwise on screen; None: any within ``reach``."""
+
+    reach: float = math.inf
+    """Largest turn to either side where any is allowed; infinite for none."""
 
     mirrors: bool = False
     """Whether it may be mirrored, left to right, before it is turned."""
@@ -72,7 +75,7 @@ class ShapeTable(NamedTuple):
 class TurnTable(NamedTuple):
     """Rows cosine, sine, angle and side (-1: mirrored) of all turns, and spans of each.
 
-    ``spans``: (row, from, to), in pixels.
+    ``spans``: (row, from, to), in pixels; ``reach``: the largest turn of a shape that is free.
     """
 
     turns: Floats
@@ -80,6 +83,7 @@ class TurnTable(NamedTuple):
     is_free: npt.NDArray[np.bool_]
     span_at: npt.NDArray[np.int64]
     spans: npt.NDArray[np.int64]
+    reach: Floats
 
 
 def spare(region: Region, gap: float) -> Region:
@@ -165,18 +169,18 @@ def poles_of(region: Region) -> Floats:
 def spans_of(edges: Floats, pixel: float) -> npt.NDArray[np.int64]:
     """Pixels (row, from, before) that a shape covers on the middle lines of rows."""
     ax, ay, bx, by = edges
-    found: list[tuple[int, int, int]] = []
-    for row in range(math.ceil(edges[1].min() / pixel), math.floor(edges[1].max() / pixel) + 1):
-        y = row * pixel
-        met = (ay > y) != (by > y)
-        cuts = np.sort(ax[met] + (y - ay[met]) / (by[met] - ay[met]) * (bx[met] - ax[met]))
-        for start, end in zip(cuts[::2], cuts[1::2], strict=True):
-            first = round(float(start) / pixel)
-            found.append((row, first, max(round(float(end) / pixel), first + 1)))
-    if not found:
+    rows = np.arange(math.ceil(edges[1].min() / pixel), math.floor(edges[1].max() / pixel) + 1)
+    lines = (rows * pixel)[:, None]
+    row, edge = np.nonzero((ay > lines) != (by > lines))
+    if len(row) == 0:
         first = round(float(edges[0].min()) / pixel)
-        found.append((0, first, max(round(float(edges[0].max()) / pixel), first + 1)))
-    return np.array(found, dtype=np.int64).T.copy()
+        end = max(round(float(edges[0].max()) / pixel), first + 1)
+        return np.array([[0], [first], [end]], dtype=np.int64)
+    y = lines[row, 0]
+    cuts = ax[edge] + (y - ay[edge]) / (by[edge] - ay[edge]) * (bx[edge] - ax[edge])
+    order = np.lexsort((cuts, row))
+    ends = np.rint(cuts[order] / pixel).astype(np.int64)
+    return np.vstack([rows[row[order][::2]], ends[::2], np.maximum(ends[1::2], ends[::2] + 1)])
 
 
 @lru_cache(maxsize=16_384)
@@ -197,7 +201,10 @@ def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
     rows, spans = list[Floats](), list[npt.NDArray[np.int64]]()
     for part in parts:
         allowed = part.turns
-        if allowed is None:
+        if allowed is None and math.isfinite(part.reach):
+            many = max(math.ceil(part.reach / math.pi * FREE_TURNS), 2)
+            allowed = tuple(np.linspace(-part.reach, part.reach, many))
+        elif allowed is None:
             allowed = tuple(np.arange(FREE_TURNS) * (2 * math.pi / FREE_TURNS))
         found = np.array([[math.cos(turn), math.sin(turn), turn, 1.0] for turn in allowed]).T
         found[:2] = np.round(found[:2], 15)
@@ -208,6 +215,7 @@ def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
     turns = TurnTable(
         np.hstack(rows), starts(rows),
         np.array([part.turns is None for part in parts]), starts(spans), np.hstack(spans),
+        np.array([part.reach for part in parts]),
     )  # fmt: skip
     return shapes, turns
 

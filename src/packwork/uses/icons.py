@@ -22,11 +22,16 @@ from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture, blurred
-from packwork.steps.starts import fits_first
+from packwork.steps.starts import fits_first, needs_levels
 from packwork.uses.collage import filling, placing, reporting
 
 NO_CONTAINER = "none"
 """Name for no container at all: a pile lies anywhere, a chart's groups are bars."""
+
+
+MOST_SEPARATED = 40
+"""Items of one common scale for which another arrangement is sought. More gain little in long:
+decision 0045. Measured."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,12 +117,29 @@ class IconsUse(Use):
         """Places, levels, finish; voids if asked; measures and looks."""
         # Of sizes that are not shared first fit is not tried.
         suits = job.plan.sizes == "shared" and fits_first(job)
-        placed = placing(job, suits_first_fit=suits)
+        placed = placing(job, suits_first_fit=suits, bounds=separation(job))
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
         return reporting(job, is_dressed=False)
+
+
+def separation(job: Job) -> list[RunStep]:
+    """Search for larger sizes where all are shared and items may lie anywhere; else nothing."""
+    plan = job.plan
+    is_told = (
+        job.is_limited or job.forces.acts or needs_levels(job) or plan.keeps_order
+        or plan.has_even_lines or job.vectors is not None
+    )  # fmt: skip
+    is_begun = job.earlier is not None or job.target is not None
+    suits = plan.sizes == "shared" and plan.effort != "draft"
+    if not suits or is_told or is_begun or not 1 < len(job.items) <= MOST_SEPARATED:
+        return []
+    # Only what is asked for loads its kernels.
+    from packwork.steps.separate import Separate
+
+    return [Separate()]
 
 
 def material_of(

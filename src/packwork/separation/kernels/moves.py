@@ -92,12 +92,15 @@ def _nearest(shape, angle, side, table):
 
     -1 if there is none.
     """
-    turns, turn_at, is_free = table[0], table[1], table[2]
+    turns, turn_at, is_free, reach = table[0], table[1], table[2], table[5][shape]
     first, last = turn_at[shape], turn_at[shape + 1]
     if is_free[shape]:
         # Those of the other side come after all of this one.
         count = last - first if turns[3, last - 1] > 0.0 else (last - first) // 2
-        turn = first + round(angle / (2.0 * math.pi) * count) % count
+        if reach < np.inf:
+            turn = first + round((angle / reach + 1.0) / 2.0 * (count - 1))
+        else:
+            turn = first + round(angle / (2.0 * math.pi) * count) % count
         return turn if side > 0.0 else turn + count
     for turn in range(first, last):
         if turns[2, turn] == angle and turns[3, turn] == side:
@@ -170,6 +173,7 @@ def _descend(i, place, last, last_turn, step, turn_step, is_free, state, layout,
     ``place``: price, x, y, angle; changed to the best that was met. Returns evaluations.
     """
     shape, turns, tried = layout[1][i, SHAPE], table[0], 0
+    reach = table[5][shape]
     turn = int(place[4])
     _turn_to(shape, place[3], turn, shapes, turns, turned)
     while step > last or (is_free and turn_step > last_turn):
@@ -178,7 +182,8 @@ def _descend(i, place, last, last_turn, step, turn_step, is_free, state, layout,
         better = False
         for sign in (-1.0, 1.0):
             if axis == 4:
-                to_x, to_y, to_angle = x, y, angle + sign * turn_step
+                to_x, to_y = x, y
+                to_angle = min(max(angle + sign * turn_step, -reach), reach)
                 turn_part(shape, math.cos(to_angle), math.sin(to_angle), turns[3, turn], shapes,
                           turned)  # fmt: skip
             else:
@@ -224,7 +229,7 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
                 turned, scratch, nothing):  # fmt: skip
     """Seek the best place of a part; ``best[0]`` is price, x, y, angle and turn of it."""
     items, index = layout[0], layout[1]
-    turns, turn_at, free, span_at, spans = table
+    turns, turn_at, free, span_at, spans, reaches = table
     shape = index[i, SHAPE]
     is_free, first = free[shape], turn_at[shape]
     many = turn_at[shape + 1] - first
@@ -248,6 +253,7 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
             angle, turn = items[i, ANGLE], index[i, TURN]
             if is_free:
                 angle += normal(state) * _TURN_SPREAD
+                angle = min(max(angle, -reaches[shape]), reaches[shape])
             elif uniform(state) < 0.5:
                 turn = first + below(state, many)
                 angle = turns[2, turn]
