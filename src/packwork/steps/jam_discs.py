@@ -34,9 +34,9 @@ only where there are few thousands. Tried."""
 
 
 def jams_discs(job: Job) -> bool:
-    """Whether a job is discs in proportion of which nothing else is asked."""
+    """Whether a job with shared sizes is many discs of which nothing else is asked."""
     plan = job.plan
-    if plan.sizes != "shared" or len(job.items) < FEWEST or needs_levels(job):
+    if len(job.items) < FEWEST or needs_levels(job):
         return False
     is_told = job.is_limited or job.forces.acts or plan.keeps_order or plan.method or plan.share
     if is_told or job.earlier is not None or job.target is not None or job.vectors is not None:

@@ -93,7 +93,7 @@ def placing(
     bounds
         What a use does to sizes after the exact finish.
     """
-    if place is None and jams_discs(job):
+    if job.plan.sizes == "shared" and place is None and jams_discs(job):
         return [*([StartRecording()] if job.is_recorded else []), JamDiscs()]
 
     def once(job: Job, *, may_fail: bool = False) -> list[RunStep]:
