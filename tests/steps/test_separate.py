@@ -13,7 +13,8 @@ from packwork import uses
 from packwork.pipeline.run import RunContext, run_steps
 from packwork.pipeline.state import RunState
 from packwork.recipe import make_recipe
-from packwork.steps.separate import Separate
+from packwork.steps import finish
+from packwork.steps.separate import ROUNDS, Separate
 
 pytestmark = pytest.mark.compiled
 
@@ -69,6 +70,21 @@ def test_items_grow_by_one_factor_or_stay_and_keep_to_what_was_asked(
 def test_thirty_items_come_out_larger() -> None:
     state = before(container="whale", items=ICONS, count=30)
     assert Separate().run(state, RunContext()).poses.scale[0] > 1.01 * state.poses.scale[0]
+
+
+def test_no_round_makes_trials_whatever_the_effort(monkeypatch: pytest.MonkeyPatch) -> None:
+    state, trials = before(effort="best", count=4), list[int]()
+    real = finish.finish
+
+    def counted(*args: Any, **more: Any) -> Any:
+        trials.append(args[3].trials)
+        return real(*args, **more)
+
+    monkeypatch.setattr(finish, "finish", counted)
+    found = Separate().run(state, RunContext())
+    assert len(trials) == ROUNDS["best"]
+    assert set(trials) == {0}
+    assert found.job is state.job
 
 
 def test_a_search_repeats_and_a_stop_leaves_all_as_it_is() -> None:

@@ -61,6 +61,8 @@ def _searched(state: RunState, context: RunContext) -> RunState:
     search = ContainerSearch(
         parts, room, _places(state)[order], seed=job.plan.seed, stop=context.stop
     )
+    # As what is tight already: without trials, which cost more than a round.
+    settled = replace(state, job=job.replanned(effort="normal"), is_tight=True)
     is_over = until_over(context.stop, job.seconds_left(TIME_SHARE))
     best, aim = state, 1.0
     with search.pool:
@@ -73,11 +75,11 @@ def _searched(state: RunState, context: RunContext) -> RunState:
             x, y, angle = places.T.copy()
             moved = replace(first, x=x, y=y, angle=angle, scale=first.scale * factor)
             part = context.part(number / ROUNDS[job.plan.effort], 1.0)
-            found = finished(replace(state, poses=moved, is_only_refined=loss == 0.0), part)
+            found = finished(replace(settled, poses=moved, is_only_refined=loss == 0.0), part)
             aim *= LARGER if loss == 0.0 else SMALLER
             if not found.conflicts and found.poses.scale[0] > best.poses.scale[0]:
                 best = found
-    return replace(best, is_only_refined=state.is_only_refined)
+    return replace(best, job=job, is_tight=state.is_tight, is_only_refined=state.is_only_refined)
 
 
 def _places(state: RunState) -> FloatArray:
