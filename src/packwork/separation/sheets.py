@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -11,15 +12,12 @@ import numpy.typing as npt
 from packwork.separation.shapes import Floats
 from packwork.separation.strip import EXPLORED, PATIENCE_AT_END, Strip, StripSearch
 
-FIRST_BATCH = 0.1
-"""Share of all parts that are brought onto the sheets at once at first."""
-
 SPARSE, MUCH_LONGER = 0.45, 1.5
 """Density at which parts are brought in first, and how much longer the sheets are cut off where
 some have no room: sheets may be narrow at an end."""
 
-BATCH_PATIENCE = 30
-"""Passes without a lower loss after which a batch is halved."""
+FIRST_PATIENCE = 30
+"""Passes without a lower loss after which a part goes back at first."""
 
 FILLING = 0.2
 """Share of the work that optional parts have, where there are some."""
@@ -28,7 +26,7 @@ Indices = npt.NDArray[np.int64]
 
 
 class SheetSearch(StripSearch):
-    """Search over sheets: parts are brought in, the last sheet is shortened until it is empty.
+    """Search over sheets: parts are brought in, and the last sheet is shortened until it is empty.
 
     What finds no room is not laid.
     """
@@ -53,7 +51,7 @@ class SheetSearch(StripSearch):
         self.bring_in(required, length, self.ground.end, until)
 
     def bring_in(self, parts: Indices, length: float, longest: float, until: float) -> None:
-        """Bring parts onto the sheets, the largest first, in ever smaller batches.
+        """Bring parts onto the sheets, the largest first: by first fit, then in batches.
 
         Those for which there is no room go back, and have another turn when all others had theirs.
 
@@ -63,22 +61,22 @@ class SheetSearch(StripSearch):
             Where the sheets are cut off at first, and at last.
         """
         order = np.lexsort((-self.problem.hulls[parts], -self.priorities[parts]))
-        waiting = deque(parts[order].tolist())
-        batch = math.ceil(FIRST_BATCH * len(waiting))
-        failed, patience = 0, BATCH_PATIENCE
+        waiting = deque(self.first_fit(parts[order].tolist(), length))
+        failed, patience, kinds = 0, FIRST_PATIENCE, self.problem.shape_of
+        batch = math.ceil(len(waiting) / 2)
         while waiting and not self.is_over(until):
             if failed >= len(waiting):
                 # None of them has room: on a longer stretch, or with more patience.
                 if length < longest:
                     longer = self.ground.next_length(length * MUCH_LONGER, self.problem.widest)
                     length = min(longer, longest)
+                    waiting = deque(self.first_fit(waiting, length))
                 else:
                     patience = min(2 * patience, PATIENCE_AT_END)
                 failed = 0
+                continue
             chosen = [waiting.popleft() for _ in range(min(batch, len(waiting)))]
-            poses = self.best.poses.copy()
-            poses[chosen] = super().first_poses(length)[chosen]
-            self.put(length, poses, fresh=True)
+            self.add(chosen, length)
             loss, poses, _ = self.separate(patience, until, 1)
             if loss == 0.0:
                 self.keep(poses)
@@ -88,11 +86,38 @@ class SheetSearch(StripSearch):
                 batch = (batch + 1) // 2
             else:
                 # Where one has no room, its like have none.
-                kinds = self.problem.shape_of
-                alike = [*chosen, *(k for k in waiting if kinds[k] == kinds[chosen[0]])]
-                waiting = deque(k for k in waiting if kinds[k] != kinds[chosen[0]])
+                kind = kinds[chosen[0]]
+                alike = [*chosen, *(k for k in waiting if kinds[k] == kind)]
+                waiting = deque(k for k in waiting if kinds[k] != kind)
                 waiting.extend(alike)
                 failed += len(alike)
+        if waiting and length < longest and not self.stop():
+            # The work is done: what fits on empty ground is laid all the same.
+            self.first_fit(waiting, longest)
+
+    def first_fit(self, parts: Iterable[int], length: float) -> list[int]:
+        """Lay parts where nothing has to give way; returns those that found no such place."""
+        left, full = list[int](), set[int]()
+        for part in parts:
+            kind = int(self.problem.shape_of[part])
+            if kind in full or self.stop():
+                left.append(part)
+                continue
+            self.add([part], length)
+            self.step()
+            self.put(length, self.layout.poses)
+            if self.layout.loss == 0.0:
+                self.keep(self.layout.poses)
+            else:
+                full.add(kind)
+                left.append(part)
+        return left
+
+    def add(self, parts: Sequence[int], length: float) -> None:
+        """Put parts anywhere among those that lie."""
+        poses = self.best.poses.copy()
+        poses[parts] = super().first_poses(length)[parts]
+        self.put(length, poses, fresh=True)
 
     def run(self) -> Strip:
         """Lay all parts, explore, compress, fill up with optional ones; the fewest sheets met."""
