@@ -22,7 +22,7 @@ from benchmarks.kit.manifests import write_page
 from benchmarks.peers.peering import version
 from packwork.readers.instances import Instance, read_instance
 from packwork.separation.strip import WorkBound
-from packwork.uses.nested import Nest, Sheet, SheetPart
+from packwork.uses.nested import NestedSheets, Sheet, SheetPart
 from packwork.uses.nesting import nest
 
 MOST_OVERLAP = 1e-9
@@ -41,7 +41,7 @@ def sheet_parts(instance: Instance) -> list[SheetPart]:
 def ours(instance: Instance, seconds: float, seed: int, workers: int) -> float:
     """Density of our nest, 0 if it does not hold."""
     sheet = Sheet(height=instance.height, name=instance.name)
-    made: Nest = nest(
+    made: NestedSheets = nest(
         sheet_parts(instance), [sheet], seed=seed, workers=workers, work=WorkBound(seconds=seconds)
     )
     regions = [outline.region for outline in made.sheets[0].layout.outlines]

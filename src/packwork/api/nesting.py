@@ -56,7 +56,7 @@ class Nest:
     length: float
     density: float
     certified: bool
-    _nested: nested.Nest
+    _nested: nested.NestedSheets
 
     def __len__(self) -> int:
         return len(self.layouts)

@@ -13,7 +13,7 @@ from packwork.offers import Group
 from packwork.phrasing import number_of
 
 if TYPE_CHECKING:
-    from packwork.uses.nested import Nest, Sheet
+    from packwork.uses.nested import NestedSheets, Sheet
 
 DEFAULT_OUTPUT = Path("nest.svg")
 
@@ -176,7 +176,7 @@ def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None
         writers.check_new(every)
 
 
-def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], list[str]]:
+def _drawn(found: NestedSheets, files: list[Path]) -> tuple[list[tuple[Path, bytes]], list[str]]:
     """Files of all sheets, and what is wrong with them."""
     from packwork import writers
     from packwork.cli.running import faults_in
@@ -202,7 +202,7 @@ def _drawn(found: Nest, files: list[Path]) -> tuple[list[tuple[Path, bytes]], li
     return drawn, faults
 
 
-def _summary(found: Nest, sheet: Sheet, certified: bool) -> str:
+def _summary(found: NestedSheets, sheet: Sheet, certified: bool) -> str:
     height = found.length if sheet.is_square else sheet.height
     where = f"{found.length:.6g} x {height:.6g} {sheet.unit}"
     if len(found.sheets) > 1:

@@ -24,7 +24,7 @@ wastes room, smaller prices more edges. Chosen."""
 
 
 @dataclass(frozen=True)
-class Room(Ground):
+class ContainerRoom(Ground):
     """A container in its box, whose height and length stay in proportion."""
 
     def height_at(self, length: float) -> float:
@@ -118,7 +118,7 @@ def _scaled(poses: Floats, factor: float) -> Floats:
     return np.asarray(poses * (factor, factor, 1.0))
 
 
-def _ground_of(room: Region) -> Room:
+def _ground_of(room: Region) -> ContainerRoom:
     """Ground of one sheet, the container's box, with all that is not the container in its way."""
     x0, y0, x1, y1 = room.bounds
     wide, tall = x1 - x0, y1 - y0
@@ -126,4 +126,4 @@ def _ground_of(room: Region) -> Room:
         difference(box(x0, y0, x1, y1), room), lambda points: points - (x0, y0)
     )
     bay = Bay(0.0, wide, room.area, (-x0, -y0))
-    return Room(tall, (bay,), tuple(tiles(around, min(wide, tall) / TILES)))
+    return ContainerRoom(tall, (bay,), tuple(tiles(around, min(wide, tall) / TILES)))

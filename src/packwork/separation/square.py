@@ -9,7 +9,7 @@ from packwork.separation.shapes import Floats, boxes_of
 from packwork.separation.strip import Strip, StripSearch
 
 GROWTH = 1.05
-"""How much larger the next square is into which columns of parts are laid."""
+"""Factor between squares into which columns of parts are laid."""
 
 
 class SquareSearch(StripSearch):

@@ -38,7 +38,7 @@ LARGE_QUANTILE = 0.75
 """Parts that are exchanged to leave a dead end have hulls above that quantile of all area."""
 
 SPREAD = 0.25
-"""How far down the list of failures a new attempt reaches, in deviations of its length."""
+"""Reach of a new attempt down the list of failures, in deviations of its length."""
 
 
 @dataclass

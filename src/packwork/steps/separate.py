@@ -19,7 +19,7 @@ from packwork.separation.container import ContainerSearch
 from packwork.separation.shapes import Part, spare
 from packwork.steps.finish import finished, gap_with_bulge
 
-ROUNDS = {"normal": 4, "best": 24}
+ROUNDS = {"normal": 4, "best": 8}
 """Searches that are followed by a finish, by effort. More find larger ones, ever less so. Tried."""
 
 PASSES = 10

@@ -117,7 +117,9 @@ class IconsUse(Use):
         """Places, levels, finish; voids if asked; measures and looks."""
         # Of sizes that are not shared first fit is not tried.
         suits = job.plan.sizes == "shared" and fits_first(job)
-        placed = placing(job, suits_first_fit=suits, bounds=separation(job))
+        placed = placing(
+            job, suits_first_fit=suits, bounds=separation(job) if job.plan.sizes == "shared" else []
+        )
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
@@ -126,15 +128,14 @@ class IconsUse(Use):
 
 
 def separation(job: Job) -> list[RunStep]:
-    """Search for larger sizes where all are shared and items may lie anywhere; else nothing."""
+    """Search for a larger common size, where items may lie anywhere; else nothing."""
     plan = job.plan
     is_told = (
         job.is_limited or job.forces.acts or needs_levels(job) or plan.keeps_order
         or plan.has_even_lines or job.vectors is not None
     )  # fmt: skip
     is_begun = job.earlier is not None or job.target is not None
-    suits = plan.sizes == "shared" and plan.effort != "draft"
-    if not suits or is_told or is_begun or not 1 < len(job.items) <= MOST_SEPARATED:
+    if plan.effort == "draft" or is_told or is_begun or not 1 < len(job.items) <= MOST_SEPARATED:
         return []
     # Only what is asked for loads its kernels.
     from packwork.steps.separate import Separate

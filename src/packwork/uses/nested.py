@@ -51,20 +51,20 @@ class SheetPart:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """What parts are laid on: a rectangle, any outline, a strip of open length, a least square."""
+    """Ground for parts: a rectangle, any outline, a strip of open length, a least square."""
 
     height: float
     length: float = math.inf
     unit: Unit = "px"
     name: str = "sheet"
     count: int | None = None
-    """How many there are; None: as many as are needed."""
+    """Number of them; None: as many as are needed."""
 
     outline: Outline | None = None
     """Region of it that may be used, with holes; None: all of it."""
 
     held: Layout | None = None
-    """What lies on it already, and stays where it is."""
+    """Layout that lies on it already, and stays where it is."""
 
     @property
     def is_strip(self) -> bool:
@@ -129,7 +129,7 @@ class NestedSheet:
 
 
 @dataclass(frozen=True)
-class Nest:
+class NestedSheets:
     """All sheets that are used, in their order.
 
     ``unplaced``: parts that found no room, and how many of each; ``left``: optional ones.

@@ -19,7 +19,7 @@ from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
 from packwork.separation.square import SquareSearch
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
-from packwork.uses.nested import Nest, NestedSheet, Sheet, SheetPart, layout_on, measured
+from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
 
 MOST_ON_STRIP = 2_000
 """Parts on a strip: prices of pairs take 64 bytes each, a pass over them a second."""
@@ -43,7 +43,7 @@ def nest(
     parts: Sequence[SheetPart], sheets: Sequence[Sheet], *, gap: float = 0.0,
     margin: float | None = None, seed: int = 0, workers: int = 2,
     work: WorkBound, stop: Callable[[], bool] = lambda: False,
-) -> Nest:  # fmt: skip
+) -> NestedSheets:  # fmt: skip
     """Lay parts on as few sheets as the search finds, and on as short a part of the last one.
 
     Parameters
@@ -113,7 +113,7 @@ def nest(
         tuple((parts[n].item, missing[n]) for n in sorted(missing) if parts[n].is_optional is left)
         for left in (False, True)
     )
-    return Nest(tuple(found), unplaced, optional, about)
+    return NestedSheets(tuple(found), unplaced, optional, about)
 
 
 def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:

@@ -248,7 +248,7 @@ class _Paper:
     tolerance: float
 
     def region(self, lines: Sequence[DxfLine]) -> Region:
-        """What closed lines enclose, y down."""
+        """Region that closed lines enclose, y down."""
         return region([self.down(one.line) for one in lines], "evenodd")
 
     def down(self, line: ArcLine) -> FloatArray:
