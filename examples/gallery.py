@@ -30,6 +30,7 @@ GROUPS = {
     "words": "Words",
     "photos": "Photographs",
     "pile": "Piles",
+    "nest": "Parts of true size",
     "chart": "Charts",
     "batch": "Many at once",
     "python": "In Python",
