@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 58_100,
+    "lines of code": 58_200,
     "lines of docstrings": 16_600,
     "files": 524,
     "functions of the road in one plain fill": 86,
@@ -70,7 +70,7 @@ LIMITS = {
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 2,
-    "constants chosen by hand": 663,
+    "constants chosen by hand": 668,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import shapely
+import shapely.affinity
 
 import packwork as pw
 
@@ -60,6 +61,44 @@ def test_what_is_in_the_way_is_one_line() -> None:
         pw.nest("300x200mm", TILE, kerf=float("nan"), passes=3)
     with pytest.raises(pw.RecipeError, match="nothing to nest"):
         pw.nest("300x200mm", passes=3)
+
+
+@pytest.mark.parametrize(
+    ("sheet", "part", "asked", "said"),
+    [
+        ("100mm", TILE, {"passes": 0}, "passes"),
+        ("100mm", TILE, {"time": float("nan")}, "time"),
+        ("100mm", TILE, {"time": float("inf")}, "time"),
+        ("100mm", (TILE, -1), {"passes": 1}, "use 0 or more"),
+        ("100x100mm*0", TILE, {"passes": 1}, "sheet"),
+        ("square", TILE, {"passes": 1, "kerf": "5%"}, "kerf"),
+    ],
+)
+def test_what_has_no_meaning_is_named(sheet: str, part: object, asked: dict, said: str) -> None:
+    with pytest.raises(pw.RecipeError, match=said):
+        pw.nest(sheet, part, **asked)
+
+
+def test_parts_of_one_name_without_room_are_added_up() -> None:
+    found = pw.nest(
+        "10x10mm*1", [(shapely.box(0, 0, 5, 5), 6), (shapely.box(0, 0, 6, 6), 4)], passes=9
+    )
+    assert found.unplaced == {"part": sum(one["count"] for one in found.report["unplaced"])}
+
+
+def test_thin_frames_that_make_a_long_strip_are_certified() -> None:
+    frame = shapely.box(0, 0, 90, 90).difference(shapely.box(0.5, 0.5, 89.5, 89.5))
+    assert pw.nest("92mm", (frame, 30), rotate="none", passes=2).certified
+
+
+def test_a_part_that_lies_turned_over_stays_said_to(tmp_path: Path) -> None:
+    hook = shapely.Polygon([(0, 0), (40, 0), (40, 10), (10, 10), (10, 30), (0, 30)])
+    room = shapely.affinity.scale(hook, -1, 1).buffer(1, join_style="mitre")
+    first = pw.nest(room, hook, rotate="none", mirror=True, passes=200)
+    assert first.layouts[0].manifest["nest"]["mirrored"] == [1]
+    (path,) = first.save(tmp_path / "a.geojson")
+    again = pw.nest(path, shapely.box(0, 0, 0.5, 0.5), passes=9)
+    assert again.layouts[0].manifest["nest"]["mirrored"] == [1]
 
 
 def test_a_search_ends_when_it_is_told_to() -> None:

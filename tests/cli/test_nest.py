@@ -209,6 +209,17 @@ def test_optional_parts_fill_what_the_others_leave(shop: Path, packwork: Command
     assert said["optional_left"] == [{"part": "disc", "count": 30 - names.count("disc")}]
 
 
+def test_files_of_an_earlier_nest_are_kept_and_named(shop: Path, packwork: Command) -> None:
+    assert packwork("nest 90x60mm bracket.svg*3 --passes 30 -o a.svg").exit_code == 0
+    assert (shop / "a-3.svg").exists()
+    result = packwork("nest 90x60mm bracket.svg --passes 9 -o a.svg")
+    assert "of an earlier nest: a-1.svg, a-2.svg, a-3.svg" in " ".join(result.output.split())
+    result = packwork("nest a-1.svg,90x60mm bracket.svg --passes 9 -o a.svg")
+    assert result.exit_code == 2
+    assert "a-1.svg" in result.output
+    assert packwork("nest 90x60mm bracket.svg --passes 9 -o a.svg --no-clobber").exit_code == 2
+
+
 def test_shapes_of_an_instance_may_have_holes_or_be_rectangles(
     shop: Path, packwork: Command
 ) -> None:

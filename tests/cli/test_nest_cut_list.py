@@ -95,6 +95,7 @@ def test_columns_that_say_nothing_and_files_elsewhere_are_named(
         ("part,count\nparts/tile.svg,1\n", "has no column 'file', but part, count"),
         ("file,count\n", "lists no parts"),
         ("file,count\nparts/tile.svg,\n", "line 2: a count is a whole number from 0, not ''"),
+        ('file,count\nparts/tile.svg,"1,000"\n', "a count is a whole number from 0, not '1,000'"),
         ("file,count\nparts/tile.svg,-2\n", "line 2: a count is a whole number from 0, not '-2'"),
         ("file,count\nparts/tile.svg,2.5\n", "not '2.5'"),
         ("file,count\n\n,7\n", "line 3: names no file"),

@@ -33,6 +33,12 @@ def regions(parts: list[Part], laid: LaidSheet) -> list[shapely.Polygon]:
     ]  # fmt: skip
 
 
+def overlap(found: list[shapely.Polygon]) -> float:
+    return max(
+        (a.intersection(b).area for k, a in enumerate(found) for b in found[:k]), default=0.0
+    )
+
+
 def lay(
     parts: list[Part], sheets: list[FreeSheet], passes: int, seed: int = 0
 ) -> tuple[list[LaidSheet], Counter[int]]:
@@ -56,9 +62,7 @@ def test_every_part_is_laid_once_or_counted_as_left(seed: int) -> None:
     for one in laid:
         sheet, found = sheets[one.sheet], [*sheets[one.sheet].held, *regions(parts, one)]
         assert all(sheet.region.buffer(1e-9).covers(region) for region in found)
-        assert max(
-            a.intersection(b).area for k, a in enumerate(found) for b in found[:k]
-        ) < 1e-9  # fmt: skip
+        assert overlap(found) < 1e-9
 
 
 def test_parts_take_no_more_sheets_than_a_row_by_row_layout_would() -> None:
@@ -78,6 +82,35 @@ def test_sheets_that_are_too_few_are_filled_by_priority() -> None:
     assert Counter(laid[0].kinds)[1] == 4
     assert left[0] + Counter(laid[0].kinds)[0] == 9
     assert left[1] == 0
+
+
+def test_more_parts_than_a_window_takes_lie_on_one_sheet(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("packwork.separation.windows.MOST_IN_WINDOW", 10)
+    parts = [Part(region=shapely.box(0, 0, 1, 1), count=25)]
+    sheets = [FreeSheet(shapely.box(0, 0, 9, 9)) for _ in range(5)]
+    laid, left = lay(parts, sheets, 2_000)
+    assert not left
+    assert [one.sheet for one in laid] == [0]
+    found = regions(parts, laid[0])
+    assert len(found) == 25
+    assert overlap(found) < 1e-9
+
+
+def test_parts_that_fit_only_a_later_sheet_are_laid_there() -> None:
+    small, large = FreeSheet(shapely.box(0, 0, 10, 10)), FreeSheet(shapely.box(0, 0, 60, 40))
+    sheets = [small] * 14 + [large] * 3
+    laid, left = lay([Part(region=shapely.box(0, 0, 15, 12), count=6)], sheets, 400)
+    assert not left
+    assert min(one.sheet for one in laid) >= 14
+
+
+def test_optional_parts_alone_take_no_more_sheets_than_they_need() -> None:
+    parts = [Part(region=shapely.box(0, 0, 1, 1), count=20, is_optional=True)]
+    laid, left = lay(parts, [FreeSheet(shapely.box(0, 0, 9, 9)) for _ in range(4)], 400)
+    assert not left
+    assert len(laid) == 1
 
 
 def test_ground_has_obstacles_where_no_sheet_is() -> None:

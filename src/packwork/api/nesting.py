@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -150,10 +152,10 @@ def nest(
     (1, 6, True)
     """
     if isinstance(sheet, str | os.PathLike) and is_instance(os.fspath(sheet)):
+        named, others = ([str(part) for part, _ in _pairs(group)] for group in (parts, optional))
         sheets, laid = read_request(
-            os.fspath(sheet), [str(part) for part, _ in _pairs(parts)], [], rotate, mirror=mirror,
-            holes=holes,
-        )  # fmt: skip
+            os.fspath(sheet), named, others, rotate, mirror=mirror, holes=holes
+        )
     else:
         sheets = _sheets(sheet)
         laid = [
@@ -165,11 +167,13 @@ def nest(
         ]  # fmt: skip
     gap = _length("kerf", kerf, sheets[0])
     away = None if margin is None else _length("margin", margin, sheets[0])
-    work = WorkBound(seconds=time) if passes is None else WorkBound(passes=passes)
+    work = WorkBound.of(time, passes)
     found = nesting.nest(laid, sheets, gap=gap, margin=away, seed=seed, work=work, stop=stop)
+    unplaced = Counter[str]()
+    for item, count in found.unplaced:
+        unplaced[item.name] += count
     return Nest(
-        tuple(public(one.layout) for one in found.sheets),
-        {item.name: count for item, count in found.unplaced},
+        tuple(public(one.layout) for one in found.sheets), unplaced,
         found.length, found.density, found.certified, found,
     )  # fmt: skip
 
@@ -183,11 +187,11 @@ def _pairs(parts: Parts) -> Iterator[tuple[Part, int]]:
     else:
         several: Iterable[Any] = [parts] if _is_pair(parts) else parts
         for one in several:
-            yield one if _is_pair(one) else (one, 1)
+            yield (one[0], int(one[1])) if _is_pair(one) else (one, 1)
 
 
 def _is_pair(value: Any) -> bool:
-    return isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], int)
+    return isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], Integral)
 
 
 def _sheets(sheet: Any) -> list[nested.Sheet]:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 DEFAULT_OUTPUT = Path("nest.svg")
 
+MOST_NUMBERED = 100
+"""Sheets of an earlier nest whose files are looked for."""
+
 TABLE = ".csv"
 """Ending of a table of where each part lies."""
 
@@ -112,22 +115,19 @@ def nest(
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
         from packwork.separation.strip import WorkBound
-        from packwork.sources import check_no_input
         from packwork.uses.nest_request import length_of, read_request
         from packwork.uses.nesting import nest as nest_parts
 
         files = list(output or (DEFAULT_OUTPUT,))
         every = [*files, *([report] if report else [])]
-        _check_files(files, every, no_clobber)
         sheets, counted = read_request(
             sheet, parts or [], optional or [], rotate, mirror=mirror, holes=holes
         )
         gap = length_of("kerf", kerf, sheets[0])
         away = None if margin is None else length_of("margin", margin, sheets[0])
-        for path in every:
-            check_no_input(path)
+        _check_files(files, every, no_clobber)
         console = Paper(quiet)
-        work = WorkBound(seconds=seconds) if passes is None else WorkBound(passes=passes)
+        work = WorkBound.of(seconds, passes)
         bar, interrupt = TerminalBar(None, quiet), Interrupt()
 
         def stop() -> bool:
@@ -148,6 +148,9 @@ def nest(
         writers.write_all(drawn)
         console.print(_summary(found, sheets[0], certified))
         console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
+        written = {path for path, _ in drawn}
+        if older := [str(one) for path in files for one in _numbered(path) if one not in written]:
+            say(f"of an earlier nest: {', '.join(older)}")
         for fault in faults:
             say(fault)
         if interrupt.pressed:
@@ -165,6 +168,7 @@ def nest(
 def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None:
     """Refuse, before a run, what could not be written after it; ``every``: reports, too."""
     from packwork import writers
+    from packwork.sources import check_no_input
 
     for path in files:
         if path.suffix.lower() != TABLE:
@@ -172,8 +176,18 @@ def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None
     for path in every:
         writers.check_writable(path)
     writers.check_outputs(every)
+    numbered = [path for one in files for path in _numbered(one)]
+    for path in (*every, *numbered):
+        check_no_input(path)
     if no_clobber:
-        writers.check_new(every)
+        writers.check_new([*every, *numbered])
+
+
+def _numbered(path: Path) -> list[Path]:
+    """Files that are there of the name that one of several sheets has."""
+    from packwork.uses.nested import sheet_file
+
+    return [one for k in range(1, MOST_NUMBERED) if (one := sheet_file(path, k, 2)).exists()]
 
 
 def _drawn(found: NestedSheets, files: list[Path]) -> tuple[list[tuple[Path, bytes]], list[str]]:

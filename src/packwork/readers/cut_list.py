@@ -31,7 +31,7 @@ COLUMNS: Mapping[str, tuple[str, ...]] = {
 }
 """Names of columns by their meanings, in small letters; the first that is there counts."""
 
-_COUNT = re.compile(r"[0-9]{1,6}(?:[.,]0*)?")
+_COUNT = re.compile(r"[0-9]{1,6}(?:[.,]0{0,2})?")
 
 
 @dataclass(frozen=True, kw_only=True)

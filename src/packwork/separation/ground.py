@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 import shapely
-from shapely.geometry import box
+from shapely.geometry import MultiPolygon, box
 
 from packwork.geometry.overlay import difference, intersection, polygon_parts
 from packwork.geometry.polygon import Region
@@ -17,6 +17,9 @@ from packwork.separation.shapes import Floats
 
 WALL = 0.1
 """Width of what parts two sheets, over the strip's height."""
+
+MOST_APART = 300
+"""Parts that lie already, each an obstacle by itself; more are put together by tiles."""
 
 TILES = 4
 """Tiles of the shorter side into which obstacles are cut: larger ones have worse poles, and are
@@ -84,10 +87,6 @@ class Ground:
         """Number of the sheet on which each of several lines lies."""
         return np.searchsorted([bay.end for bay in self.bays], x, side="left")
 
-    def end_at(self, x: float) -> float:
-        """Right edge of the sheet on which a line lies."""
-        return next((bay.end for bay in self.bays if x <= bay.end), self.end)
-
     def without_rest(self, x: float, narrowest: float) -> float:
         """The line, or the end of the sheet before where nothing fits between them."""
         start = self.start_at(x)
@@ -112,7 +111,7 @@ def ground_of(sheets: Sequence[Region], held: Sequence[Sequence[Region]] = ()) -
         offset = (x - x0, -y0)
         end = x + (x1 - x0)
         about = box(x0, y0, x1, y0 + height)
-        taken = [difference(about, sheet), *(held[k] if held else ())]
+        taken = [difference(about, sheet), *(_grouped(held[k], height / TILES) if held else ())]
         wall = box(end, 0.0, end + WALL * height, height)
         obstacles += [tile for one in taken for tile in tiles(_moved(one, offset), height / TILES)]
         obstacles += tiles(wall, height)
@@ -137,6 +136,19 @@ def tiles(region: Region, side: float) -> list[Region]:
                 square = box(x0 + i * wide, y0 + j * tall, x0 + (i + 1) * wide, y0 + (j + 1) * tall)
                 found += polygon_parts(intersection(part, square))
     return found
+
+
+def _grouped(regions: Sequence[Region], side: float) -> list[Region]:
+    """The same regions; where they are many, all of a tile as one."""
+    if len(regions) <= MOST_APART:
+        return list(regions)
+    centres = np.array([one.centroid.coords[0] for one in regions])
+    _, number = np.unique(np.floor(centres / side), axis=0, return_inverse=True)
+    return [
+        MultiPolygon([part for k in np.flatnonzero(number.ravel() == n)
+                      for part in polygon_parts(regions[int(k)])])
+        for n in range(number.max() + 1)
+    ]  # fmt: skip
 
 
 def _moved(region: Region, offset: tuple[float, float]) -> Region:

@@ -122,6 +122,14 @@ def flattest(parts: Sequence[Part], height: float) -> tuple[Floats, Floats]:
     return boxes, angles
 
 
+def placed(region: Region, pose: Floats) -> Region:
+    """A region at a pose (x, y, angle, side)."""
+    x, y, angle, side = pose
+    cosine, sine = math.cos(angle), math.sin(angle)
+    matrix = np.array([[side * cosine, -sine], [side * sine, cosine]])
+    return shapely.transform(region, lambda points: points @ matrix.T + (x, y))
+
+
 def rings_of(region: Region) -> list[Floats]:
     """All rings of a region, closed, ``(n, 2)`` each."""
     parts = shapely.get_parts(region)

@@ -7,7 +7,6 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from packwork.separation.shapes import Floats
 from packwork.separation.strip import EXPLORED, PATIENCE_AT_END, Strip, StripSearch
@@ -18,11 +17,6 @@ some have no room: sheets may be narrow at an end."""
 
 FIRST_PATIENCE = 30
 """Passes without a lower loss after which a part goes back at first."""
-
-FILLING = 0.2
-"""Share of the work that optional parts have, where there are some."""
-
-Indices = npt.NDArray[np.int64]
 
 
 class SheetSearch(StripSearch):
@@ -35,7 +29,6 @@ class SheetSearch(StripSearch):
         """Empty sheets."""
         parts, kinds, count = self.problem.parts, self.problem.shape_of, len(self.problem)
         self.priorities = np.array([part.priority for part in parts])[kinds]
-        self.is_optional = np.array([part.is_optional for part in parts])[kinds]
         return Strip(self.ground.end, np.full((count, 4), np.nan), np.full(count, np.inf))
 
     def first_poses(self, length: float) -> Floats:
@@ -44,33 +37,25 @@ class SheetSearch(StripSearch):
 
     def lay_all(self, until: float) -> None:
         """Bring all parts onto the sheets that have to be."""
-        problem = self.problem
-        required = np.flatnonzero(~self.is_optional)
-        area = float(problem.areas[required].sum())
-        length = min(max(self.ground.length_for(area / SPARSE), problem.widest), self.ground.end)
-        self.bring_in(required, length, self.ground.end, until)
+        length = self.ground.length_for(self.problem.area / SPARSE)
+        self.bring_in(min(max(length, self.problem.widest), self.ground.end), until)
 
-    def bring_in(self, parts: Indices, length: float, longest: float, until: float) -> None:
+    def bring_in(self, length: float, until: float) -> None:
         """Bring parts onto the sheets, the largest first: by first fit, then in batches.
 
         Those for which there is no room go back, and have another turn when all others had theirs.
-
-        Parameters
-        ----------
-        length, longest
-            Where the sheets are cut off at first, and at last.
+        ``length``: where the sheets are cut off at first.
         """
-        order = np.lexsort((-self.problem.hulls[parts], -self.priorities[parts]))
-        waiting = deque(self.first_fit(parts[order].tolist(), length))
+        order = np.lexsort((-self.problem.hulls, -self.priorities))
+        waiting = deque(self.first_fit(order.tolist(), length, until))
         failed, patience, kinds = 0, FIRST_PATIENCE, self.problem.shape_of
         batch = math.ceil(len(waiting) / 2)
         while waiting and not self.is_over(until):
             if failed >= len(waiting):
                 # None of them has room: on a longer stretch, or with more patience.
-                if length < longest:
-                    longer = self.ground.next_length(length * MUCH_LONGER, self.problem.widest)
-                    length = min(longer, longest)
-                    waiting = deque(self.first_fit(waiting, length))
+                if length < self.ground.end:
+                    length = self.ground.next_length(length * MUCH_LONGER, self.problem.widest)
+                    waiting = deque(self.first_fit(waiting, length, until))
                 else:
                     patience = min(2 * patience, PATIENCE_AT_END)
                 failed = 0
@@ -91,16 +76,16 @@ class SheetSearch(StripSearch):
                 waiting = deque(k for k in waiting if kinds[k] != kind)
                 waiting.extend(alike)
                 failed += len(alike)
-        if waiting and length < longest and not self.stop():
+        if waiting and not self.stop():
             # The work is done: what fits on empty ground is laid all the same.
-            self.first_fit(waiting, longest)
+            self.first_fit(waiting, self.ground.end, math.inf)
 
-    def first_fit(self, parts: Iterable[int], length: float) -> list[int]:
+    def first_fit(self, parts: Iterable[int], length: float, until: float) -> list[int]:
         """Lay parts where nothing has to give way; returns those that found no such place."""
         left, full = list[int](), set[int]()
         for part in parts:
             kind = int(self.problem.shape_of[part])
-            if kind in full or self.stop():
+            if kind in full or self.is_over(until):
                 left.append(part)
                 continue
             self.add([part], length)
@@ -119,20 +104,16 @@ class SheetSearch(StripSearch):
         poses[parts] = super().first_poses(length)[parts]
         self.put(length, poses, fresh=True)
 
-    def run(self) -> Strip:
-        """Lay all parts, explore, compress, fill up with optional ones; the fewest sheets met."""
-        is_optional = self.is_optional
-        fills_up = bool(is_optional.any())
+    def run(self, *, shrinks: bool = True) -> Strip:
+        """Lay all parts, then explore and compress; the fewest sheets that were met.
+
+        ``shrinks``: whether parts that all lie are brought closer together.
+        """
         with self.pool:
             self.step()
             self.work.start()
             self.lay_all(1.0)
-            if np.isnan(self.best.poses[~is_optional]).any():
-                return self.best
-            if not is_optional.all():
-                self.explore(EXPLORED - FILLING if fills_up else EXPLORED)
-                self.compress(self.best, 1.0 - FILLING if fills_up else 1.0)
-            if fills_up:
-                optional, length = np.flatnonzero(is_optional), self.ground.end_at(self.best.length)
-                self.bring_in(optional, length, length, 1.0)
+            if shrinks and not np.isnan(self.best.poses).any():
+                self.explore(EXPLORED)
+                self.compress(self.best)
             return self.best

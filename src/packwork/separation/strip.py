@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from packwork.errors import RecipeError
 from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import X0, X1
 from packwork.separation.shapes import Floats, Part, flattest
@@ -52,6 +53,15 @@ class WorkBound:
     met: str = ""
     """Best result so far, in words."""
 
+    @classmethod
+    def of(cls, seconds: float, passes: int | None) -> WorkBound:
+        """Bound of so many passes, or else of seconds; RecipeError where it is none."""
+        if passes is not None and not 1 <= passes < math.inf:
+            raise RecipeError("passes", f"is 1 or more, not {passes:g}")
+        if not 0.0 < seconds < math.inf:
+            raise RecipeError("time", f"is a number of seconds above 0, not {seconds:g}")
+        return cls(seconds=seconds) if passes is None else cls(passes=passes)
+
     def start(self) -> None:
         """Count from now on."""
         self.begun, self.done = time.perf_counter(), 0
@@ -59,7 +69,7 @@ class WorkBound:
     def part(self, share: float) -> WorkBound:
         """Bound of a share of the work that is left."""
         left = self.seconds - (time.perf_counter() - self.begun)
-        return WorkBound(max((self.passes - self.done) * share, 1.0), max(left * share, 0.0))
+        return WorkBound(max((self.passes - self.done) * share, 1.0), max(left * share, 1e-9))
 
     @property
     def share(self) -> float:

@@ -7,11 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from packwork.geometry.polygon import Region
 from packwork.separation.ground import ground_of
-from packwork.separation.shapes import Floats, Part
+from packwork.separation.shapes import Floats, Part, placed
 from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import WorkBound
 
@@ -28,8 +27,8 @@ MOST_IN_WINDOW = 800
 EMPTIEST = 0.3
 """Share of sheets that parts cover at least."""
 
-MOST_TURNS_MISSED = 3
-"""Windows in which a part finds no room until it counts as left out."""
+FILLING = 0.2
+"""Share of the work that optional parts have, where there are some."""
 
 
 @dataclass(frozen=True)
@@ -59,83 +58,135 @@ def lay_on_sheets(
     work: WorkBound, stop: Callable[[], bool],
 ) -> tuple[list[LaidSheet], Counter[int]]:  # fmt: skip
     """Lay parts on sheets, taken in their order; those without room are counted by kind."""
-    random, areas = np.random.default_rng(seed), [part.region.area for part in parts]
+    laying = _Laying(parts, sheets, seed, workers, stop)
     every = np.repeat(np.arange(len(parts)), [part.count for part in parts])
-    queue = sorted(random.permutation(every).tolist(), key=lambda kind: -parts[kind].priority)
+    queue = sorted(laying.random.permutation(every).tolist(), key=lambda k: -parts[k].priority)
     optional = [kind for kind in queue if parts[kind].is_optional]
-    queue = [kind for kind in queue if not parts[kind].is_optional]
-    found, missing, missed = list[LaidSheet](), Counter[int](), Counter[int]()
-    whole, at, width = sum(areas[kind] for kind in every), 0, WINDOW
+    required = [kind for kind in queue if not parts[kind].is_optional]
     work.start()
-    while (queue or optional) and at < len(sheets) and not stop():
-        # On the last sheets more is tried than has room; of what does not, the least is left.
-        is_end = at + width >= len(sheets)
-        room = sum(sheet.area for sheet in sheets[at : at + width]) * (1.0 if is_end else FILLED)
-        taken = _taken(queue, areas, room)
-        window, queue = queue[:taken], queue[taken:]
-        is_last = is_end or not queue
-        if is_last:
-            window, optional = window + optional, []
-        area = sum(areas[kind] for kind in window)
-        chosen = sheets[at : at + _enough(sheets[at:], area)]
-        bound = work.part(1.0 if is_last else area / whole) if found or not is_last else work
-        whole -= area
-        counts = Counter(window)
+    if not (required and optional):
+        missing = laying.lay(queue, work)
+    else:
+        first = work.part(1.0 - FILLING)
+        first.start()
+        missing = laying.lay(required, first)
+        work.done += first.done
+        missing += laying.fill(optional, work) if not missing else Counter(optional)
+    return sorted(laying.laid.values(), key=lambda one: one.sheet), missing
+
+
+class _Laying:
+    """Sheets, and what is laid on them so far."""
+
+    def __init__(
+        self, parts: Sequence[Part], sheets: Sequence[FreeSheet], seed: int, workers: int,
+        stop: Callable[[], bool],
+    ) -> None:  # fmt: skip
+        self.parts, self.sheets, self.workers, self.stop = parts, list(sheets), workers, stop
+        self.random = np.random.default_rng(seed)
+        self.areas = [part.region.area for part in parts]
+        self.laid = dict[int, LaidSheet]()
+
+    def lay(self, queue: list[int], work: WorkBound) -> Counter[int]:
+        """Lay all of a queue, a window after the other; returns what found no room."""
+        at, width, whole = 0, WINDOW, sum(self.areas[kind] for kind in queue)
+        while queue and at < len(self.sheets) and not self.stop() and work.share < 1.0:
+            is_end = at + width >= len(self.sheets)
+            open_ = self.sheets[at : at + width]
+            # On the last sheets more is tried than has room.
+            room = (1.0 if is_end else FILLED) * sum(sheet.area for sheet in open_)
+            taken = self._taken(queue, room)
+            window, queue = queue[:taken], queue[taken:]
+            area = sum(self.areas[kind] for kind in window)
+            chosen = range(at, at + self._enough(at, area))
+            is_all = not queue and not self.laid
+            bound = work if is_all else work.part(1.0 if not queue else min(area / whole, 1.0))
+            found, left = self._search(window, chosen, bound)
+            if not is_all:
+                work.done += bound.done
+            if not found:
+                # Too large for these sheets.
+                queue, at = window + queue, chosen.stop
+                continue
+            if len(found) == 1 and queue and not is_end and len(window) < MOST_IN_WINDOW:
+                # Less than a sheet: with more of them.
+                queue, width = window + queue, 2 * width
+                continue
+            if queue and len(found) > 1 and not is_end:
+                # The last one is not full: its parts come again.
+                again = found.pop()
+                left += Counter(again.kinds)
+                at = again.sheet
+            elif not queue:
+                at = chosen.stop
+            for one in found:
+                self._keep(one)
+            queue = [*left.elements(), *queue]
+            whole = sum(self.areas[kind] for kind in queue)
+            work.met = f"{len(queue)} parts left"
+        return Counter(queue)
+
+    def fill(self, queue: list[int], work: WorkBound) -> Counter[int]:
+        """Lay what has room beside what lies on the sheets that are used."""
+        used = sorted(self.laid)
+        for first in range(0, len(used), WINDOW):
+            if not queue or self.stop() or work.share >= 1.0:
+                break
+            chosen = used[first : first + WINDOW]
+            window, queue = queue[:MOST_IN_WINDOW], queue[MOST_IN_WINDOW:]
+            bound = work.part(WINDOW / (len(used) - first) if len(used) - first > WINDOW else 1.0)
+            found, left = self._search(window, chosen, bound, shrinks=False)
+            work.done += bound.done
+            for one in found:
+                self._keep(one)
+            queue = [*left.elements(), *queue]
+        return Counter(queue)
+
+    def _search(
+        self, window: list[int], chosen: Sequence[int], bound: WorkBound, *, shrinks: bool = True
+    ) -> tuple[list[LaidSheet], Counter[int]]:
+        """Search of some parts on some sheets: what lies on which, and what has no room."""
+        counts, sheets = Counter(window), [self.sheets[k] for k in chosen]
         kinds = sorted(counts)
         search = SheetSearch(
-            [replace(parts[kind], count=counts[kind]) for kind in kinds],
-            ground_of([one.region for one in chosen], [one.held for one in chosen]),
-            seed=int(random.integers(2**31)), workers=workers, work=bound, stop=stop,
+            [replace(self.parts[kind], count=counts[kind]) for kind in kinds],
+            ground_of([one.region for one in sheets], [one.held for one in sheets]),
+            seed=int(self.random.integers(2**31)), workers=self.workers, work=bound, stop=self.stop,
         )  # fmt: skip
-        laid, left = _by_sheet(search, np.repeat(kinds, [counts[kind] for kind in kinds]), at)
-        if bound is not work:
-            work.done += bound.done
-            work.met = f"{sum(left.values()) + len(queue)} parts left"
-        if is_last:
-            return found + laid, missing + left + Counter(queue)
-        if len(laid) == 1 and len(window) < MOST_IN_WINDOW:
-            # Less than a sheet: with more of them.
-            queue, width, whole = window + queue, 2 * width, whole + area
-            continue
-        back = list(left.elements())
-        if len(laid) > 1:
-            back += laid.pop().kinds
-        if laid:
-            found, at = found + laid, laid[-1].sheet + 1
-        for kind in left.elements():
-            missed[kind] += 1
-            if missed[kind] > MOST_TURNS_MISSED * parts[kind].count:
-                missing[kind] += 1
-                back.remove(kind)
-        queue = back + queue
-        whole += sum(areas[kind] for kind in back)
-    return found, missing + Counter(queue + optional)
+        strip = search.run(shrinks=shrinks)
+        kind_of = np.repeat(kinds, [counts[kind] for kind in kinds])
+        is_laid = ~np.isnan(strip.poses[:, 0])
+        sheet_of = search.ground.bay_at(strip.lefts)
+        found = list[LaidSheet]()
+        for k, bay in enumerate(search.ground.bays):
+            own = np.flatnonzero(is_laid & (sheet_of == k))
+            if len(own):
+                poses = strip.poses[own] - (*bay.offset, 0.0, 0.0)
+                found.append(LaidSheet(chosen[k], tuple(kind_of[own].tolist()), poses))
+        return found, Counter(kind_of[~is_laid].tolist())
 
+    def _keep(self, one: LaidSheet) -> None:
+        """Leave parts where they lie; more may come beside them."""
+        sheet, before = self.sheets[one.sheet], self.laid.get(one.sheet)
+        regions = tuple(
+            placed(self.parts[kind].region, pose)
+            for kind, pose in zip(one.kinds, one.poses, strict=True)
+        )
+        self.sheets[one.sheet] = FreeSheet(sheet.region, (*sheet.held, *regions))
+        if before is not None:
+            one = LaidSheet(
+                one.sheet, before.kinds + one.kinds, np.vstack([before.poses, one.poses])
+            )
+        self.laid[one.sheet] = one
 
-def _taken(queue: Sequence[int], areas: Sequence[float], room: float) -> int:
-    """Number of parts at the head of a queue that a window takes; all where few would be left."""
-    sums = np.cumsum([areas[kind] for kind in queue])
-    if not len(sums) or (sums[-1] <= 1.5 * room and len(queue) <= MOST_IN_WINDOW):
-        return len(queue)
-    return min(max(int(np.searchsorted(sums, room)), 1), MOST_IN_WINDOW)
+    def _taken(self, queue: Sequence[int], room: float) -> int:
+        """Number of parts at the head of a queue that a window takes; all where few are left."""
+        sums = np.cumsum([self.areas[kind] for kind in queue])
+        if sums[-1] <= 1.5 * room and len(queue) <= MOST_IN_WINDOW:
+            return len(queue)
+        return min(max(int(np.searchsorted(sums, room)), 1), MOST_IN_WINDOW)
 
-
-def _enough(sheets: Sequence[FreeSheet], area: float) -> int:
-    """Number of sheets that parts of an area do not fill."""
-    sums = np.cumsum([EMPTIEST * sheet.area for sheet in sheets])
-    return min(int(np.searchsorted(sums, area)) + 2, len(sheets))
-
-
-def _by_sheet(
-    search: SheetSearch, kinds: npt.NDArray[np.int64], first: int
-) -> tuple[list[LaidSheet], Counter[int]]:
-    strip, bays = search.run(), search.ground.bays
-    is_laid = ~np.isnan(strip.poses[:, 0])
-    sheet_of = search.ground.bay_at(strip.lefts)
-    laid = list[LaidSheet]()
-    for k, bay in enumerate(bays):
-        own = np.flatnonzero(is_laid & (sheet_of == k))
-        if len(own):
-            poses = strip.poses[own] - (*bay.offset, 0.0, 0.0)
-            laid.append(LaidSheet(first + k, tuple(kinds[own].tolist()), poses))
-    return laid, Counter(kinds[~is_laid].tolist())
+    def _enough(self, at: int, area: float) -> int:
+        """Number of sheets, from one on, that parts of an area do not fill."""
+        sums = np.cumsum([EMPTIEST * sheet.area for sheet in self.sheets[at:]])
+        return min(int(np.searchsorted(sums, area)) + 2, len(sums))

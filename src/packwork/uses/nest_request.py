@@ -25,6 +25,9 @@ SQUARE = "square"
 
 Holes: TypeAlias = Literal["keep", "fill"]
 
+MOST_DIGITS = 9
+"""Digits of a priority."""
+
 WITHIN_LIMIT = 4
 """Angles tried to each side where parts may turn within a limit."""
 
@@ -39,6 +42,8 @@ _YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
 def length_of(option: str, text: str, sheet: Sheet) -> float:
     """Length in the sheet's unit; RecipeError names the option."""
     try:
+        if text.strip().endswith("%") and math.isinf(sheet.height):
+            raise ValueError(f"{text!r} is a share of a side that is not known yet")
         return parse_length(text, sheet.unit, sheet.height)
     except ValueError as error:
         raise RecipeError(option, str(error)) from None
@@ -56,6 +61,8 @@ def read_sheets(text: str) -> list[Sheet]:
     for one in [text] if exists(text) else text.split(","):
         source, count = _counted(one.strip())
         if exists(source) and _is_nest(source):
+            if count is not None and count != 1:
+                raise ReadError(source, "is one sheet with parts on it; there are no more of it")
             layout = read_written(source)
             ground = layout.container
             found.append(
@@ -179,7 +186,7 @@ def angles_of(rotate: str) -> tuple[float, ...] | None:
 
 def _whole(text: str) -> int:
     try:
-        return int(text[:9])
+        return int(text) if len(text) <= MOST_DIGITS else int("-")
     except ValueError:
         raise RecipeError("priority", f"is a whole number, not {text[:20]!r}") from None
 

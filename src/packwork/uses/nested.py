@@ -25,6 +25,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.separation.shapes import Floats
 from packwork.units import Unit
+from packwork.writers.placements import turned_over
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,7 +156,7 @@ class NestedSheets:
     @property
     def certified(self) -> bool:
         """Whether all that is laid keeps what is promised."""
-        return all(one.certified for one in self.sheets)
+        return bool(self.sheets) and all(one.certified for one in self.sheets)
 
     @property
     def faults(self) -> tuple[str, ...]:
@@ -205,7 +206,8 @@ def layout_on(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: floa
             np.concatenate([getattr(sheet.held.poses, one.name), getattr(placed, one.name)])
             for one in fields(Poses)
         ))  # fmt: skip
-    numbers = (np.flatnonzero(over) + before + 1).tolist()
+    earlier = [] if sheet.held is None else sorted(turned_over(sheet.held))
+    numbers = [*earlier, *(np.flatnonzero(over) + before + 1).tolist()]
     return Layout(container, tuple(items), placed, np.ones(len(items)), {"mirrored": numbers})
 
 

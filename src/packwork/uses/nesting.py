@@ -117,6 +117,11 @@ def nest(
 
 
 def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
+    for one in parts:
+        if one.count < 0:
+            raise RecipeError("items", f"there are {one.count} of {one.item.name}; use 0 or more")
+    if any(sheet.count == 0 for sheet in sheets):
+        raise RecipeError("sheet", "there are 0 of it; give 1 or more")
     count = sum(one.count for one in parts)
     if not count:
         raise RecipeError("items", "there is nothing to nest; name parts")
@@ -138,10 +143,12 @@ def _longest(parts: Sequence[SheetPart], sheet: Sheet) -> float:
         return max(sheet.length, sheet.height)
     sides = [one.item.outline.radius * 2.0 * one.scale for one in parts]
     in_a_row = sum(side * one.count for side, one in zip(sides, parts, strict=True))
-    areas = sum(one.item.outline.area * one.scale**2 * one.count for one in parts)
+    hulls = [one.item.outline.region.convex_hull.area * one.scale**2 for one in parts]
+    areas = sum(hull * one.count for hull, one in zip(hulls, parts, strict=True))
     if sheet.is_square:
-        return min(in_a_row, math.sqrt(SPARSEST * areas) + 2.0 * max(sides))
-    return max(sheet.height, min(in_a_row, SPARSEST * areas / sheet.height + 2.0 * max(sides)))
+        return float(min(in_a_row, math.sqrt(SPARSEST * areas) + 2.0 * max(sides)))
+    most = SPARSEST * areas / sheet.height + 2.0 * max(sides)
+    return float(max(sheet.height, min(in_a_row, most)))
 
 
 def _part(asked: SheetPart, gap: float) -> Part:
@@ -170,10 +177,8 @@ def _kinds(sheets: Sequence[Sheet], areas: Sequence[float], parts: Sequence[Part
     needed = sum(part.count * part.region.area for part in parts) / EMPTIEST
     taken = list[int]()
     for k, (sheet, area) in enumerate(zip(sheets, areas, strict=True)):
-        enough = min(math.ceil(max(needed, 0.0) / area) + 2, MOST_SHEETS)
-        count = enough if sheet.count is None else sheet.count
-        taken += [k] * count
-        needed -= count * area
+        enough = min(math.ceil(needed / area) + 2, MOST_SHEETS)
+        taken += [k] * (enough if sheet.count is None else sheet.count)
     return taken
 
 

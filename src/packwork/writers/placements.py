@@ -57,7 +57,9 @@ def turned_over(layout: Layout) -> frozenset[int]:
     """Numbers, from 1, of the parts of a nest that are turned over, as its manifest says."""
     said = layout.manifest.get("nest")
     found = said.get("mirrored", ()) if isinstance(said, dict) else ()
-    return frozenset(found)
+    return frozenset(one for one in found if isinstance(one, int)) if (
+        isinstance(found, list | tuple)
+    ) else frozenset()  # fmt: skip
 
 
 def _rows(layout: Layout) -> Iterator[list[str]]:
