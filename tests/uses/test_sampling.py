@@ -41,13 +41,13 @@ def test_items_are_drawn_from_the_whole_folder_and_no_others_are_read(
     icons: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     read: list[str] = []
-    reader = item_reader._READERS[".svg"]
+    reader = item_reader._ONE_EACH[".svg"]
 
     def counting(file: Any, *more: Any) -> Any:
         read.append(file)
         return reader(file, *more)
 
-    monkeypatch.setitem(item_reader._READERS, ".svg", counting)
+    monkeypatch.setitem(item_reader._ONE_EACH, ".svg", counting)
     seen: set[str] = set()
     for seed in range(6):
         read.clear()

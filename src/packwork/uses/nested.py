@@ -16,6 +16,7 @@ from shapely.geometry import box
 from packwork.errors import RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
@@ -125,7 +126,7 @@ class NestedSheet:
         """Area of its parts over that of the sheet left of its used length."""
         outline = self.layout.container.outline.region
         x0, y0, _, y1 = outline.bounds
-        used = shapely.intersection(outline, box(x0, y0, self.length, y1)).area
+        used = intersection(outline, box(x0, y0, self.length, y1)).area
         return float(self.layout.areas.sum() / used)
 
 

@@ -23,7 +23,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.bezier import FLATTENING
-from packwork.geometry.overlay import valid
+from packwork.geometry.overlay import buffered, intersection, valid
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.phrasing import number_of
 from packwork.readers.dxf.entities import (
@@ -205,7 +205,7 @@ def _engraved(
         points = piece.line.flattened(slack or 1e-9)
         line = LineString(np.vstack([points, points[:1]]) if piece.line.is_closed else points)
         near = [int(k) for k in tree.query(line, predicate="dwithin", distance=slack)]
-        inside = [k for k in near if regions[k].buffer(2 * slack).covers(line)]
+        inside = [k for k in near if buffered(regions[k], 2 * slack).covers(line)]
         if inside:
             found[inside[0]].append(piece.line)
         elif any(piece is one for one in loose):
@@ -222,7 +222,7 @@ def _engraved(
 
 
 def _inside(line: LineString, region: Polygon) -> Iterator[ArcLine]:
-    for part in shapely.get_parts(shapely.intersection(line, region)):
+    for part in shapely.get_parts(intersection(line, region)):
         points = shapely.get_coordinates(part)
         if len(points) > 1:
             yield ArcLine(points, np.zeros(len(points)))
@@ -273,7 +273,7 @@ def _item(part: CadPart, name: str, source: str, holes: Holes) -> Item:
 
 def _shown(engraved: Iterable[ArcLine], region: Region, width: float, digits: int) -> Iterator[str]:
     """Paths of engraved lines, away from all edges by their width."""
-    room = region.buffer(-width)
+    room = buffered(region, -width)
     for line in engraved:
         points = line.flattened(width / 10)
         whole = LineString(np.vstack([points, points[:1]]) if line.is_closed else points)

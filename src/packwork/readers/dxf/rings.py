@@ -16,6 +16,7 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.arcs import ArcLine, joined_lines
 from packwork.geometry.bezier import FLATTENING
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import signed_area
 from packwork.readers.dxf.entities import CadLine
 from packwork.readers.reading import UnfitError, spend
@@ -250,7 +251,7 @@ def _around(ranked: Sequence[Ring]) -> tuple[list[list[int]], set[int]]:
 
 def _relation(large: Ring, small: Ring) -> str:
     """One of ``inside``, ``apart`` and ``same``, of rings that touch."""
-    common = shapely.intersection(large.polygon, small.polygon)
+    common = intersection(large.polygon, small.polygon)
     slack = FLATTENING * large.polygon.length * large.polygon.length / 4
     is_inside = small.polygon.area - common.area <= slack
     if is_inside and large.polygon.area - small.polygon.area <= slack:
@@ -259,7 +260,7 @@ def _relation(large: Ring, small: Ring) -> str:
         return "inside"
     if common.area <= slack:
         return "apart"
-    met = shapely.intersection(large.polygon.exterior, small.polygon.exterior)
+    met = intersection(large.polygon.exterior, small.polygon.exterior)
     at = shapely.get_coordinates(met)
     where = place(at[0]) if len(at) else place(shapely.get_coordinates(small.polygon)[0])
     raise UnfitError(
