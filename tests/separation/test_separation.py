@@ -207,12 +207,14 @@ def test_a_part_is_mirrored_where_it_fits_only_so() -> None:
     hook = shapely.Polygon([(-2, -3), (2, -3), (2, -1), (0, -1), (0, 3), (-2, 3)])
     room = shapely.affinity.scale(hook, -1.0, 1.0, origin=(0, 0)).buffer(0.5)
     plate = shapely.box(-3, -4, 3, 4).difference(room)
-    lengths = []
-    for mirrors in (False, True):
-        parts = [Part(region=plate), Part(region=hook, mirrors=mirrors)]
-        lengths.append(search(parts, 8.001, 300)[1].length)
-    assert lengths[0] > 8.0
-    assert lengths[1] < 6.1
+    one_hand, mirrored = (
+        min(
+            search([Part(region=plate), Part(region=hook, mirrors=mirrors)], 8.001, 150, seed)[1]
+            .length for seed in range(3)
+        ) for mirrors in (False, True)
+    )  # fmt: skip
+    assert one_hand > 8.0
+    assert mirrored < 6.1
 
 
 def test_a_search_that_is_stopped_at_once_has_a_strip_all_the_same() -> None:

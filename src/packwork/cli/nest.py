@@ -131,7 +131,7 @@ def nest(
         bar, interrupt = TerminalBar(None, quiet), Interrupt()
 
         def stop() -> bool:
-            bar.tell(min(work.share, 1.0), work.met)
+            bar.tell(min(work.share, 1.0), work.best_so_far)
             return interrupt.pressed
 
         with bar.showing(), interrupt.listening():

@@ -41,19 +41,16 @@ class Bay:
 
 @dataclass(frozen=True)
 class Ground:
-    """Sheets side by side, or a strip without end where there are none.
-
-    ``is_square``: a strip always as high as it is long, whatever its ``height``.
-    """
+    """Sheets side by side, or a strip without end where there are none."""
 
     height: float
     bays: tuple[Bay, ...] = ()
     obstacles: tuple[Region, ...] = ()
-    is_square: bool = False
 
     def height_at(self, length: float) -> float:
-        """Height of a strip of a length."""
-        return length if self.is_square else self.height
+        """Height of what is cut off at a length."""
+        del length
+        return self.height
 
     @property
     def end(self) -> float:
@@ -62,8 +59,6 @@ class Ground:
 
     def length_for(self, area: float) -> float:
         """Line with that much free area to its left; the end where there is less."""
-        if self.is_square:
-            return math.sqrt(area)
         if not self.bays:
             return area / self.height
         for bay in self.bays:
@@ -76,7 +71,7 @@ class Ground:
         """Left edge of the sheet on which a line lies; 0 on a strip."""
         return next((bay.start for bay in self.bays if x <= bay.end), 0.0)
 
-    def next_length(self, x: float, widest: float) -> float:
+    def skip_forward(self, x: float, widest: float) -> float:
         """The line, or one further right where nothing fits between it and the sheet's edge."""
         for bay in self.bays:
             if x <= bay.end:
@@ -87,7 +82,7 @@ class Ground:
         """Number of the sheet on which each of several lines lies."""
         return np.searchsorted([bay.end for bay in self.bays], x, side="left")
 
-    def without_rest(self, x: float, narrowest: float) -> float:
+    def skip_back(self, x: float, narrowest: float) -> float:
         """The line, or the end of the sheet before where nothing fits between them."""
         start = self.start_at(x)
         ends = [bay.end for bay in self.bays if bay.end < start]
@@ -113,7 +108,8 @@ def ground_of(sheets: Sequence[Region], held: Sequence[Sequence[Region]] = ()) -
         about = box(x0, y0, x1, y0 + height)
         taken = [difference(about, sheet), *(_grouped(held[k], height / TILES) if held else ())]
         wall = box(end, 0.0, end + WALL * height, height)
-        obstacles += [tile for one in taken for tile in tiles(_moved(one, offset), height / TILES)]
+        obstacles += tiles(_moved(taken[0], offset), height / TILES)
+        obstacles += [_moved(one, offset) for one in taken[1:]]
         obstacles += tiles(wall, height)
         free = sheet.area - sum(one.area for one in taken[1:])
         bays.append(Bay(x, end, max(free, 1e-9 * sheet.area), offset))

@@ -54,7 +54,7 @@ class SheetSearch(StripSearch):
             if failed >= len(waiting):
                 # None of them has room: on a longer stretch, or with more patience.
                 if length < self.ground.end:
-                    length = self.ground.next_length(length * MUCH_LONGER, self.problem.widest)
+                    length = self.ground.skip_forward(length * MUCH_LONGER, self.problem.widest)
                     waiting = deque(self.first_fit(waiting, length, until))
                 else:
                     patience = min(2 * patience, PATIENCE_AT_END)

@@ -3,10 +3,28 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
+from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import X1, Y1
 from packwork.separation.shapes import Floats, boxes_of
 from packwork.separation.strip import Strip, StripSearch
+
+
+@dataclass(frozen=True)
+class SquareGround(Ground):
+    """A square of any side."""
+
+    height: float = math.inf
+
+    def height_at(self, length: float) -> float:
+        """The same as the length."""
+        return length
+
+    def length_for(self, area: float) -> float:
+        """Side of the square of an area."""
+        return math.sqrt(area)
+
 
 GROWTH = 1.05
 """Factor between squares into which columns of parts are laid."""

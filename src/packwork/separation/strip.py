@@ -50,8 +50,8 @@ class WorkBound:
     seconds: float = math.inf
     begun: float = math.nan
     done: int = 0
-    met: str = ""
-    """Best result so far, in words."""
+    best_so_far: str = ""
+    """For people who wait."""
 
     @classmethod
     def of(cls, seconds: float, passes: int | None) -> WorkBound:
@@ -193,7 +193,7 @@ class StripSearch:
         boxes = self.layout.arrays[0][: len(self.problem)]
         self.best = Strip(self.extent(boxes), poses, boxes[:, X0].copy())
         left = int(np.isnan(poses[:, 0]).sum())
-        self.work.met = f"{left} parts left" if left else f"length {self.best.length:.5g}"
+        self.work.best_so_far = f"{left} parts left" if left else f"length {self.best.length:.5g}"
         return self.best
 
     def extent(self, boxes: Floats) -> float:
@@ -206,7 +206,7 @@ class StripSearch:
         poses = best.poses.copy()
         line = self.random.uniform(self.ground.start_at(best.length), best.length)
         poses[poses[:, 0] > line, 0] -= cut
-        length = self.ground.without_rest(best.length - cut, self.problem.narrowest)
+        length = self.ground.skip_back(best.length - cut, self.problem.narrowest)
         self.put(length, poses, fresh=True)
 
     def lay_all(self, until: float) -> None:

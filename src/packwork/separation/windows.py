@@ -98,7 +98,9 @@ class _Laying:
             taken = self._taken(queue, room)
             window, queue = queue[:taken], queue[taken:]
             area = sum(self.areas[kind] for kind in window)
-            chosen = range(at, at + self._enough(at, area))
+            # As many as parts of that area do not fill.
+            sums = np.cumsum([EMPTIEST * sheet.area for sheet in self.sheets[at:]])
+            chosen = range(at, at + min(int(np.searchsorted(sums, area)) + 2, len(sums)))
             is_all = not queue and not self.laid
             bound = work if is_all else work.part(1.0 if not queue else min(area / whole, 1.0))
             found, left = self._search(window, chosen, bound)
@@ -123,7 +125,7 @@ class _Laying:
                 self._keep(one)
             queue = [*left.elements(), *queue]
             whole = sum(self.areas[kind] for kind in queue)
-            work.met = f"{len(queue)} parts left"
+            work.best_so_far = f"{len(queue)} parts left"
         return Counter(queue)
 
     def fill(self, queue: list[int], work: WorkBound) -> Counter[int]:
@@ -185,8 +187,3 @@ class _Laying:
         if sums[-1] <= 1.5 * room and len(queue) <= MOST_IN_WINDOW:
             return len(queue)
         return min(max(int(np.searchsorted(sums, room)), 1), MOST_IN_WINDOW)
-
-    def _enough(self, at: int, area: float) -> int:
-        """Number of sheets, from one on, that parts of an area do not fill."""
-        sums = np.cumsum([EMPTIEST * sheet.area for sheet in self.sheets[at:]])
-        return min(int(np.searchsorted(sums, area)) + 2, len(sums))

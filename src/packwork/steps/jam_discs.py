@@ -19,7 +19,7 @@ from packwork.scene.pose import Poses
 from packwork.separation.discs import DiscSearch
 from packwork.solve.solver import Ending
 from packwork.steps.place import first_angles
-from packwork.steps.starts import needs_levels
+from packwork.steps.starts import may_rearrange
 
 ROUND = 0.99
 """Share of the disc about it that an item covers to be taken for one. Larger refuses drawn circles,
@@ -36,10 +36,7 @@ only where there are few thousands. Tried."""
 def jams_discs(job: Job) -> bool:
     """Whether a job with shared sizes is many discs of which nothing else is asked."""
     plan = job.plan
-    if len(job.items) < FEWEST or needs_levels(job):
-        return False
-    is_told = job.is_limited or job.forces.acts or plan.keeps_order or plan.method or plan.share
-    if is_told or job.earlier is not None or job.target is not None or job.vectors is not None:
+    if len(job.items) < FEWEST or plan.method or plan.share or not may_rearrange(job):
         return False
     outlines = {item.outline for item in job.items}
     return all(one.area > ROUND * np.pi * one.radius**2 for one in outlines)

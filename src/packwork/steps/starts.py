@@ -110,6 +110,14 @@ def needs_levels(job: Job) -> bool:
     )
 
 
+def may_rearrange(job: Job) -> bool:
+    """Whether nothing is asked of where items lie, so that another search may place them all."""
+    has_places = job.earlier is not None or job.target is not None or job.vectors is not None
+    return not (
+        has_places or job.is_limited or job.forces.acts or job.plan.keeps_order or needs_levels(job)
+    )
+
+
 def fits_first(job: Job) -> bool:
     """Whether items are few enough to be put one after another, for items that are no words."""
     most = MOST_TURNING if job.plan.rotation.is_free else MOST_FIRST_FIT

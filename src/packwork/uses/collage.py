@@ -76,6 +76,13 @@ def solving(job: Job, *, suits_first_fit: bool, place: RunStep | None = None) ->
     return steps
 
 
+def jamming(job: Job) -> list[RunStep]:
+    """Steps of many discs of one common scale, in place of :func:`placing`; nothing of all else."""
+    if job.plan.sizes != "shared" or not jams_discs(job):
+        return []
+    return [*([StartRecording()] if job.is_recorded else []), JamDiscs()]
+
+
 def placing(
     job: Job,
     *,
@@ -93,8 +100,6 @@ def placing(
     bounds
         What a use does to sizes after the exact finish.
     """
-    if job.plan.sizes == "shared" and place is None and jams_discs(job):
-        return [*([StartRecording()] if job.is_recorded else []), JamDiscs()]
 
     def once(job: Job, *, may_fail: bool = False) -> list[RunStep]:
         steps = solving(job, suits_first_fit=suits_first_fit, place=place)

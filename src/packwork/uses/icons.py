@@ -22,8 +22,8 @@ from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture, blurred
-from packwork.steps.starts import fits_first, needs_levels
-from packwork.uses.collage import filling, placing, reporting
+from packwork.steps.starts import fits_first, may_rearrange
+from packwork.uses.collage import filling, jamming, placing, reporting
 
 NO_CONTAINER = "none"
 """Name for no container at all: a pile lies anywhere, a chart's groups are bars."""
@@ -115,11 +115,13 @@ class IconsUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """Places, levels, finish; voids if asked; measures and looks."""
-        # Of sizes that are not shared first fit is not tried.
-        suits = job.plan.sizes == "shared" and fits_first(job)
-        placed = placing(
-            job, suits_first_fit=suits, bounds=separation(job) if job.plan.sizes == "shared" else []
-        )
+        if job.plan.sizes == "shared":
+            placed = jamming(job) or placing(
+                job, suits_first_fit=fits_first(job), bounds=separation(job)
+            )
+        else:
+            # First fit is not tried.
+            placed = placing(job, suits_first_fit=False)
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
@@ -129,13 +131,8 @@ class IconsUse(Use):
 
 def separation(job: Job) -> list[RunStep]:
     """Search for a larger common size, where items may lie anywhere; else nothing."""
-    plan = job.plan
-    is_told = (
-        job.is_limited or job.forces.acts or needs_levels(job) or plan.keeps_order
-        or plan.has_even_lines or job.vectors is not None
-    )  # fmt: skip
-    is_begun = job.earlier is not None or job.target is not None
-    if plan.effort == "draft" or is_told or is_begun or not 1 < len(job.items) <= MOST_SEPARATED:
+    is_few = 1 < len(job.items) <= MOST_SEPARATED
+    if job.plan.effort == "draft" or job.plan.has_even_lines or not (is_few and may_rearrange(job)):
         return []
     # Only what is asked for loads its kernels.
     from packwork.steps.separate import Separate

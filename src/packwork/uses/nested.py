@@ -215,9 +215,9 @@ def layout_on(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: floa
 def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any]) -> NestedSheet:
     """A sheet, measured; ``edge``: distance that parts keep from its edge."""
     regions = [outline.region for outline in layout.outlines]
-    length = min(shapely.total_bounds(regions)[2] + edge, layout.container.width)
-    if about["height"] is None:
-        length = layout.container.width
+    length = layout.container.width
+    if about["sheet_length"] is not None:
+        length = min(shapely.total_bounds(regions)[2] + edge, length)
     used = {**about, "parts": len(regions), "length": float(length), **layout.manifest}
     manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
     layout = replace(layout, manifest=manifest)

@@ -16,7 +16,7 @@ from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise
 from packwork.separation.ground import Ground
 from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
-from packwork.separation.square import SquareSearch
+from packwork.separation.square import SquareGround, SquareSearch
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
@@ -80,7 +80,7 @@ def nest(
         _check_fit(parts, kept, [(math.inf, height)], sheets, 2.0 * inset)
         search, ground = StripSearch, Ground(height)
         if sheets[0].is_square:
-            search, ground = SquareSearch, Ground(math.inf, is_square=True)
+            search, ground = SquareSearch, SquareGround()
         strip = search(kept, ground, seed=seed, workers=workers, work=work, stop=stop)
         kinds, missing = [0], Counter[int]()
         poses = strip.run().poses + np.array([inset, inset, 0.0, 0.0])

@@ -25,7 +25,7 @@ from packwork.steps.finish import finished, unfinished
 from packwork.steps.starts import fits_first
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
 from packwork.uses.charts.layout import Chart
-from packwork.uses.collage import placing
+from packwork.uses.collage import jamming, placing
 
 ALMOST = 0.999
 """Share of the least scale so far from which a group is not tried any harder. Larger tries groups
@@ -100,9 +100,8 @@ def _filled(
         efforts = ["draft", part.plan.effort]
     for effort in efforts:
         tried = part.replanned(effort=effort)
-        placed = run_steps(
-            placing(tried, suits_first_fit=fits_first(tried)), RunState.of(tried), context
-        )
+        steps = jamming(tried) or placing(tried, suits_first_fit=fits_first(tried))
+        placed = run_steps(steps, RunState.of(tried), context)
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
         is_clean = placed.is_clean or not part.plan.is_exact
         least = ALMOST * min((one.scale for one in before), default=np.inf)

@@ -35,7 +35,7 @@ from packwork.uses.charts.legend import legend_notes
 from packwork.uses.charts.mark_labels import mark_labels
 from packwork.uses.charts.marks import ChartRead, read_chart
 from packwork.uses.charts.rows import MOST_MARKS
-from packwork.uses.collage import filling, placing, reporting
+from packwork.uses.collage import filling, jamming, placing, reporting
 
 CLOSE = 0.03
 """Gap between discs at most where none was asked for, over the side of a mark's share of the
@@ -70,7 +70,7 @@ class ChartUse(Use):
         if self.chart.cells:
             check_groups(job, self.chart)
             return [FillGroups(self.chart), *self.report(job)]
-        placed = placing(job, suits_first_fit=fits_first(job))
+        placed = jamming(job) or placing(job, suits_first_fit=fits_first(job))
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
