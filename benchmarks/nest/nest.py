@@ -20,6 +20,7 @@ from shapely.affinity import rotate, translate
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.peers.peering import version
+from packwork.phrasing import number_of
 from packwork.readers.instances import Instance, read_instance
 from packwork.separation.strip import WorkBound
 from packwork.uses.nested import NestedSheets, Sheet, SheetPart
@@ -86,6 +87,9 @@ def _checked(regions: list[Any], length: float, height: float) -> float:
     return area / (length * height) if is_in and worst <= MOST_OVERLAP * area else 0.0
 
 
+LEVEL = 0.005
+"""Difference of densities in per cent below which the two are level."""
+
 AUTHORS = {
     "albano": 89.5, "blaz1": 84.7, "dagli": 89.2, "fu": 92.3, "jakobs1": 89.1, "jakobs2": 84.9,
     "mao": 86.1, "marques": 90.9, "shapes0": 68.6, "shapes1": 75.7, "shirts": 89.7, "swim": 78.3,
@@ -99,15 +103,15 @@ PAGE = """# Nesting beside another program
 Strip packing instances of the public collections, given angles and any angle (`_c`): density in
 per cent, the parts' true area over the used strip. packwork's `nest` and
 [spyrrow](https://pypi.org/project/spyrrow/) (sparrow, arXiv:2509.13329) in the same run, with the
-same seconds and worker threads; medians over seeds, least and greatest in brackets. What either
-gives is held against the exact polygons by Shapely: 0 would be a layout that does not hold. Beside
-them stand its authors' means after 1,200 s on 16 threads, where they give one.
+same seconds and worker threads; of several seeds medians, least and greatest in brackets. What
+either gives is held against the exact polygons by Shapely: 0 would be a layout that does not hold.
+Beside them stand its authors' means after 1,200 s on 16 threads, where they give one.
 
 {table}
 
 {said}
 
-Measured on {date}: {machine}.
+Measured on {date}: {machine} for all but the two searches.
 """
 
 
@@ -142,15 +146,16 @@ def main(arguments: list[str]) -> None:
         print(lines[-1], flush=True)
     if asked["page"]:
         said = (
-            f"{seconds:g} s, {workers} threads, seeds 0 to {int(asked['seeds']) - 1}: ahead on "
-            f"{sum(ahead > 0 for ahead in aheads)} of {len(aheads)}, by {min(aheads):+.2f} to "
-            f"{max(aheads):+.2f}."
+            f"{seconds:g} s, {workers} threads, {number_of(int(asked['seeds']), 'seed')}: ahead on "
+            f"{sum(ahead >= LEVEL for ahead in aheads)} of {len(aheads)}, behind on "
+            f"{sum(ahead <= -LEVEL for ahead in aheads)}; {min(aheads):+.2f} to {max(aheads):+.2f}."
         )
         write_page("nesting.md", PAGE, table="\n".join(lines), said=said)
 
 
 def _cell(found: list[float]) -> str:
-    return f"{statistics.median(found):.2f} ({min(found):.2f} to {max(found):.2f})"
+    middle = f"{statistics.median(found):.2f}"
+    return middle if len(found) == 1 else f"{middle} ({min(found):.2f} to {max(found):.2f})"
 
 
 if __name__ == "__main__":
