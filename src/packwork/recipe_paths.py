@@ -146,6 +146,28 @@ def files_outside(options: Mapping[str, Any], folders: Iterable[Path]) -> list[s
     return list(dict.fromkeys(map(str, found)))
 
 
+def named_elsewhere(options: Mapping[str, Any], folder: Path) -> str:
+    """First name in a recipe's options of what lies, or would lie, outside a folder; or nothing.
+
+    Stricter than :func:`files_outside`: absolute names count though nothing is there.
+
+    Examples
+    --------
+    >>> named_elsewhere({"items": ["heart", "/no/such/*.svg"]}, Path.cwd())
+    '/no/such/*.svg'
+    """
+    home = folder.resolve()
+    for name in filter(None, named_files(options)):
+        try:
+            path = Path(name)
+            is_one = path.is_absolute() or path.exists() or any(Path().glob(name))
+            if is_one and not path.resolve().is_relative_to(home):
+                return name
+        except (OSError, ValueError):  # a text that can be no name
+            continue
+    return ""
+
+
 def found_from(folder: Path) -> Callable[[str], str]:
     """Names of files of a recipe in ``folder``, as seen from another folder.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
 from packwork.live.face.offers import offered_fonts, only_file
@@ -16,7 +17,7 @@ FILES = "file:"
 BUILTIN = "builtin:"
 TEXT = "text:"
 
-_FOLDER = re.compile(r"[\\/][0-9a-f]{16}[\\/]?")
+_FOLDER = re.compile(r"[\\/][0-9a-f]{16}(?:(?P<file>[\\/])|(?!\w))")
 
 
 class Importer:
@@ -39,17 +40,21 @@ class Importer:
 
         self._workspace.work(what, read)
 
+    def folder(self, asked: str) -> Path:
+        """Folder of files that were sent."""
+        return self._uploads.folder(asked.removeprefix(FILES))
+
     def source(self, asked: str) -> str:
         """Source of items: a folder of files that were sent, or a bundled name."""
         if asked.startswith(FILES):
-            return str(self._uploads.folder(asked.removeprefix(FILES)))
+            return str(self.folder(asked))
         if asked.startswith(BUILTIN):
             return asked
         raise ReadError(asked[:40], "is neither bundled nor a file that was sent")
 
     def file(self, asked: str) -> str:
         """The one file of a batch."""
-        return str(only_file(self._uploads.folder(asked.removeprefix(FILES))))
+        return str(only_file(self.folder(asked)))
 
     def container(self, asked: str) -> str:
         """Source of a container: as of items, but of one file, or ``text:WORD``."""
@@ -67,4 +72,7 @@ class Importer:
 
     def without_folder(self, text: str) -> str:
         """A line without the folder that nobody knows."""
-        return _FOLDER.sub("", text.replace(str(self._uploads.root), ""))
+        return _FOLDER.sub(
+            lambda met: "" if met["file"] else "what was sent",
+            text.replace(str(self._uploads.root), ""),
+        )

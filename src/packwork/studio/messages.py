@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter, ValidationError
 
-from packwork.errors import PackworkError
+from packwork.errors import PackworkError, ReadError
 from packwork.live import edits
 from packwork.live.commands.command import Command, ItemIds, made, named_container, named_item
 from packwork.live.commands.container import SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import AnyCommand
 from packwork.live.face.offers import container_of, items_of
+from packwork.live.face.opening import opening_sent
 from packwork.live.macros import brought
 from packwork.live.owner import Leap
 from packwork.live.relayout import BY_TEXT
@@ -140,6 +141,11 @@ class Bring(PageRequest):
 
     def _bring(self, tab: Tab) -> None:
         workspace, importer = tab.workspace, tab.importer
+        if len(self.sources) == 1 and self.sources[0].startswith(FILES):
+            opening = opening_sent(importer.folder(self.sources[0]))
+            if opening is not None:
+                workspace.open_another(opening)
+                return
         found = items_of([importer.source(one) for one in self.sources])
         for left_out in found.skipped:
             workspace.say(f"left out: {importer.without_folder(str(left_out))}", is_error=False)
@@ -150,6 +156,22 @@ class Bring(PageRequest):
             workspace.change(lambda session: edits.add(session, items))
         else:
             workspace.pour(0, lambda session: list(brought(session, items)))
+
+
+class Open(PageRequest):
+    """Have another document on the desk: a session, a recipe or a layout that was sent before."""
+
+    type: Literal["open"] = "open"
+    source: Name
+
+    def act(self, tab: Tab) -> None:
+        """Read it; what is there stays until it lies."""
+        tab.importer.read(partial(self._open, tab), "Opening")
+
+    def _open(self, tab: Tab) -> None:
+        if (opening := opening_sent(tab.importer.folder(self.source))) is None:
+            raise ReadError("open", "what was sent is neither a session, a recipe nor a layout")
+        tab.workspace.open_another(opening)
 
 
 class Swap(PageRequest):
@@ -321,8 +343,8 @@ class Set(PageRequest):
 
 
 Told: TypeAlias = Annotated[
-    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Order
-    | Alike | Words | More | Set,
+    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Swap | Room | Fill | Picture
+    | Order | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

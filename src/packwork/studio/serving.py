@@ -19,6 +19,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from packwork.errors import PackworkError
 from packwork.live.face.opening import Opening
+from packwork.studio import kept_workspaces
 from packwork.studio.app import guarded
 from packwork.studio.files import Uploads
 from packwork.studio.kept_workspaces import KeptWorkspace
@@ -79,10 +80,17 @@ def serve(
     secret = Secret(name, key_before=key_before, is_plain=host not in LOOPBACK)
     if kept is not None:
         kept.remember(port, secret.key)
+
+    def new_file() -> Path | None:
+        if (made := kept_workspaces.new()) is None:
+            return None
+        made.remember(port, secret.key)
+        return made.file
+
     address = f"http://{name}/#{secret.text}"
     with closing(Uploads()) as uploads:
         config = uvicorn.Config(
-            guarded(Workspace(opening), uploads, secret),
+            guarded(Workspace(opening, new_file), uploads, secret),
             log_level="warning",
             access_log=False,
             server_header=False,

@@ -8,7 +8,7 @@ from collections import deque
 from typing import Protocol
 
 from packwork.live.commands.command import Command
-from packwork.live.owner import Leap
+from packwork.live.owner import Leap, Owner
 from packwork.scene.pose import Poses
 from packwork.studio.importer import Importer
 from packwork.studio.messages import UnreadableError, read
@@ -43,6 +43,7 @@ class Tab:
         self._state_at = 0.0
         self._frame = self._acked = 0
         self._seen: tuple[Poses, int] | None = None
+        self._owner: Owner | None = None
         self._posted: deque[tuple[int, int]] = deque()
         self._newest = 0
 
@@ -70,6 +71,7 @@ class Tab:
         shown = self.workspace.shown
         if shown is None:
             return
+        self._follow(self.workspace.owner)
         view, state = shown.view, shown.state
         scene = await self.workspace.scene(view)
         if self._scene is None or scene.version != self._scene.version:
@@ -120,6 +122,13 @@ class Tab:
     async def _say(self, message: Said) -> None:
         await self._carrier.send_text(message.model_dump_json())
 
+    def _follow(self, owner: Owner | None) -> None:
+        """Count anew where another session is on the desk: the last one answers no more."""
+        if owner is not self._owner:
+            self._owner = owner
+            self._newest = self._posted[-1][1] if self._posted else self._newest
+            self._posted.clear()
+
     def _done(self, done: int) -> int:
         """Newest of this page's commands that a frame of the session knows."""
         while self._posted and self._posted[0][0] <= done:
@@ -142,6 +151,7 @@ class Tab:
     def post(self, posted: Command | Leap, number: int) -> None:
         """Have a command or a leap done, of that number in the page's count."""
         owner = self.workspace.owner
+        self._follow(owner)
         if owner is None:
             self.wake(Line(text=NOT_YET))
         elif owner.post(posted):

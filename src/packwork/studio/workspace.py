@@ -24,7 +24,7 @@ from packwork.errors import PackworkError
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
-from packwork.live.face.opening import Keeper, Opening, kept_in, opened
+from packwork.live.face.opening import Keeper, Opening, kept_in, opened, read_once
 from packwork.live.owner import Frame, Owner
 from packwork.live.relayout import Moment, in_place, poured, poured_again, poured_into
 from packwork.live.session import Session
@@ -61,8 +61,10 @@ class Shown:
 class Workspace:
     """Workspace that pages look at and work on."""
 
-    def __init__(self, opening: Opening) -> None:
-        self._opening = opening
+    def __init__(
+        self, opening: Opening, new_file: Callable[[], Path | None] = lambda: None
+    ) -> None:
+        self._opening, self._new_file = opening, new_file
         self._loop: asyncio.AbstractEventLoop | None = None
         self._worker = ThreadPoolExecutor(1, "studio")
         self._drawer = ThreadPoolExecutor(1, "drawing")
@@ -70,18 +72,17 @@ class Workspace:
         self._stop = threading.Event()
         self._moment: View | None = None
         self._busy, self._progress = "", 0.0
-        self._keeper: Keeper | None = None
+        self._desk: tuple[Owner, Keeper | None] | None = None
         self._unplaced: tuple[IntArray, tuple[LeftOut, ...]] | None = None
         self._unheard: deque[News] = deque(maxlen=MOST_LINES)
         self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[News | None], object]] = {}
-        self.owner: Owner | None = None
-        """The thread that owns the session; None until there is one."""
 
     async def begin(self) -> None:
         """Begin with what was given; returns at once."""
         self._loop = asyncio.get_running_loop()
-        self.work("Pouring", self._open)
+        given = self._opening
+        self.work("Pouring", partial(self._open, given, lambda: given.kept_in))
         self._tidying = asyncio.create_task(self._tidy())
 
     def close(self) -> None:
@@ -91,11 +92,21 @@ class Workspace:
         self._stop.set()
         self._worker.shutdown(cancel_futures=True)
         self._drawer.shutdown(cancel_futures=True)
-        owner, keeper = self.owner, self._keeper
-        if owner is not None:
+        self._end(self._desk)
+
+    @staticmethod
+    def _end(desk: tuple[Owner, Keeper | None] | None) -> None:
+        """End a session's thread; what was done is kept, if it is kept anywhere."""
+        if desk is not None:
+            owner, keeper = desk
             if keeper is not None:
                 owner.call(keeper.end)
             owner.__exit__(None, None, None)
+
+    @property
+    def owner(self) -> Owner | None:
+        """The thread that owns the session; None until there is one."""
+        return None if self._desk is None else self._desk[0]
 
     def listen(self, who: object, on_news: Callable[[News | None], object]) -> None:
         """Have somebody told, in the event loop, that something has changed, or a line."""
@@ -157,7 +168,7 @@ class Workspace:
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy,
             progress=self._progress,
-            saved=self._keeper is not None,
+            saved=self._desk is not None and self._desk[1] is not None,
         )
 
     def _left_out(self, view: View) -> tuple[LeftOut, ...]:
@@ -233,10 +244,20 @@ class Workspace:
             placed = View.of_document(found.applied(document, Library()))
             self._wake(Variant(seed=number, covered=placed.covered, command=found))
 
-    def _open(self) -> None:
-        opening = self._opening
+    def open_another(self, opening: Opening) -> None:
+        """Have another document on the desk, in the worker that calls this.
+
+        The one that is there stays, and stays kept, until the other one lies.
+        """
+        before = self._desk
+        self._open(opening, self._new_file)
+        self._end(before)
+
+    def _open(self, opening: Opening, new_file: Callable[[], Path | None]) -> None:
         keeper = None
-        if opening.file is not None:
+        if opening.file is not None and opening.is_copied:
+            session = read_once(opening.file)
+        elif opening.file is not None:
             session, keeper = opened(opening.file)
         elif opening.recipe is not None:
             layout = poured(
@@ -247,16 +268,15 @@ class Workspace:
             session = Session(opening.document)
         else:
             return
-        if opening.file is None:
-            document = session.document
-            self._unplaced = (document.ids, left_out_of(document.manifest))
-        if keeper is None and opening.kept_in is not None:
-            keeper = self._kept(opening.kept_in, session)
-        self._keeper = keeper
+        document = session.document
+        left_out = () if opening.file is not None else left_out_of(document.manifest)
+        self._unplaced = (document.ids, left_out)
+        if keeper is None and (file := new_file()) is not None:
+            keeper = self._kept(file, session)
         session.begin_film()
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()
-        self.owner = owner
+        self._desk = owner, keeper
         owner.call(Session.make_ready)
 
     def _kept(self, file: Path, session: Session) -> Keeper | None:
@@ -272,12 +292,13 @@ class Workspace:
         seen = None
         while True:
             await asyncio.sleep(QUIET_SECONDS)
-            owner, keeper = self.owner, self._keeper
-            if owner is None or keeper is None:
+            if (desk := self._desk) is None or desk[1] is None:
                 continue
+            owner, keeper = desk
             before, seen = seen, owner.frame.document
             if seen is before and owner.waiting == 0 and keeper.is_long:
-                self.change(keeper.tidy)
+                tidied = owner.call(keeper.tidy)
+                tidied.add_done_callback(lambda done: self._tell_of(done.exception()))
 
     def _pour(
         self,

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from packwork.errors import PackworkError, RecipeError
+from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk, lock_beside
 from packwork.live.session import Session
-from packwork.readers.layouts.read import holds_layout, read_written
+from packwork.readers.layouts.read import holds_layout, is_drawn, read_written
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe_paths import named_elsewhere
 
 FIRST = "heart"
 """Container of a workspace in which nothing was put."""
@@ -21,8 +22,8 @@ FIRST = "heart"
 FIRST_COUNT = 60
 """Items of such a workspace. More take longer until they lie, fewer show less. Chosen."""
 
-LAYOUTS = frozenset({".geojson", ".json", ".dxf"})
-"""Endings of files that hold a layout and can be nothing else."""
+DOCUMENTS = frozenset({ENDING, ".toml", ".geojson", ".json"})
+"""Endings of files that hold a session, a recipe or a layout and can be nothing else."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,37 +31,72 @@ class Opening:
     """Opening of a studio: a recipe, a document or a session's file.
 
     ``kept_in``: file in which the session is kept, with a journal; None to keep it nowhere.
+    ``is_copied``: whether ``file`` is read once and never written.
     """
 
     recipe: Recipe | None = None
     document: Document | None = None
     file: Path | None = None
     kept_in: Path | None = None
+    is_copied: bool = False
 
 
 def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) -> Opening:
     """Opening that inputs stand for, as people type them.
 
     ``inputs``: None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
-    ending, an SVG that this program wrote too. Else the container, then the items.
+    ending, an SVG or DXF that this program wrote too. Else the container, then the items.
 
     Examples
     --------
     >>> opening_of([]).recipe.container, opening_of(["bear", "star"], 9).recipe.count
     ('heart', 9)
     """
-    ending = Path(inputs[0]).suffix.lower() if len(inputs) == 1 else ""
-    is_ours = ending == ".svg" and Path(inputs[0]).is_file() and holds_layout(inputs[0])
-    if is_ours or ending in {ENDING, ".toml", *LAYOUTS}:
+    if len(inputs) == 1 and _is_document(path := Path(inputs[0])):
+        ending = path.suffix.lower()
         if count is not None and ending != ".toml":
             raise RecipeError("count", f"a {ending} file has its items; leave it out")
-        return _of_file(Path(inputs[0]), ending, count, options)
+        return _of_file(path, ending, count, options)
     container = inputs[0] if inputs else FIRST
     items = list(inputs[1:]) or ["builtin:icons"]
     if count is None and len(inputs) < 2:
         count = FIRST_COUNT
     recipe = make_recipe(container=container, items=items, **_drafted(count, options))
     return Opening(recipe=recipe)
+
+
+def opening_sent(folder: Path) -> Opening | None:
+    """Opening of files that were sent together; None if none of them is a document.
+
+    A recipe may name what is bundled and what was sent with it, nothing else on this machine.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        If a document cannot be read, or there are several.
+    """
+    files = sorted(folder.iterdir())
+    recipes = [one for one in files if one.suffix.lower() == ".toml"]
+    if len(recipes) == 1:
+        options = read_recipe(recipes[0])
+        if elsewhere := named_elsewhere(options, folder):
+            raise RecipeError(
+                recipes[0].name,
+                f"names {elsewhere[:80]}, which was not sent with it; send both together, or run "
+                "packwork studio with the recipe",
+            )
+        return Opening(recipe=make_recipe(**options | _drafted(None, {})))
+    documents = [one for one in files if _is_document(one)]
+    if not documents:
+        return None
+    if len(files) > 1:
+        raise ReadError(documents[0].name, "is a document; open it alone")
+    return replace(_of_file(files[0], files[0].suffix.lower(), None, {}), is_copied=True)
+
+
+def _is_document(path: Path) -> bool:
+    is_ours = is_drawn(path) and path.is_file() and holds_layout(path)
+    return is_ours or path.suffix.lower() in DOCUMENTS
 
 
 def _of_file(path: Path, ending: str, count: int | None, options: dict[str, Any]) -> Opening:
@@ -75,6 +111,11 @@ def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:
     """Options of a first run: a draft, for all can be made better later."""
     given = {key: value for key, value in options.items() if value is not None}
     return {"effort": "draft", **({} if count is None else {"count": count}), **given}
+
+
+def read_once(path: Path) -> Session:
+    """Session that a file holds, which is not kept there."""
+    return Disk(path, is_journaled=False).opened(Session)
 
 
 def opened(path: Path) -> tuple[Session, Keeper]:

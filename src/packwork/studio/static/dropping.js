@@ -6,7 +6,8 @@ import { tell } from "./toasts.js";
 
 /** @typedef {import("./connection.js").Connection} Connection */
 
-const DRAWINGS = ".svg,.svgz,image/*";
+const DRAWINGS = ".svg,.svgz,.dxf,image/*";
+const ANY = `${DRAWINGS},.packwork,.toml,.geojson,.csv,.tsv,.txt,.md,.ttf,.otf,.ttc,.otc`;
 const AT_ONCE = 4;
 const MOST = 1000;
 const MOST_TOLD = 3;
@@ -26,8 +27,10 @@ export class Dropping {
     this.field = h("input", { ...asks, multiple: true, onchange: () => this.chosen(this.field) });
     this.folder = h("input", { ...asks, multiple: true, webkitdirectory: true, onchange: () => this.chosen(this.folder) });
     document.body.append(this.field, this.folder);
-    /** @type {(batch: string) => void} */
-    this.then = (batch) => this.bring(batch);
+    /** What is done with files of no stated purpose. @type {(files: File[]) => unknown} */
+    this.takes = (files) => this.send(files, (batch) => this.bring(batch));
+    /** What is done with those asked for last. @type {((files: File[]) => unknown) | null} */
+    this.asked = null;
     /** Sheet that containers come on; null of that of now. @type {string | null} */
     this.sheet = null;
     this.depth = 0;
@@ -61,17 +64,17 @@ export class Dropping {
     this.veil.hidden = true;
     const isRoom = placeOf(event)?.getAttribute("data-drops") === "room";
     const files = await filesOf(event.dataTransfer);
-    if (files.length) await this.send(files, isRoom ? (batch) => this.fill(batch) : (batch) => this.bring(batch));
+    if (files.length) await (isRoom ? this.send(files, (batch) => this.fill(batch)) : this.takes(files));
   }
 
-  /** Ask for files that become items. */
+  /** Ask for files of any kind. */
   choose() {
-    this.ask(DRAWINGS, true, (batch) => this.bring(batch));
+    this.question(ANY, true, this.takes);
   }
 
   /** Ask for a folder of them. */
   chooseFolder() {
-    this.then = (batch) => this.bring(batch);
+    this.asked = null;
     this.folder.value = "";
     this.folder.click();
   }
@@ -91,7 +94,16 @@ export class Dropping {
    * @param {(batch: string) => void} then told of the batch they are in
    */
   ask(accept, isMany, then) {
-    this.then = then;
+    this.question(accept, isMany, (files) => this.send(files, then));
+  }
+
+  /**
+   * @param {string} accept
+   * @param {boolean} isMany
+   * @param {(files: File[]) => unknown} asked
+   */
+  question(accept, isMany, asked) {
+    this.asked = asked;
     this.field.accept = accept;
     this.field.multiple = isMany;
     this.field.value = "";
@@ -101,7 +113,7 @@ export class Dropping {
   /** @param {HTMLInputElement} field */
   chosen(field) {
     const files = [...(field.files ?? [])].filter((file) => !file.name.startsWith("."));
-    if (files.length) this.send(files, this.then);
+    if (files.length) (this.asked ?? this.takes)(files);
   }
 
   /** Ask for a picture that the items come to show. */

@@ -31,12 +31,11 @@ export class FontField {
       return;
     }
     this.field.value = this.value ?? "";
-    this.studio.dropping.ask(".ttf,.otf,.ttc,.otc", false, (batch) => this.own(batch));
+    this.studio.dropping.ask(".ttf,.otf,.ttc,.otc", false, (batch) => this.own(batch, this.studio.dropping.field.files?.[0]?.name ?? "your font"));
   }
 
-  /** @param {string} batch of the file that was chosen */
-  own(batch) {
-    const name = this.studio.dropping.field.files?.[0]?.name ?? "your font";
+  /** @param {string} batch of the file @param {string} name */
+  own(batch, name) {
     this.value = `file:${batch}`;
     this.field.prepend(option(this.value, name));
     this.field.value = this.value;

@@ -13,6 +13,7 @@ import { Exporting } from "./exporting.js";
 import { Forces } from "./forces.js";
 import { Gestures } from "./gestures.js";
 import { Hand, together } from "./hand.js";
+import { Incoming } from "./incoming.js";
 import { listenToKeys } from "./keys.js";
 import { Menu } from "./menu.js";
 import { Ordering } from "./ordering.js";
@@ -69,6 +70,9 @@ export class Studio {
     this.variants = new Variants(this);
     this.forces = this.stage.forces = new Forces(this);
     this.panels = new Panels(this);
+    this.words = this.panels.words;
+    this.incoming = new Incoming(this);
+    this.dropping.takes = (files) => this.incoming.take(files);
     this.replacing = new Replacing(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
     /** Whether this person has once taken an item: then nothing has to be explained. */

@@ -62,14 +62,37 @@ export class Words {
   }
 
   /** @param {Event} event */
-  async submitted(event) {
+  submitted(event) {
     event.preventDefault();
     if (!this.text.value.trim()) return this.text.focus();
-    const { dropping, connection } = this.studio;
+    return this.submit();
+  }
+
+  /** Fill with the text or table that is in the field. */
+  async submit() {
     const rows = this.rows();
     const lines = rows ? ["word,weight", ...rows.map(([word, weight]) => `"${word.replaceAll('"', '""')}",${weight}`)].join("\n") : this.text.value;
     const file = new File([lines], rows ? "words.csv" : "words.txt");
-    await dropping.send([file], (batch) => connection.send({
-      type: "fill", use: "words", source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null }));
+    await this.studio.dropping.send([file], (batch) => this.fillFrom(batch));
+  }
+
+  /** @param {string} batch of a text or a table */
+  fillFrom(batch) {
+    this.studio.connection.send({
+      type: "fill", use: "words", source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null });
+  }
+
+  /**
+   * Have a font of a file: words that are there are set in it at once.
+   * @param {string} batch
+   * @param {string} name
+   */
+  async setIn(batch, name) {
+    await this.font.fill();
+    this.font.own(batch, name);
+    if (this.studio.panels.current !== "words") await this.studio.panels.toggle("words");
+    if (this.update.hidden) return tell(`${name}: words are set in it from now on`);
+    this.text.value = this.table();
+    this.change();
   }
 }
