@@ -13,7 +13,7 @@ import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Library
 from packwork.live.commands.container import PlaceContainer, Reshape, SetOption
-from packwork.live.commands.gestures import Drop, Grab, Hold, Release
+from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
 from packwork.live.commands.together import COMMANDS, AnyCommand, Together
@@ -71,6 +71,7 @@ commands = st.one_of(
     ),
     st.builds(Grab, items=st.tuples(items)),
     st.just(Drop()),
+    st.just(Cancel()),
 )
 
 

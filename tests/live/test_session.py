@@ -12,7 +12,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.live.commands.gestures import Drop, Grab
+from packwork.live.commands.gestures import Cancel, Drop, Grab
 from packwork.live.commands.placing import Move, Turn
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
@@ -42,6 +42,25 @@ def test_what_is_dropped_stays_and_the_others_make_room(session: pw.Session) -> 
     assert found.in_the_way == ()
     assert (session.document.poses.x[0], session.document.poses.y[0]) == (300.0, 300.0)
     assert found.moved > 1
+
+
+def test_a_drag_that_is_cancelled_leaves_what_was_before_it_and_no_more(
+    session: pw.Session, same: Same
+) -> None:
+    first = session.document
+    drag(session, 0, 300.0, 300.0)
+    before, marks = session.document, session.marks.copy()
+    session.apply(Grab(items=(3,)))
+    session.apply(Move(item=3, x=250.0, y=380.0))
+    session.flow(epochs=12)
+    assert not same(session.document.poses, before.poses)
+    session.apply(Cancel())
+    assert same(session.document.poses, before.poses)
+    assert session.marks == marks
+    assert session.settle().certified
+    assert session.undo()
+    assert same(session.document.poses, first.poses)
+    assert not session.undo()
 
 
 def test_what_is_certified_is_clean_by_measures_that_know_nothing_of_sessions(

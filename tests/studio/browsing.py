@@ -138,6 +138,15 @@ class Desk:
             "&& studio.collage.hasPoses && studio.collage.hand.size === 0 && !studio.isEasing)"
         )
 
+    def rested(self) -> str:
+        """Wait until nothing is won back any more; where all lies then."""
+        seen, poses = "", ""
+        while not poses or seen != poses:
+            seen = poses
+            self.page.wait_for_timeout(1000)
+            poses = self.look("JSON.stringify([...studio.collage.poses])")
+        return poses
+
     def place(self, item: int) -> tuple[float, float]:
         """Where an item is on the window."""
         x, y = self.look(

@@ -52,6 +52,65 @@ def test_a_drag_is_followed_settles_and_is_undone(open_desk: Callable[..., Desk]
     desk.settled()
 
 
+def test_the_badge_has_two_states_and_no_more(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.look(
+        "(badge => new MutationObserver(() => {"
+        " const now = badge.dataset.is; if (now !== log.at(-1)) log.push(now);"
+        " }).observe(badge, {attributes: true, subtree: true, childList: true}))"
+        "(document.getElementById('badge'), globalThis.log = [])"
+    )
+    desk.drag(desk.place(0), desk.place(3))
+    assert desk.look("document.getElementById('badge').dataset.is") == "working"
+    assert "making room" in desk.page.locator("#badge").inner_text()
+    desk.settled()
+    # What is won back while nobody touches anything is no work.
+    desk.page.wait_for_timeout(3000)
+    assert desk.look("log") == ["working", "certified"]
+    desk.page.keyboard.press("Control+z")
+    desk.settled()
+
+
+def test_escape_in_a_drag_takes_back_that_drag_alone(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    poses = "JSON.stringify([...studio.collage.poses])"
+    first = desk.rested()
+    desk.drag(desk.place(0), desk.place(3))
+    desk.settled()
+    before = desk.rested()
+    assert before != first
+    desk.page.mouse.move(*desk.place(5))
+    desk.page.mouse.down()
+    desk.page.mouse.move(*desk.place(2), steps=8)
+    desk.until(f"{poses} !== {json.dumps(before)}")
+    desk.page.keyboard.press("Escape")
+    desk.page.mouse.up()
+    desk.until("studio.collage.hand.size === 0")
+    desk.settled()
+    assert desk.look(poses) == before
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"{poses} === {json.dumps(first)}")
+    desk.settled()
+
+
+def test_a_reload_lets_go_of_what_is_dragged(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.mouse.move(*desk.place(0))
+    desk.page.mouse.down()
+    desk.page.mouse.move(*desk.place(3), steps=4)
+    desk.page.reload()
+    desk.settled()
+    desk.page.mouse.up()
+    before = desk.look("studio.collage.pose(1).x")
+    desk.drag(desk.place(1), desk.place(4))
+    desk.settled()
+    assert desk.look("studio.collage.pose(1).x") != before
+    assert desk.page.locator(".toast").count() == 0
+    for _ in range(2):
+        desk.page.keyboard.press("Control+z")
+    desk.settled()
+
+
 def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.page.mouse.click(*desk.place(1))

@@ -80,6 +80,44 @@ def test_a_drag_moves_neighbours_settles_and_is_one_step_back(play) -> None:
     play(scenario)
 
 
+def test_work_is_told_at_once_until_it_is_done(play) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        page.messages.clear()
+        page.tell(type="count", count=14)
+        await page.until(lambda: page.said("state"))
+        assert len(desk.shown.view.items) == 12
+        assert page.last("state")["busy"] == "Changing the count"
+        await page.until(lambda: page.is_certified)
+        works = [state["busy"] for state in page.said("state")]
+        assert works[-1] == ""
+        assert all(works[:-1])
+        assert not any(state["can_stop"] for state in page.said("state"))
+        assert len(page.last("scene")["items"]) == 14
+
+    play(scenario)
+
+
+def test_what_a_page_drags_is_let_go_when_it_is_gone(play) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page, other = open_page(), open_page()
+        await page.until(lambda: page.is_certified)
+        page.tell(type="do", n=1, command={"kind": "grab", "items": [0]})
+        other.tell(type="do", n=1, command={"kind": "grab", "items": [1]})
+        await other.until(lambda: other.said("line"))
+        assert "another page" in other.last("line")["text"]
+        page.tell(type="do", n=2, command={"kind": "move", "item": 0, "x": 300.0, "y": 300.0})
+        desk.forget(page.tab)
+        other.tell(type="do", n=2, command={"kind": "grab", "items": [1]})
+        other.tell(type="do", n=3, command={"kind": "drop"})
+        other.tell(type="leap", n=4, to="undo")
+        await other.until(lambda: other.done == 4 and other.is_certified)
+        assert len(other.said("line")) == 1
+
+    play(scenario)
+
+
 def test_two_pages_see_one_session(play) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         one, other = open_page(), open_page()
@@ -274,13 +312,14 @@ def test_what_cannot_be_exported_is_refused_in_a_line(play, asked: dict, said: s
 
 def test_a_desk_begins_with_a_run_that_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     recipe = opening_of(["circle", "star"], 5, levels="50", epochs=60).recipe
-    desk = Workspace(Opening(recipe=recipe))
+    opening = Opening(recipe=recipe)
+    desk = Workspace(opening)
     counts: list[int] = []
     see = desk._see
     monkeypatch.setattr(
         desk, "_see", lambda view, moment: (counts.append(len(view.items)), see(view, moment))
     )
-    desk._open()
+    desk._open(opening, lambda: None)
     desk.close()
     assert counts[0] == 0
     assert counts.count(5) > 3
@@ -319,7 +358,7 @@ def test_pages_are_told_what_is_poor_though_it_is_certified(play) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified and page.frames)
-        desk.change(lambda session: edits.cover(session, "8%"))
+        desk.change(lambda session: edits.cover(session, "8%"), "Covering")
         await page.until(lambda: page.is_certified and page.last("state")["advice"])
         assert "would show it" in page.last("state")["advice"][0]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -227,3 +227,13 @@ def showing(document: Document, source: str) -> Together:
             "picture", "needs items whose colours may change; photographs keep theirs"
         )
     return Together(commands=commands)
+
+
+def prepared(
+    session: Session, make: Callable[[Session], Sequence[Command]]
+) -> tuple[Sequence[Command], Document]:
+    """Commands, and the document as they would leave it."""
+    commands, document = make(session), session.document
+    for command in commands:
+        document = command.applied(document, session.library)
+    return commands, document

@@ -54,6 +54,10 @@ MOST_TRIES = 3
 is told. Chosen."""
 
 
+MAKING_ROOM = "Making room"
+"""Work of commands and leaps, and of what follows them."""
+
+
 class Leap(Enum):
     """Request beside commands: a way through the history."""
 
@@ -67,6 +71,7 @@ class _Call:
 
     function: Callable[[Any], Any]
     answer: Future[Any]
+    work: str = ""
 
 
 Posted: TypeAlias = Command | Leap | _Call
@@ -141,6 +146,7 @@ class Owner:
         self._waiting: deque[tuple[int, Posted]] = deque()
         self._changed = threading.Condition()
         self._is_over = False
+        self._owed: deque[tuple[int, str]] = deque()
         self._refused: deque[str] = deque(maxlen=MOST_REFUSED)
         # A session that goes on after a crash may not have been settled.
         self._is_touched = bool(session.marks.touched) or not session.is_at_rest
@@ -169,13 +175,14 @@ class Owner:
         """Have a command or a leap done; False if too many wait already, or it is over."""
         return self._take(command)
 
-    def call(self, function: Callable[[Session], Answer]) -> Future[Answer]:
+    def call(self, function: Callable[[Session], Answer], work: str = "") -> Future[Answer]:
         """Have a function of the session called in the thread, in its turn; what it answers.
 
-        What it raises is raised by the future, also where too many wait or it is over.
+        ``work``: name of a change that it makes; empty where it only looks. What it raises is
+        raised by the future, also where too many wait or it is over.
         """
         answer: Future[Answer] = Future()
-        if not self._take(_Call(function, answer)):
+        if not self._take(_Call(function, answer, work)):
             answer.set_exception(PackworkError("too much is waiting to be done; try it again"))
         return answer
 
@@ -183,6 +190,14 @@ class Owner:
     def waiting(self) -> int:
         """Number of commands that wait."""
         return len(self._waiting)
+
+    def work(self, frame: Frame) -> str:
+        """Work that a frame does not show finished, in words; empty if there is none."""
+        with self._changed:
+            while self._owed and self._owed[0][0] <= frame.done:
+                self._owed.popleft()
+            owed = self._owed[0][1] if self._owed else ""
+        return owed or (MAKING_ROOM if frame.in_the_way is None else "")
 
     @property
     def failure(self) -> Exception | None:
@@ -198,6 +213,8 @@ class Owner:
             elif len(self._waiting) >= MOST_WAITING:
                 return False
             self.posted += 1
+            if work := posted.work if isinstance(posted, _Call) else MAKING_ROOM:
+                self._owed.append((self.posted, work))
             self._waiting.append((self.posted, posted))
             self._changed.notify()
         return True

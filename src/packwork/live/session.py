@@ -14,7 +14,7 @@ from typing import Any, Self
 from packwork.errors import RecipeError
 from packwork.live.certificate import Requests, Settlement, promise_of
 from packwork.live.commands.command import Command, Library, made
-from packwork.live.commands.gestures import Drop, Grab
+from packwork.live.commands.gestures import Cancel, Drop, Grab
 from packwork.live.commands.placing import Scale
 from packwork.live.commands.together import KINDS, Together
 from packwork.live.document import Change, Document, Invalidation
@@ -73,7 +73,7 @@ class Session:
         """How words were asked to be set, last."""
         self._solver = LocalSolver(document, record=record)
         self._requests = Requests()
-        self._before_grab: Document | None = None
+        self._before_grab: tuple[Document, Marks] | None = None
 
     def __enter__(self) -> Self:
         return self
@@ -212,10 +212,10 @@ class Session:
         for document in documents:
             self._solver.take(document)
         if isinstance(command, Grab):
-            self._before_grab = before
+            self._before_grab = before, self.marks.copy()
             self._solver.grab(command.items)
-        elif isinstance(command, Drop):
-            self._drop()
+        elif isinstance(command, Drop | Cancel):
+            self._let_go(is_cancelled=isinstance(command, Cancel))
         elif not self.is_grabbed and change.stale > Invalidation.NOTHING:
             self.history.note(before)
             self.log.flush()
@@ -319,7 +319,7 @@ class Session:
         self._solver.begin_film()
 
     def make_ready(self) -> None:
-        """Have what takes long the first time done before the hand comes; changes nothing."""
+        """Do what takes long the first time before the hand comes; nothing changes."""
         self._solver.make_ready()
 
     @classmethod
@@ -348,8 +348,7 @@ class Session:
             elif kind == "broken_off":
                 self._solver.begin_anew()
             else:
-                # What stands for itself: settle, kept, undo, redo.
-                getattr(self, kind)()
+                getattr(self, kind)()  # settle, kept, undo, redo
         return gestures
 
     def kept(self) -> SessionState:
@@ -380,11 +379,14 @@ class Session:
         if seen is not None:
             self.log.note("flow", (seen, epochs))
 
-    def _drop(self) -> None:
+    def _let_go(self, *, is_cancelled: bool) -> None:
         before, self._before_grab = self._before_grab, None
-        if before is not None and self.document is not before:
-            self.history.note(before)
         self._solver.grab(())
+        if before is not None and is_cancelled:
+            self._requests.forget()
+            self._solver.restart(*before)
+        elif before and self.document is not before[0]:
+            self.history.note(before[0])
         self.log.flush()
 
     def _leap(self, kind: str) -> bool:

@@ -38,6 +38,8 @@ MOST_TEXT = 1_000_000
 MOST_AT_ONCE = 24
 """Items that are put into the largest voids one by one; of more, all are poured anew. Chosen."""
 
+ADDING = "Adding items"
+
 SAME = "same"
 """What the container of now is called."""
 
@@ -124,7 +126,7 @@ class Count(PageRequest):
 
     def act(self, tab: Tab) -> None:
         """Have copies come, or items go."""
-        tab.workspace.change(lambda session: edits.count(session, self.count))
+        tab.workspace.change(lambda session: edits.count(session, self.count), "Changing the count")
 
 
 class Bring(PageRequest):
@@ -151,9 +153,9 @@ class Bring(PageRequest):
             workspace.say(f"left out: {importer.without_folder(str(left_out))}", is_error=False)
         items, at = found.items, (self.x, self.y)
         if len(items) == 1 and None not in at:
-            workspace.change(lambda session: edits.add(session, items, *at))
+            workspace.change(lambda session: edits.add(session, items, *at), ADDING)
         elif len(items) <= MOST_AT_ONCE:
-            workspace.change(lambda session: edits.add(session, items))
+            workspace.change(lambda session: edits.add(session, items), ADDING)
         else:
             workspace.pour(0, lambda session: list(brought(session, items)))
 
@@ -192,7 +194,7 @@ class Swap(PageRequest):
             asset = named_item(session.library, item)
             session.do_together(made(Replace, item=k, asset=asset) for k in self.items)
 
-        tab.workspace.change(put)
+        tab.workspace.change(put, "Replacing")
 
 
 class Room(PageRequest):
@@ -266,7 +268,7 @@ class Picture(PageRequest):
 
         def read() -> None:
             file = tab.importer.file(self.source)
-            tab.workspace.change(lambda session: edits.picture(session, file))
+            tab.workspace.change(lambda session: edits.picture(session, file), "Colouring")
 
         tab.importer.read(read)
 
@@ -315,7 +317,9 @@ class Words(PageRequest):
             font = tab.importer.font(self.font)
             options = {} if font is None else {"fonts": [font]}
             words = dict(self.words)
-            tab.workspace.change(lambda session: edits.words(session, words, **options))
+            tab.workspace.change(
+                lambda session: edits.words(session, words, **options), "Setting words"
+            )
 
         tab.importer.read(read)
 
@@ -339,7 +343,7 @@ class Set(PageRequest):
 
     def act(self, tab: Tab) -> None:
         """Set them."""
-        tab.workspace.change(lambda session: edits.set(session, **self.options))
+        tab.workspace.change(lambda session: edits.set(session, **self.options), "Setting options")
 
 
 Told: TypeAlias = Annotated[

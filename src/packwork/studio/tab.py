@@ -7,14 +7,15 @@ import time
 from collections import deque
 from typing import Protocol
 
+from packwork.errors import PackworkError
 from packwork.live.commands.command import Command
-from packwork.live.owner import Leap, Owner
+from packwork.live.owner import MAKING_ROOM, Leap, Owner
 from packwork.scene.pose import Poses
 from packwork.studio.importer import Importer
-from packwork.studio.messages import UnreadableError, read
+from packwork.studio.messages import read
 from packwork.studio.view import View
 from packwork.studio.wire import Line, Said, Scene, Shapes, State, frame_bytes
-from packwork.studio.workspace import MOST_LINES, NOT_YET, News, Workspace
+from packwork.studio.workspace import MOST_LINES, News, Workspace
 
 STATE_SECONDS = 0.1
 """Time between two states of which only the covered share differs. Chosen."""
@@ -139,7 +140,7 @@ class Tab:
         """Do what the page asks for; what means nothing is answered by a line."""
         try:
             read(text).act(self)
-        except UnreadableError as error:
+        except PackworkError as error:
             self.wake(Line(text=str(error)))
 
     def ack(self, frame: int) -> None:
@@ -150,19 +151,19 @@ class Tab:
 
     def post(self, posted: Command | Leap, number: int) -> None:
         """Have a command or a leap done, of that number in the page's count."""
-        owner = self.workspace.owner
-        self._follow(owner)
-        if owner is None:
-            self.wake(Line(text=NOT_YET))
-        elif owner.post(posted):
-            self._posted.append((owner.posted, number))
-        else:
-            self.wake(Line(text="too much is waiting to be done; that was left out"))
+        self._follow(self.workspace.owner)
+        self._posted.append((self.workspace.post(posted, self), number))
 
 
 def _unsettled(state: State) -> State:
     """A state of a layout that is not there yet."""
-    return state.model_copy(update={"moving": True, "certified": False, "entangled": ()})
+    unlike = {
+        "moving": True,
+        "certified": False,
+        "entangled": (),
+        "busy": state.busy or MAKING_ROOM,
+    }
+    return state.model_copy(update=unlike)
 
 
 def _apart(state: State) -> State:

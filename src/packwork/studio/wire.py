@@ -94,8 +94,10 @@ class State(Message):
     can_undo: bool
     can_redo: bool
     busy: str
-    """What is going on that takes long; empty if nothing is."""
+    """What is being worked on; empty if nothing is."""
     progress: float
+    """Share of that, 0 where nobody knows."""
+    can_stop: bool
     saved: bool
 
 

@@ -22,10 +22,12 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command, Library
+from packwork.live.commands.gestures import Cancel, Drop, Grab
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.face.opening import Keeper, Opening, kept_in, opened, read_once
-from packwork.live.owner import Frame, Owner
+from packwork.live.macros import prepared
+from packwork.live.owner import Frame, Leap, Owner
 from packwork.live.relayout import Moment, in_place, poured, poured_again, poured_into
 from packwork.live.session import Session
 from packwork.studio.view import Scenes, View, left_out_of
@@ -75,6 +77,7 @@ class Workspace:
         self._desk: tuple[Owner, Keeper | None] | None = None
         self._unplaced: tuple[IntArray, tuple[LeftOut, ...]] | None = None
         self._unheard: deque[News] = deque(maxlen=MOST_LINES)
+        self._dragging: object = None
         self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[News | None], object]] = {}
 
@@ -116,21 +119,26 @@ class Workspace:
         self._unheard.clear()
 
     def forget(self, who: object) -> None:
-        """Tell somebody nothing more."""
+        """Tell somebody nothing more; what they drag is let go."""
         self._listeners.pop(who, None)
+        if self._dragging is who and self.owner is not None:
+            self._dragging = None
+            self.owner.post(Drop())
 
     @property
     def shown(self) -> Shown | None:
         """View as of now, all of one moment; None before anything is."""
         # Both are replaced by other threads: each is looked at once.
-        moment, frame = self._moment, None if self.owner is None else self.owner.frame
+        moment, owner = self._moment, self.owner
+        frame = None if owner is None else owner.frame
+        work = "" if owner is None or frame is None else owner.work(frame)
         if moment is not None:
             view = moment
         elif frame is not None:
             view = View.of_document(frame.document)
         else:
             return None
-        state = self._state(view, frame, is_run=moment is not None)
+        state = self._state(view, frame, work, is_run=moment is not None)
         return Shown(view, state, 0 if frame is None else frame.done)
 
     @property
@@ -153,8 +161,8 @@ class Workspace:
         """Shapes of the items."""
         return self._scenes
 
-    def _state(self, view: View, frame: Frame | None, *, is_run: bool) -> State:
-        is_moving = is_run or frame is None or frame.in_the_way is None
+    def _state(self, view: View, frame: Frame | None, work: str, *, is_run: bool) -> State:
+        is_moving = is_run or frame is None or bool(work)
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
         return State(
             covered=view.covered,
@@ -166,8 +174,9 @@ class Workspace:
             advice=() if frame is None or is_moving else frame.advice,
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
-            busy=self._busy,
-            progress=self._progress,
+            busy=self._busy or work,
+            progress=self._progress if self._busy else 0.0,
+            can_stop=bool(self._busy),
             saved=self._desk is not None and self._desk[1] is not None,
         )
 
@@ -186,12 +195,37 @@ class Workspace:
         """End what takes long, with what there is."""
         self._stop.set()
 
-    def change(self, act: Callable[[Session], object]) -> None:
-        """Have something done to the session in its thread; what is refused is told."""
+    def post(self, posted: Command | Leap, who: object) -> int:
+        """Have a command or a leap of somebody done; its number in the owner's count.
+
+        Raises
+        ------
+        PackworkError
+            If it cannot be now: one drags at a time.
+        """
+        if self.owner is None:
+            raise PackworkError(NOT_YET)
+        is_drag = isinstance(posted, Grab | Drop | Cancel)
+        if is_drag and self._dragging not in (None, who):
+            raise PackworkError("another page is dragging something; let go of it there first")
+        if not self.owner.post(posted):
+            raise PackworkError("too much is waiting to be done; that was left out")
+        if is_drag:
+            self._dragging = who if isinstance(posted, Grab) else None
+        self._wake()
+        return self.owner.posted
+
+    def change(self, act: Callable[[Session], object], work: str) -> None:
+        """Have something done to the session in its thread; what is refused is told.
+
+        ``work``: what it is called meanwhile.
+        """
         if self.owner is None:
             self.say(NOT_YET)
             return
-        self.owner.call(act).add_done_callback(lambda done: self._tell_of(done.exception()))
+        called = self.owner.call(act, work)
+        self._wake()
+        called.add_done_callback(lambda done: self._tell_of(done.exception()))
 
     def pour(self, seed: int, make: Callable[[Session], Sequence[Command]] = lambda _: ()) -> None:
         """Fill the container anew, after some commands; all of it is one step of the history."""
@@ -308,7 +342,7 @@ class Workspace:
         asked: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         """Run, in the worker, what is then put into the session."""
-        commands, document = owner.call(lambda session: _prepared(session, make)).result()
+        commands, document = owner.call(lambda session: prepared(session, make)).result()
 
         def show(moment: Moment) -> None:
             poses = moment.poses and replace(moment.poses, stretch=document.poses.stretch)
@@ -363,13 +397,3 @@ class Workspace:
             self._unheard.append(line)
         for on_news in tuple(self._listeners.values()):
             on_news(line)
-
-
-def _prepared(
-    session: Session, make: Callable[[Session], Sequence[Command]]
-) -> tuple[Sequence[Command], Document]:
-    """Commands, and the document as they would leave it."""
-    commands, document = make(session), session.document
-    for command in commands:
-        document = command.applied(document, session.library)
-    return commands, document

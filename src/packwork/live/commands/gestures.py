@@ -32,6 +32,16 @@ class Drop(Command):
         return document
 
 
+class Cancel(Command):
+    """Let go of what was grabbed, all of it and its neighbours as they were before."""
+
+    kind: Literal["cancel"] = "cancel"
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The same document."""
+        return document
+
+
 class Hold(Command):
     """Hold items: what is held of them, nothing but a command changes."""
 

@@ -9,7 +9,7 @@ from pydantic import Field, TypeAdapter
 
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
-from packwork.live.commands.gestures import Drop, Grab, Hold, Release
+from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
@@ -48,7 +48,7 @@ class Together(Command):
 
 
 AnyCommand: TypeAlias = Annotated[
-    SingleCommand | Together | Grab | Drop, Field(discriminator="kind")
+    SingleCommand | Together | Grab | Drop | Cancel, Field(discriminator="kind")
 ]
 
 COMMANDS: TypeAdapter[AnyCommand] = TypeAdapter(AnyCommand)
@@ -56,6 +56,6 @@ COMMANDS: TypeAdapter[AnyCommand] = TypeAdapter(AnyCommand)
 
 KINDS: Mapping[str, type[Command]] = {
     one.model_fields["kind"].default: one
-    for one in (*get_args(get_args(SingleCommand)[0]), Together, Grab, Drop)
+    for one in (*get_args(get_args(SingleCommand)[0]), Together, Grab, Drop, Cancel)
 }
 """Commands by what logs call them: those that a log can be read with, and no other."""

@@ -36,7 +36,7 @@ function edits(studio) {
     { id: "pour", group: "Edit", label: "Pour anew", keys: ["R"], icon: "pour",
       when: () => collage.hasPoses, run: () => studio.pour() },
     { id: "stop", group: "Edit", label: "Stop what takes long", keys: ["Shift+Escape"],
-      when: () => Boolean(collage.state?.busy), run: () => connection.send({ type: "stop" }) },
+      when: () => Boolean(collage.state?.can_stop), run: () => connection.send({ type: "stop" }) },
   ];
 }
 

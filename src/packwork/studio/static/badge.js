@@ -1,10 +1,13 @@
 // @ts-check
-/** The one badge that tells how things stand. */
+/** The one badge that tells how things stand: at work, or ready. */
 
 import { byId, h, icon } from "./dom.js";
 import { say } from "./toasts.js";
 
 /** @typedef {import("./wire.js").State} State */
+
+/** How long nothing has to be at work until it is called ready, ms: what is shown has come to rest by then. */
+const CALM = 350;
 
 export class Badge {
   /** @param {{show: (ids: number[]) => void, stop: () => void}} hears */
@@ -14,7 +17,7 @@ export class Badge {
     this.share = h("strong", {}, "–");
     this.word = h("span", { class: "word" }, "connecting");
     this.bar = h("span", { class: "progress", "aria-hidden": "true" });
-    this.button = h("button", { type: "button", id: "badge", "data-is": "moving", title: "How things stand", onclick: () => this.open() },
+    this.button = h("button", { type: "button", id: "badge", "data-is": "working", title: "How things stand", onclick: () => this.open() },
       this.lamp, this.share, this.word, this.bar);
     this.stop = h("button", { type: "button", id: "stop", hidden: true, onclick: () => hears.stop() }, "Stop");
     this.why = h("div", { id: "why", popover: "auto" });
@@ -22,27 +25,38 @@ export class Badge {
     /** @type {State | null} */
     this.state = null;
     this.told = "";
+    this.timer = 0;
   }
 
-  /** @param {State} state */
+  /**
+   * Show work at once, and that it is over when it has been for a moment.
+   * @param {State} state
+   */
   show(state) {
     this.state = state;
-    const is = state.moving ? "moving" : state.certified ? "certified" : "broken";
-    this.button.dataset.is = is;
-    this.share.textContent = state.covered > 0 ? `${Math.round(1000 * state.covered) / 10} %` : "–";
+    const isOver = this.button.dataset.is === "working" && !state.busy;
+    if (!isOver) this.paint();
+    else this.timer ||= setTimeout(() => this.paint(), CALM);
+  }
+
+  paint() {
+    clearTimeout(this.timer);
+    this.timer = 0;
+    const state = /** @type {State} */ (this.state);
     const word = this.wordOf(state);
+    this.button.dataset.is = state.busy ? "working" : state.certified ? "certified" : "broken";
+    this.share.textContent = state.busy ? "Working" : state.covered > 0 ? `${Math.round(1000 * state.covered) / 10} %` : "–";
     this.word.textContent = word;
-    this.bar.style.transform = `scaleX(${state.busy ? state.progress : 0})`;
-    this.stop.hidden = !state.busy;
-    if (!state.moving && word !== this.told) say(`${this.share.textContent} covered, ${word}`);
+    this.bar.style.transform = state.progress ? `scaleX(${state.progress})` : "";
+    this.stop.hidden = !state.can_stop;
+    if (!state.busy && word !== this.told) say(`${this.share.textContent} ${word}`);
     this.told = word;
     if (state.certified && !state.unplaced.length && !state.advice.length) this.why.hidePopover?.();
   }
 
   /** @param {State} state */
   wordOf(state) {
-    if (state.busy) return `${state.busy.toLowerCase()} …`;
-    if (state.moving) return "settling …";
+    if (state.busy) return state.busy.toLowerCase() + (state.progress ? ` · ${Math.round(100 * state.progress)} %` : "");
     const without = state.unplaced.length ? ` · ${state.unplaced.length} left out` : state.advice.length ? " · a hint" : "";
     if (state.certified) return `covered · certified${without}`;
     const count = state.in_the_way.length;
@@ -52,10 +66,9 @@ export class Badge {
   open() {
     const state = this.state;
     if (!state) return;
-    const lines = state.certified
-      ? [h("p", {}, icon("check"), "Nothing overlaps, nothing sticks out, all gaps are as asked: checked in exact geometry.")]
-      : state.moving
-        ? [h("p", {}, "Things are moving; what comes out is checked when they lie.")]
+    const lines = state.busy
+      ? [h("p", {}, `${this.wordOf(state)}: what comes of it is checked when all lies.`)]
+      : state.certified ? [h("p", {}, icon("check"), "Nothing overlaps, nothing sticks out, all gaps are as asked: checked in exact geometry.")]
         : [h("p", {}, "What is in the way:"), h("ul", {}, ...state.in_the_way.map((line) => h("li", {}, line)))];
     const shows = state.entangled.length && h("button", { type: "button", onclick: () => this.hears.show(state.entangled) }, "Show them");
     if (state.unplaced.length) lines.push(h("p", {}, "Left out:"), h("ul", {}, ...state.unplaced.map(({ name, reason }) => h("li", {}, `${name}: ${reason}`))));
@@ -67,6 +80,8 @@ export class Badge {
   /** @param {boolean} isOpen */
   connected(isOpen) {
     if (isOpen) return;
+    clearTimeout(this.timer);
+    this.timer = 0;
     this.button.dataset.is = "lost";
     this.word.textContent = "reconnecting …";
   }

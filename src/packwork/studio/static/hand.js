@@ -81,20 +81,25 @@ export class Hand {
   drop() {
     if (!this.isFull) return;
     this.sendWaiting();
-    const until = this.connection.do({ kind: "drop" });
+    this.letGo("drop");
+  }
+
+  /** Have all that this drag has moved, neighbours too, as it was before. */
+  cancel() {
+    this.waiting = null;
+    for (const [id, pose] of this.began) this.put(id, pose);
+    this.letGo("cancel");
+  }
+
+  /** @param {"drop" | "cancel"} kind */
+  letGo(kind) {
+    const until = this.connection.do({ kind });
     for (const id of this.began.keys()) {
       const held = this.collage.hand.get(id);
       if (held && until) held.until = until;
       else this.collage.hand.delete(id);
     }
     this.began.clear();
-  }
-
-  /** Put it back to where it was taken, and let go. */
-  cancel() {
-    this.turn(0, { x: 0, y: 0 });
-    this.scale(1, { x: 0, y: 0 });
-    this.drop();
   }
 
   /** @param {number} id @param {Pose} pose */

@@ -130,15 +130,9 @@ export class Studio {
   stated(state) {
     const before = this.collage.state;
     this.collage.state = state;
-    this.badge.show(this.told);
+    this.badge.show(state);
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
-  }
-
-  /** How things stand, as is true of what is shown: nothing is certified that is still on its way there. */
-  get told() {
-    const state = /** @type {import("./wire.js").State} */ (this.collage.state);
-    return this.isEasing ? { ...state, moving: true, certified: false } : state;
   }
 
   /** @param {Frame} frame */
@@ -147,7 +141,7 @@ export class Studio {
     const state = this.collage.state;
     this.collage.setFrame(frame);
     // What is said of the last layout is not true of this one.
-    if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, certified: false, entangled: [] });
+    if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, busy: "Making room", certified: false, entangled: [] });
     this.isEasing = true;
     this.unacked = frame.number;
     // The next one may come while this one is drawn: of several the newest is shown.
@@ -216,10 +210,7 @@ export class Studio {
     const passed = Math.min(now - this.last, 100);
     this.last = now;
     const moves = this.collage.hasPoses && this.collage.ease(passed, this.isCalm);
-    if (this.isEasing && !moves) {
-      this.isEasing = false;
-      if (this.collage.state) this.badge.show(this.told);
-    }
+    this.isEasing &&= moves;
     const glides = this.view.step();
     const lacks = this.sprites.begin();
     const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving);
@@ -290,9 +281,10 @@ export class Studio {
   }
 
   escape() {
+    if (this.gestures.cancel()) return;
     if (byId("panel").contains(document.activeElement)) this.canvas.focus();
-    else if (this.room.isOn && !this.room.grip) this.editRoom();
-    else if (!this.gestures.cancel()) this.choice.set([]);
+    else if (this.room.isOn) this.editRoom();
+    else this.choice.set([]);
   }
 
   /** Put what is chosen in the middle of the canvas. */

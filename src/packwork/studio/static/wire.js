@@ -9,9 +9,10 @@
  * @typedef {{type: "alike", source: string}} Alike
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
+ * @typedef {{kind: "cancel"}} Cancel
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption | Together | Grab | Drop)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "exchange", first: number, second: number}} Exchange
@@ -23,6 +24,7 @@
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
+ * @typedef {{type: "open", source: string}} Open
  * @typedef {{type: "order", way: ("right" | "left" | "down" | "up" | "outwards" | "inwards" | "around" | "along"), by: ("weight" | "hue" | "lightness" | "name")}} Order
  * @typedef {{type: "picture", source: string}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
@@ -42,12 +44,12 @@
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
- * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption)[]}} Together
- * @typedef {Ack | Alike | Bring | Count | Do | Fill | LeapMessage | More | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {Ack | Alike | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
