@@ -23,6 +23,9 @@ MOST_HALVINGS = 14
 STRAIGHT = 1e-9
 """Bulge up to which a side counts as straight: half of that share of its length lies off it."""
 
+FULL = 6.28
+"""Sum of the angles of a circle's arcs, in radians, from which it is whole but for rounding."""
+
 _INSIDE = 1e-7
 """Share of a part of a curve by which tangents are taken inside its ends, where a kink may be."""
 
@@ -149,6 +152,65 @@ def arc(centre: tuple[float, float], radius: float, start: float, sweep: float) 
     return ArcLine(points, np.array([bulge, bulge, 0.0]))
 
 
+def with_longest_arcs(line: ArcLine, tolerance: float) -> ArcLine:
+    """The same line with fewer sides: neighbouring arcs of one circle, within a tolerance, are one.
+
+    A closed line that is all of one circle becomes that; other arcs are half a circle at most.
+
+    Examples
+    --------
+    >>> quarters = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+    >>> line = ArcLine(quarters, np.full(4, math.tan(math.pi / 8)), is_closed=True)
+    >>> with_longest_arcs(line, 1e-9).bulges.tolist()
+    [1.0, 1.0]
+    """
+    points, sides = line.points, line.sides
+    ends, bulges = line.ends, line.bulges[:sides]
+    middles = _middles(points[:sides], ends, bulges)
+    first, kept = 0, list[tuple[FloatArray, float]]()
+    while first < sides:
+        last, bulge = first, float(bulges[first])
+        while bulge and last + 1 < sides and bulges[last + 1] * bulge > 0.0:
+            sweep = 4.0 * float(np.arctan(bulges[first : last + 2]).sum())
+            wider = math.tan(sweep / 4.0)
+            seen = np.concatenate([middles[first : last + 2], points[first + 1 : last + 2]])
+            centre = _centre(points[first], ends[last + 1], wider)
+            far = np.hypot(*(seen - centre).T) - np.hypot(*(points[first] - centre))
+            if abs(sweep) > math.pi + STRAIGHT or np.abs(far).max() > tolerance:
+                break
+            last, bulge = last + 1, wider
+        kept.append((points[first], bulge))
+        first = last + 1
+    corners, bent = (np.array(column) for column in zip(*kept, strict=True))
+    if not line.is_closed:
+        return ArcLine(np.vstack([corners, points[-1:]]), np.append(bent, 0.0))
+    goes_round = abs(4.0 * float(np.arctan(bulges).sum())) > FULL and bool(bulges.all())
+    seen = np.concatenate([points, middles])
+    whole = _circle_through(seen, tolerance) if goes_round else None
+    if whole is None:
+        return ArcLine(corners, bent, is_closed=True)
+    return whole if bulges[0] > 0.0 else whole.reversed()
+
+
+def _circle_through(points: FloatArray, tolerance: float) -> ArcLine | None:
+    """Circle within a tolerance of all points, by least squares; None if there is none."""
+    origin = points.mean(axis=0)
+    moved = points - origin
+    rows = np.column_stack([2.0 * moved, np.ones(len(moved))])
+    x, y, _ = np.linalg.lstsq(rows, (moved**2).sum(axis=1), rcond=None)[0]
+    far = np.hypot(*(moved - (x, y)).T)
+    radius = float(far.max() + far.min()) / 2.0
+    is_one = far.max() - radius <= tolerance
+    return circle((float(origin[0] + x), float(origin[1] + y)), radius) if is_one else None
+
+
+def _middles(starts: FloatArray, ends: FloatArray, bulges: FloatArray) -> FloatArray:
+    """Middles of arcs."""
+    chord = ends - starts
+    across = np.column_stack([chord[:, 1], -chord[:, 0]])
+    return np.asarray((starts + ends + bulges[:, None] * across) / 2.0)
+
+
 def joined_lines(lines: list[ArcLine], *, is_closed: bool) -> ArcLine:
     """Open lines end to end as one; the end of each gives way to the beginning of the next."""
     points = np.concatenate([line.points[:-1] for line in lines])
@@ -233,6 +295,8 @@ def _biarcs(
     is_sound = (lean > 1e-3 * np.sqrt(chord)) & (chord > 0)
     reach = np.where(is_sound, chord / np.where(is_sound, lean, 1.0), 0.0)[:, None]
     joint = (p + q + reach * (tp - tq)) / 2.0
+    # Neither arc is half a circle, as where a curve turns back.
+    is_sound &= (_dot(joint - p, tp) > 0) & (_dot(q - joint, tq) > 0)
     bulges = np.column_stack([_half(tp, joint - p), _half(q - joint, tq)])
     error = np.where(is_sound, 0.0, np.sqrt(chord))
     # A circle through a point with a tangent there, of a curvature: how far others lie off it.
@@ -242,7 +306,8 @@ def _biarcs(
         at = curve(starts + share * span)[0]
         is_first = _dot(at - joint, middle) < 0
         off = [_off(at - p, tp, bends[0]), _off(at - q, tq, bends[1])]
-        error = np.maximum(error, np.where(is_first, *off))
+        far = np.where(is_sound, np.where(is_first, *off), np.hypot(*(at - p).T))
+        error = np.maximum(error, far)
     return np.stack([p, joint], axis=1), np.where(is_sound[:, None], bulges, 0.0), error
 
 

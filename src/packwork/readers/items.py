@@ -7,6 +7,7 @@ import logging
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
@@ -39,8 +40,20 @@ def _read_dxf(file: str, holes: Holes) -> Sequence[Read]:
     return read_dxf(file, holes)
 
 
-_SEVERAL: dict[str, Callable[[str, Holes], Sequence[Read]]] = {".dxf": _read_dxf}
+def _read_lines(file: str, holes: Holes) -> Sequence[Read]:
+    # The same.
+    from packwork.readers.line_drawings import read_line_drawing
+
+    return read_line_drawing(file, holes)
+
+
+_Several: TypeAlias = dict[str, Callable[[str, Holes], Sequence[Read]]]
+
+_SEVERAL: _Several = {".dxf": _read_dxf}
 """Readers of files that hold several items."""
+
+_FOR_MACHINES: _Several = {**_SEVERAL, ".svg": _read_lines, ".svgz": _read_lines}
+"""The same where items are cut by their lines."""
 
 _ENDINGS = (*_ONE_EACH, *_SEVERAL)
 
@@ -60,12 +73,13 @@ class _Asked:
     holes: Holes
     reading: ReadOptions
     strict: bool
+    several: _Several
 
     def read(self, file: str) -> Sequence[Read]:
         """Items of one file, by the reader of its ending."""
         ending = Path(file).suffix.lower()
-        if ending in _SEVERAL:
-            return _SEVERAL[ending](file, self.holes)
+        if ending in self.several:
+            return self.several[ending](file, self.holes)
         return [_ONE_EACH[ending](file, self.holes, self.reading)]
 
 
@@ -89,6 +103,7 @@ def read_items(
     strict: bool = False,
     reading: ReadOptions | None = None,
     sample: Sample | None = None,
+    by_lines: bool = False,
 ) -> ItemsRead:
     """Items of files, folders, patterns and built-in names.
 
@@ -109,6 +124,8 @@ def read_items(
     sample
         Which are taken where there are more files than are needed; no others are read. Of files
         named by themselves all are, unless these alone are too many.
+    by_lines
+        Whether SVGs are drawings for a machine, which follows their lines.
 
     Raises
     ------
@@ -121,7 +138,9 @@ def read_items(
     ['circle', 'star']
     """
     many = [sources] if isinstance(sources, str | Path) else list(sources)
-    asked = _Asked(holes, reading or ReadOptions(), strict)
+    asked = _Asked(
+        holes, reading or ReadOptions(), strict, _FOR_MACHINES if by_lines else _SEVERAL
+    )  # fmt: skip
     found = [_found(str(source), asked) for source in many]
     listings = [one.listing for one in found if one.listing is not None]
     unread = [error for listing in listings for error in listing.unread]

@@ -165,7 +165,7 @@ def _parts(text: str, usual: Mapping[str, str], holes: Holes, scale: float) -> I
             mirrors, is_optional = (_is_yes(name, rules[name]) for name in ("mirror", "optional"))
         except RecipeError as error:
             raise ReadError(source, f"{row.where}: {error}") if row.where else error from None
-        items = read_items(row.file, holes=holes).items
+        items = read_items(row.file, holes=holes, by_lines=True).items
         for k, item in enumerate(items, start=1):
             name = f"{row.name} {k}" if len(items) > 1 else row.name
             yield SheetPart(

@@ -33,6 +33,8 @@ from packwork.writers.svg import NAME_LENGTH
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
+    from ezdxf.entities import DXFGraphic
+    from ezdxf.layouts import Modelspace
 
 VERSION = "R2000"
 """The oldest form with closed light polylines: the one that most tools read."""
@@ -82,13 +84,24 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
         for lot, line in lines:
-            drawn = space.add_lwpolyline([], close=line.is_closed, dxfattribs={"layer": lot.layer})
-            drawn.lwpoints = LinePoints(line.points, line.bulges)  # type: ignore[assignment]
+            drawn = _drawn(space, line, lot.layer)
             if lot.said:
                 drawn.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
         stream = io.StringIO()
         drawing.write(stream)
     return drawing.encode(stream.getvalue())
+
+
+def _drawn(space: Modelspace, line: ArcLine, layer: str) -> DXFGraphic:
+    """A line as an entity: a circle of two halves as that, all else as a light polyline."""
+    attributes = {"layer": layer}
+    if line.is_closed and len(line.points) == 2 and abs(line.bulges.sum()) == 2.0:
+        centre = line.points.mean(axis=0)
+        radius = float(np.hypot(*(line.points[0] - centre)))
+        return space.add_circle(tuple(centre.tolist()), radius, dxfattribs=attributes)
+    drawn = space.add_lwpolyline([], close=line.is_closed, dxfattribs=attributes)
+    drawn.lwpoints = LinePoints(line.points, line.bulges)  # type: ignore[assignment]
+    return drawn
 
 
 def paper_unit(unit: str) -> str:

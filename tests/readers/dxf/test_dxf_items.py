@@ -22,6 +22,7 @@ from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline
 from packwork.readers.container import read_container
 from packwork.readers.dxf import entities
+from packwork.readers.dxf.entities import read_drawing
 from packwork.readers.dxf.item import CadPart, cad_parts, read_dxf
 from packwork.readers.items import read_items
 from packwork.readers.reading import UnfitError
@@ -47,7 +48,7 @@ def data_of(document: Drawing) -> bytes:
 
 
 def parts(draw: Draw, **about: object) -> list[CadPart]:
-    return cad_parts(data_of(drawing(draw, **about)))  # type: ignore[arg-type]
+    return cad_parts(read_drawing(data_of(drawing(draw, **about))))  # type: ignore[arg-type]
 
 
 def area_mm2(part: CadPart) -> float:
@@ -129,10 +130,12 @@ def test_a_drawing_without_a_unit_is_in_mm_or_as_it_measures(
 ) -> None:
     document = drawing(lambda space: space.add_circle((0, 0), 2), unit=0)
     document.header["$MEASUREMENT"] = 1
-    assert area_mm2(cad_parts(data_of(document))[0]) == pytest.approx(4 * math.pi)
+    assert area_mm2(cad_parts(read_drawing(data_of(document)))[0]) == pytest.approx(4 * math.pi)
     assert "states no unit; it is taken for mm" in caplog.text
     document.header["$MEASUREMENT"] = 0
-    assert area_mm2(cad_parts(data_of(document))[0]) == pytest.approx(4 * math.pi * 25.4**2)
+    assert area_mm2(cad_parts(read_drawing(data_of(document)))[0]) == pytest.approx(
+        4 * math.pi * 25.4**2
+    )
     assert "it is taken for inches" in caplog.text
 
 
@@ -157,7 +160,7 @@ def test_ellipses_and_splines_become_arcs_within_a_millionth() -> None:
     assert np.abs(np.hypot(x, y) - 1).max() < 1e-6
     controls = [(0, 0), (40, -10), (50, 30), (10, 60), (-20, 30), (0, 0)]
     document = drawing(lambda space: space.add_open_spline(controls))
-    (round_one,) = cad_parts(data_of(document))
+    (round_one,) = cad_parts(read_drawing(data_of(document)))
     (spline,) = document.modelspace()
     tool = spline.construction_tool()  # type: ignore[attr-defined]
     truth = np.array([(point.x, point.y) for point in tool.approximate(20_000)])
@@ -175,7 +178,7 @@ def test_blocks_are_put_in_their_places_stretched_and_mirrored() -> None:
     frame.add_blockref("HOLE", (10, 10))
     frame.add_blockref("HOLE", (30, 10), {"xscale": 2.0, "yscale": -1.0})
     document.modelspace().add_blockref("FRAME", (7, 7), {"rotation": 30, "xscale": -1.0})
-    (part,) = cad_parts(data_of(document))
+    (part,) = cad_parts(read_drawing(data_of(document)))
     assert area_mm2(part) == pytest.approx(1500 - math.pi - 2 * math.pi, rel=1e-8)
     assert len(part.cut) == 3
 
@@ -185,7 +188,7 @@ def test_rows_of_a_block_are_as_many_parts() -> None:
     document.blocks.new("DISC").add_circle((0, 0), 1)
     rows = {"row_count": 3, "column_count": 4, "row_spacing": 5, "column_spacing": 5}
     document.modelspace().add_blockref("DISC", (0, 0), rows)
-    assert len(cad_parts(data_of(document))) == 12
+    assert len(cad_parts(read_drawing(data_of(document)))) == 12
 
 
 def test_entities_seen_from_below_are_mirrored() -> None:
@@ -248,8 +251,9 @@ def test_a_container_lies_within_its_curves_in_mm(tmp_path: Path) -> None:
     container = read_container(tmp_path / "hide.dxf")
     assert container.unit == "mm"
     assert container.width == pytest.approx(1000)
+    (part,) = cad_parts(read_drawing((tmp_path / "hide.dxf").read_bytes()))
     true = Outline.from_rings([
-        line.flattened(1e-5) / MM for line in cad_parts((tmp_path / "hide.dxf").read_bytes())[0].cut
+        line.flattened(1e-5) / MM for line in part.cut
     ]).region  # fmt: skip
     left, top, _, _ = true.bounds
     moved = shapely.affinity.translate(true, -left, -top)
@@ -287,7 +291,7 @@ def test_layers_that_are_off_are_left_out() -> None:
     document.layers.add("NOTES").off()
     for layer in ("NOTES", "Defpoints", "Construction"):
         document.modelspace().add_line((0, -9), (9, -9), {"layer": layer})
-    assert len(cad_parts(data_of(document))) == 1
+    assert len(cad_parts(read_drawing(data_of(document)))) == 1
 
 
 def test_what_lies_twice_is_taken_once(caplog: pytest.LogCaptureFixture) -> None:
@@ -400,7 +404,7 @@ def test_what_cannot_be_cut_is_one_line(draw: Draw, said: str, tmp_path: Path) -
 )
 def test_what_is_no_dxf_is_one_line(data: bytes, said: str) -> None:
     with pytest.raises(UnfitError, match=said):
-        cad_parts(data)
+        cad_parts(read_drawing(data))
 
 
 def test_far_too_many_points_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -503,7 +507,7 @@ def parts_or_one_line(data: bytes) -> None:
     logging.getLogger("packwork").setLevel(logging.CRITICAL)
     found, refused = list[CadPart](), ""
     try:
-        found = cad_parts(data)
+        found = cad_parts(read_drawing(data))
     except UnfitError as refusal:
         refused = str(refusal)
     finally:

@@ -79,13 +79,17 @@ def read_dxf(path: str | Path, holes: Holes = "fill") -> list[Read]:
         If it cannot be read, or an outline is open, crosses itself or another one.
     """
     with reading_file(str(path)), one_budget():
-        parts = cad_parts(read_bytes(path, MAX_DXF_BYTES))
-        name = stem(path)
-        names = [name] if len(parts) == 1 else [f"{name} {k}" for k in range(1, len(parts) + 1)]
-        return [
-            Read(_item(part, called, str(path), holes), str(path))
-            for part, called in zip(parts, names, strict=True)
-        ]
+        parts = cad_parts(read_drawing(read_bytes(path, MAX_DXF_BYTES)))
+        return items_of(parts, stem(path), str(path), holes)
+
+
+def items_of(parts: Sequence[CadPart], name: str, source: str, holes: Holes) -> list[Read]:
+    """Items of the parts of a drawing, numbered where there are several."""
+    names = [name] if len(parts) == 1 else [f"{name} {k}" for k in range(1, len(parts) + 1)]
+    return [
+        Read(_item(part, called, source, holes), source)
+        for part, called in zip(parts, names, strict=True)
+    ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +107,7 @@ def container_of_dxf(data: bytes, name: str, source: str, side: float | None = N
     Outlines lie within the true curves, so that what is laid inside them is inside these.
     """
     with reading_file(source), one_budget():
-        regions = [part.region for part in cad_parts(data, within=True)]
+        regions = [part.region for part in cad_parts(read_drawing(data), within=True)]
         whole = regions[0] if len(regions) == 1 else shapely.MultiPolygon(
             [polygon for region in regions for polygon in polygon_parts(region)]
         )  # fmt: skip
@@ -114,12 +118,11 @@ def container_of_dxf(data: bytes, name: str, source: str, side: float | None = N
     return replace(placed, unit="mm") if side is None else placed
 
 
-def cad_parts(data: bytes, *, within: bool = False) -> list[CadPart]:
-    """Parts of a DXF's bytes, in the order of their outlines there.
+def cad_parts(drawing: CadDrawing, *, within: bool = False) -> list[CadPart]:
+    """Parts of a drawing, in the order of their outlines there.
 
     Their regions lie around what the lines enclose, or ``within`` it.
     """
-    drawing = read_drawing(data)
     px = _px_of(drawing)
     left_out = Counter(drawing.left_out)
     cut, engraved = list[CadLine](), list[CadLine]()
@@ -141,7 +144,9 @@ def cad_parts(data: bytes, *, within: bool = False) -> list[CadPart]:
         told = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
         notice(f"left out: {told}; text and hatches have to be made curves to be engraved")
     flip = np.array([[px, 0.0, 0.0], [0.0, -px, 0.0]])
-    return [_part(part, own, flip, within=within) for part, own in zip(parts, marked, strict=True)]
+    return [
+        cad_part(part, own, flip, within=within) for part, own in zip(parts, marked, strict=True)
+    ]
 
 
 def _px_of(drawing: CadDrawing) -> float:
@@ -228,7 +233,7 @@ def _inside(line: LineString, region: Polygon) -> Iterator[ArcLine]:
             yield ArcLine(points, np.zeros(len(points)))
 
 
-def _part(
+def cad_part(
     part: RingPart, engraved: Iterable[ArcLine], flip: FloatArray, *, within: bool
 ) -> CadPart:
     """Lines in px; a map that mirrors makes an outer ring run the other way."""

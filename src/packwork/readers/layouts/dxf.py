@@ -7,14 +7,14 @@ not lean on the program that wrote what is measured.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.geometry.arcs import ArcLine
+from packwork.geometry.arcs import ArcLine, circle
 from packwork.geometry.polygon import Region, region
 from packwork.readers.layouts.assembly import (
     FoundItem,
@@ -52,7 +52,7 @@ _FIRST_EXTENDED = 1_000
 
 @dataclass(frozen=True, eq=False)
 class DxfLine:
-    """A polyline in drawing units, y up, and what our files say of it."""
+    """A polyline or a circle in drawing units, y up, and what our files say of it."""
 
     layer: str
     line: ArcLine
@@ -100,7 +100,7 @@ def header_of(tags: Sequence[Tag]) -> dict[str, list[float]]:
 
 
 def lines_of(tags: Sequence[Tag]) -> list[DxfLine]:
-    """Polylines of the drawing, in their order.
+    """Polylines and circles of the drawing, in their order.
 
     Examples
     --------
@@ -110,7 +110,7 @@ def lines_of(tags: Sequence[Tag]) -> list[DxfLine]:
     >>> line.layer, line.line.points[2].tolist()
     ('cut', [2.0, 1.0])
     """
-    return [_line(own) for kind, own in _entities(tags) if kind == "LWPOLYLINE"]
+    return [_READ[kind](own) for kind, own in _entities(tags) if kind in _READ]
 
 
 def _entities(tags: Sequence[Tag]) -> Iterator[tuple[str, list[Tag]]]:
@@ -144,6 +144,18 @@ def _line(tags: Sequence[Tag]) -> DxfLine:
         raise UnfitError(f"holds a line on layer {layer[:20]!r} whose points are none")
     line = ArcLine(np.column_stack([x, y]), np.array(bulges), is_closed)
     return DxfLine(layer, line, tuple(_said(tags)))
+
+
+def _circle(tags: Sequence[Tag]) -> DxfLine:
+    found = dict(tag for tag in tags if tag[0] < _FIRST_EXTENDED)
+    x, y, radius = (_number(found.get(code, "")) for code in (10, 20, 40))
+    layer = found.get(8, "")
+    if not (max(abs(x), abs(y), radius) <= MAX_COORDINATE and radius > 0.0):
+        raise UnfitError(f"holds a circle on layer {layer[:20]!r} that is none")
+    return DxfLine(layer, circle((x, y), radius), tuple(_said(tags)))
+
+
+_READ: dict[str, Callable[[Sequence[Tag]], DxfLine]] = {"LWPOLYLINE": _line, "CIRCLE": _circle}
 
 
 def _bulges(tags: Sequence[Tag]) -> list[float]:

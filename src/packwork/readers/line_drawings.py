@@ -1,0 +1,244 @@
+"""SVGs as drawings for a machine: the paths themselves, their curves as arcs, not what ink covers.
+
+Thin lines without a fill are what is cut, as programs for laser cutters and plotters have it;
+an SVG of filled shapes is one part, whose edges are the paths that lie on them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+import shapely
+from shapely.geometry import LinearRing, MultiPolygon, Polygon
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.geometry import affine
+from packwork.geometry.arcs import ArcLine, arcs_along, joined_lines, with_longest_arcs
+from packwork.geometry.bezier import FLATTENING
+from packwork.geometry.overlay import symmetric_difference, valid
+from packwork.geometry.polygon import polygon_parts, signed_area
+from packwork.readers.dxf.entities import CURVES, CadDrawing, CadLine
+from packwork.readers.dxf.item import cad_part, cad_parts, items_of
+from packwork.readers.dxf.rings import Ring, RingPart, rings_of
+from packwork.readers.files import read_bytes, stem
+from packwork.readers.gate.door import MAX_BYTES, serialised
+from packwork.readers.pages import Read
+from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
+from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
+from packwork.readers.svg.ink import PaintedInk
+from packwork.readers.svg.item import item_of_svg
+from packwork.readers.svg_syntax.painted import Painted, drawing_box
+from packwork.readers.svg_syntax.path_data import SubPath
+from packwork.scene.item import Item, LineArt, VectorArt
+from packwork.units import convert
+
+CURVES_PX = convert(5e-4, "mm", "px")
+"""Largest distance of a curve from the arcs that stand for it, and again of these from longer ones.
+Larger shows in what is cut, smaller makes a machine stutter. Chosen: half a micrometre."""
+
+MOST_CURVES = 40_000
+"""Curves of a drawing that are followed, each by some tens of arcs. Chosen."""
+
+THIN_MM, THIN_SHARE = 1.0, 0.03
+"""Width of a line, and its share of the drawing's longer side, up to which it has none. Larger
+makes frames of icons lines, smaller makes lines of small drawings frames. Chosen."""
+
+_UP = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+
+ENGRAVED = "engrave"
+"""Layer of what is not cut through."""
+
+_PX_MM = convert(1.0, "px", "mm")
+
+
+def read_line_drawing(path: str | Path, holes: Holes) -> list[Read]:
+    """Parts of an SVG file, in px, their true curves beside what shows them.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read; of lines alone, if an outline is open, crosses itself or another.
+    """
+    data, name = read_bytes(path, MAX_BYTES), stem(path)
+    with reading_file(str(path)), one_budget():
+        drawing = read_drawing(data, is_on_paper=True)
+        is_plain = isinstance(drawing.ink, PaintedInk) and not any(
+            shape.clips for shape in drawing.shapes
+        )
+        if is_plain and sum(map(_curves, drawing.shapes)) > MOST_CURVES:
+            notice(f"has more than {MOST_CURVES:,} curves; what its paint covers is cut")
+            is_plain = False
+        if is_plain and (lines := _lines_to_cut(drawing)) is not None:
+            return items_of(cad_parts(lines), name, str(path), holes)
+        if is_plain and (filled := _without_lines(drawing)) is not None:
+            drawing = read_drawing(filled, is_on_paper=True)
+            data = filled
+    item = item_of_svg(data, name, str(path), holes, is_compared=True)
+    if is_plain and isinstance(item.art, VectorArt) and not item.art.is_traced:
+        with reading_file(str(path)):
+            item = _with_true_curves(item, item.art, drawing, holes)
+    return [Read(item, str(path))]
+
+
+def _lines_to_cut(drawing: PaintedDrawing) -> CadDrawing | None:
+    """Thin lines of a drawing, and what goes with them to be engraved; None without a thin line."""
+    extent = _extent(drawing)
+    is_line = [_is_thin(shape, extent) for shape in drawing.shapes]
+    if not any(
+        one and not shape.painting.has_fill
+        for one, shape in zip(is_line, drawing.shapes, strict=True)
+    ):
+        return None
+    # As messages name them: mm from the page's lower left corner.
+    height = 0.0 if drawing.page is None else drawing.page.height
+    up = _PX_MM * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, height]])
+    found, colours = list[CadLine](), Counter[str]()
+    for shape, is_cut in zip(drawing.shapes, is_line, strict=True):
+        # A dashed line is folded or scored.
+        is_cut = is_cut and not shape.painting.pen.dashes
+        layer = shape.painting.stroke if is_cut else ENGRAVED
+        colours[layer] += is_cut
+        kind = str(shape.element.tag)
+        found += [CadLine(line.mapped(up, 0.0), layer, kind) for line in _arc_lines(shape, extent)]
+    if len(+colours) > 1:
+        told = ", ".join(f"{colour} ({count})" for colour, count in colours.most_common() if count)
+        notice(f"has lines in several colours, all of which are cut: {told}")
+    return CadDrawing(tuple(found), Counter(), 1.0, None)
+
+
+def _extent(drawing: PaintedDrawing) -> float:
+    """Longer side of a drawing's box in px."""
+    left, top, right, bottom = drawing_box(drawing.shapes) or (0.0, 0.0, 0.0, 0.0)
+    return max(right - left, bottom - top)
+
+
+def _curves(shape: Painted) -> int:
+    return sum(int(_is_bent(piece.segments, 0.0).sum()) for piece in shape.pieces)
+
+
+def _is_bent(cubics: FloatArray, least: float) -> BoolArray:
+    # The handles of a straight line lie at its thirds but for rounding.
+    bends = np.abs(np.diff(cubics, n=2, axis=1)).max(axis=(1, 2), initial=0.0)
+    return np.asarray(
+        bends > np.maximum(least, 1e-9 * np.abs(cubics).max(axis=(1, 2), initial=0.0))
+    )
+
+
+def _is_thin(shape: Painted, extent: float) -> bool:
+    """Whether a shape of a drawing of an extent in px has a line that counts as one of no width."""
+    thin = min(THIN_MM / _PX_MM, THIN_SHARE * extent)
+    scale = abs(float(np.linalg.det(shape.matrix[:, :2]))) ** 0.5
+    return shape.painting.has_stroke and shape.painting.pen.width * scale <= thin
+
+
+def _arc_lines(shape: Painted, extent: float) -> Iterator[ArcLine]:
+    """Pieces of a shape in px; those that are filled are closed."""
+    is_filled = shape.painting.has_fill and not shape.painting.has_stroke
+    for piece in shape.pieces:
+        if len(piece.segments):
+            tolerance = max(CURVES_PX, CURVES * extent)
+            yield arc_line(piece.placed(shape.matrix), tolerance, is_filled=is_filled)
+
+
+def arc_line(piece: SubPath, tolerance: float, *, is_filled: bool = False) -> ArcLine:
+    """A piece of a path with arcs for its curves, within twice a tolerance.
+
+    ``is_filled``: whether it is closed though its path is not.
+
+    Examples
+    --------
+    >>> from packwork.readers.svg_syntax.path_data import parse_path
+    >>> slot, = parse_path("M0 0h9a4 4 0 0 1 0 8h-9z")
+    >>> arc_line(slot, 1e-4).bulges.round(5).tolist()
+    [0.0, 1.0, 0.0, 0.0]
+    """
+    cubics = piece.segments
+    is_bent = _is_bent(cubics, 1e-3 * tolerance)
+    runs = np.split(np.arange(len(cubics)), np.flatnonzero(np.diff(is_bent)) + 1)
+    line = joined_lines(
+        [_arcs_of(cubics[run], tolerance) if is_bent[run[0]] else _straight(cubics[run])
+         for run in runs], is_closed=False,
+    )  # fmt: skip
+    points, bulges = line.points, line.bulges
+    gap = float(np.hypot(*(points[-1] - points[0])))
+    if piece.is_closed or is_filled or gap <= tolerance:
+        kept = slice(None, -1) if gap <= tolerance else slice(None)
+        line = ArcLine(points[kept], bulges[kept], is_closed=True)
+    return with_longest_arcs(line, tolerance) if line.bulges.any() else line
+
+
+def _straight(cubics: FloatArray) -> ArcLine:
+    return ArcLine(np.vstack([cubics[:, 0], cubics[-1:, 3]]), np.zeros(len(cubics) + 1))
+
+
+def _arcs_of(cubics: FloatArray, tolerance: float) -> ArcLine:
+    """Arcs within a tolerance of cubics end to end ``(k, 4, 2)``."""
+    slopes = 3.0 * np.diff(cubics, axis=1)
+
+    def curve(t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        at = np.clip(t.astype(np.int64), 0, len(cubics) - 1)
+        u = (t - at)[:, None]
+        v = 1.0 - u
+        p, d = np.moveaxis(cubics[at], 1, 0), np.moveaxis(slopes[at], 1, 0)
+        points = v**3 * p[0] + 3 * v * v * u * p[1] + 3 * v * u * u * p[2] + u**3 * p[3]
+        return points, v * v * d[0] + 2 * v * u * d[1] + u * u * d[2]
+
+    return arcs_along(curve, np.arange(len(cubics) + 1.0), tolerance)
+
+
+def _without_lines(drawing: PaintedDrawing) -> bytes | None:
+    """The same drawing without the thin lines of filled shapes; None if there are none."""
+    extent = _extent(drawing)
+    lined = [shape.element for shape in drawing.shapes if _is_thin(shape, extent)]
+    for element in lined:
+        element.set("stroke", "none")
+    return serialised(drawing.root).encode() if lined else None
+
+
+def _with_true_curves(item: Item, art: VectorArt, drawing: PaintedDrawing, holes: Holes) -> Item:
+    """Item whose edges are the paths that lie on them, with straight sides where none does."""
+    extent, drawn = _extent(drawing), clean_union(drawing.ink.body)
+    known = [
+        ring for one in drawing.shapes if one.painting.has_fill for ring in _rings(one, extent)
+    ]
+    slack = 3.0 * FLATTENING * extent
+    parts = [
+        cad_part(RingPart(outer, tuple(inner)), (), _UP, within=False)
+        for outer, *inner in (
+            [_ring_at(ring, known, slack) for ring in (polygon.exterior, *polygon.interiors)]
+            for polygon in polygon_parts(drawn)
+        )
+    ]
+    whole = valid(MultiPolygon([one for part in parts for one in polygon_parts(part.region)]))
+    outline, ink, move = centred(whole, holes)
+    to_px = affine.compose(affine.inverse(centred(drawn, holes)[2]), art.matrix)
+    cut = tuple(
+        line.mapped(affine.inverse(to_px), CURVES_PX) for part in parts for line in part.cut
+    )
+    lines = LineArt(art.markup, affine.compose(move, to_px), cut=cut)
+    return Item(item.name, item.source, outline, ink, lines)
+
+
+def _rings(shape: Painted, extent: float) -> Iterator[Ring]:
+    """Rings of a filled shape that cross neither themselves nor one another, px, y up."""
+    for line in _arc_lines(shape, extent):
+        with contextlib.suppress(UnfitError):
+            yield from rings_of([CadLine(line.mapped(_UP, 0.0), "", str(shape.element.tag))])[0]
+
+
+def _ring_at(edge: LinearRing, known: Sequence[Ring], slack: float) -> Ring:
+    """The ring that lies on an edge, px, y down; else one of straight sides."""
+    points = affine.apply(_UP, shapely.get_coordinates(edge)[:-1])
+    polygon = Polygon(points)
+    bounds, most = np.array(polygon.bounds), slack * polygon.length
+    for ring in known:
+        is_near = (np.abs(bounds - ring.polygon.bounds) <= slack).all()
+        if is_near and symmetric_difference(polygon, ring.polygon).area <= most:
+            return ring
+    points = points if signed_area(points) > 0 else points[::-1]
+    return Ring(ArcLine(points, np.zeros(len(points)), is_closed=True), "", "edge", polygon)
