@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import socket
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -375,21 +376,26 @@ def test_a_page_that_does_not_know_the_token_sees_nothing(browser: Any, server: 
     page.goto(server.address.partition("#")[0])
     page.wait_for_timeout(400)
     assert page.evaluate("() => studio.collage.scene === null && !studio.connection.isOpen")
-    assert page.locator("#badge").inner_text().endswith("reconnecting …")
+    assert page.locator("#badge").inner_text().endswith("not connected")
+    page.locator("#outage", has_text="Open the address").wait_for()
     page.close()
 
 
+@pytest.mark.parametrize("port", [(), ("--port", "free")], ids=["any port", "a port"])
 def test_a_page_goes_on_by_itself_after_a_crash(
-    browser: Any, tmp_path: Path, monkeypatch: Any
+    browser: Any, tmp_path: Path, monkeypatch: Any, port: tuple[str, ...]
 ) -> None:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = tuple(str(probe.getsockname()[1]) if one == "free" else one for one in port)
     kernels = compiled.STORE.folder
     if "PACKWORK_CACHE_DIR" not in os.environ and kernels is not None:
         # Desks in a folder of their own, kernels where they are.
         monkeypatch.setenv("NUMBA_CACHE_DIR", str(kernels.parent.parent))
         monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    first = Server("circle", "star", "-n", "6").start()
+    first = Server("circle", "star", "-n", "6", *port).start()
     context = browser.new_context(viewport=WIDE)
-    second = Server("--again")
+    second = Server("--again", *port)
     try:
         desk = Desk(context.new_page(), first.address)
         desk.settled()
@@ -402,11 +408,14 @@ def test_a_page_goes_on_by_itself_after_a_crash(
         desk.until("studio.areHeld")
         first.kill()
         desk.until("!studio.connection.isOpen")
+        desk.page.locator("#outage", has_text="packwork studio --again").wait_for()
+        desk.picture("stopped")
         second.start()
         assert second.port == first.port
         assert second.address != first.address
         desk.until("studio.connection.isOpen")
         desk.settled()
+        assert not desk.page.locator("#outage").is_visible()
         assert desk.look("location.href") == second.address
         assert desk.look("studio.collage.items.filter(item => item.held[0]).length") == 1
         assert desk.look("studio.collage.state.can_undo")

@@ -12,6 +12,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,6 +53,12 @@ class KeptWorkspace:
             return 0, ""
         is_sound = isinstance(port, int) and 0 < port < 65_536 and isinstance(key, str)
         return (port, key) if is_sound and _KEY.fullmatch(key) else (0, "")
+
+    @property
+    def inputs(self) -> str:
+        """What a command line opens it with."""
+        is_ours = self.file.parent == private_folder("studio")
+        return "--again" if is_ours else shlex.quote(str(self.file))
 
     def remember(self, port: int, key: str) -> None:
         """Keep where its page is, for the same user alone to read."""

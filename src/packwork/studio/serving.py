@@ -9,7 +9,7 @@ import socket
 import sys
 import webbrowser
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
@@ -67,7 +67,10 @@ def serve(
     tell
         Told the address, a line.
     """
-    port, key_before = (place.port, "") if kept is None or place.port else kept.address
+    port_before, key_before = (0, "") if kept is None else kept.address
+    port = place.port or port_before
+    if port != port_before:
+        key_before = ""
     try:
         bound = _bound(Address(host=place.host, port=port))
     except PackworkError:
@@ -107,7 +110,10 @@ def serve(
             # Whoever sees what is running sees no more than the name of a private file.
             webbrowser.open(_leading_to(address, uploads.root).as_uri())
         sys.setswitchinterval(SWITCH_SECONDS)
-        uvicorn.Server(config).run(sockets=[bound])
+        with suppress(KeyboardInterrupt):
+            uvicorn.Server(config).run(sockets=[bound])
+    goes_on = "" if kept is None else f"; it goes on with: packwork studio {kept.inputs}"
+    tell(f"the studio has ended{goes_on}")
 
 
 def _leading_to(address: str, folder: Path) -> Path:

@@ -83,6 +83,9 @@ export class Badge {
     clearTimeout(this.timer);
     this.timer = 0;
     this.button.dataset.is = "lost";
-    this.word.textContent = "reconnecting …";
+    this.share.textContent = "–";
+    this.bar.style.transform = "scaleX(0)";
+    this.stop.hidden = true;
+    this.word.textContent = "not connected";
   }
 }

@@ -28,7 +28,7 @@ const NO_ANSWER = "the studio does not answer";
 export class Connection {
   /**
    * @param {{said: (message: Said) => void, frame: (frame: Frame) => void,
-   *          changed: (isOpen: boolean) => void, taken: (isTaken: boolean) => void}} hears
+   *          changed: (isOpen: boolean, isStranger: boolean) => void, taken: (isTaken: boolean) => void}} hears
    */
   constructor(hears) {
     this.hears = hears;
@@ -53,10 +53,11 @@ export class Connection {
   async open() {
     if (this.isProving) return;
     this.isProving = true;
-    this.token = await provenToken().catch(() => "");
+    const token = await provenToken().catch(() => null);
     this.isProving = false;
+    this.token = token ?? "";
     if (this.token) this.connect();
-    else this.openLater();
+    else this.openLater(token !== null);
   }
 
   connect() {
@@ -65,7 +66,7 @@ export class Connection {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.begun();
-      this.hears.changed(true);
+      this.hears.changed(true, false);
     };
     socket.onmessage = (event) => this.heard(event.data);
     socket.onclose = (event) => this.lost(socket, event.code);
@@ -88,8 +89,9 @@ export class Connection {
     this.openLater();
   }
 
-  openLater() {
-    this.hears.changed(false);
+  /** @param {boolean} [isStranger] whether what is there is not the studio that this page knows */
+  openLater(isStranger = false) {
+    this.hears.changed(false, isStranger);
     this.timer = setTimeout(() => this.open(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
   }
@@ -153,7 +155,7 @@ export class Connection {
     await this.hasBegun;
     if (!this.isOpen) throw new Error(NO_ANSWER);
     const headers = { ...asked.headers, "x-packwork-token": this.token };
-    const answer = await fetch(path, { ...asked, headers });
+    const answer = await fetch(path, { ...asked, headers }).catch(() => { throw new Error(NO_ANSWER); });
     if (!answer.ok) throw new Error((await answer.text()).trim() || NO_ANSWER);
     return answer;
   }

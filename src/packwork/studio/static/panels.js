@@ -81,7 +81,8 @@ export class Panels {
       this.choices ??= await (await this.studio.connection.ask("/choices")).json();
       return this.choices;
     } catch (error) {
-      tell(/** @type {Error} */ (error).message, { isError: true });
+      // While the studio is gone a banner says so.
+      if (this.studio.connection.isOpen) tell(/** @type {Error} */ (error).message, { isError: true });
       return null;
     }
   }

@@ -20,14 +20,17 @@ export function hex(bytes) {
   return [...bytes].map((one) => one.toString(16).padStart(2, "0")).join("");
 }
 
-/** Token for the studio at this address; empty if nothing there has proved to be it. */
+/** How long an answer may take, ms: a program that is stopped takes questions and answers none. */
+const PATIENCE = 5000;
+
+/** Token for the studio at this address; empty if what is there has not proved to be it. Throws if nothing is there. */
 export async function provenToken() {
   const secret = location.hash.slice(1);
   // Without encryption, reached from elsewhere: browsers derive nothing there.
   if (!secret || !globalThis.crypto?.subtle) return secret;
   const key = await mac(secret, "key");
   const nonce = hex(crypto.getRandomValues(new Uint8Array(16)));
-  const answer = await fetch(`/proof/${nonce}`);
+  const answer = await fetch(`/proof/${nonce}`, { signal: AbortSignal.timeout(PATIENCE) });
   if (!answer.ok) return "";
   const said = await answer.json();
   const expected = await mac(key, `studio ${location.host} ${nonce}`);

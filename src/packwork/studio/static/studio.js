@@ -17,6 +17,7 @@ import { Incoming } from "./incoming.js";
 import { listenToKeys } from "./keys.js";
 import { Menu } from "./menu.js";
 import { Ordering } from "./ordering.js";
+import { Outage } from "./outage.js";
 import { Palette } from "./palette.js";
 import { Panels } from "./panels.js";
 import { Replacing } from "./replacing.js";
@@ -44,7 +45,7 @@ export class Studio {
     this.connection = new Connection({
       said: (message) => this.said(message),
       frame: (frame) => this.framed(frame),
-      changed: (isOpen) => this.connected(isOpen),
+      changed: (isOpen, isStranger) => this.connected(isOpen, isStranger),
       taken: (isTaken) => (byId("taken").hidden = !isTaken),
     });
     byId("join").addEventListener("click", () => this.connection.join());
@@ -64,6 +65,7 @@ export class Studio {
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
     this.bar = new Bar(this.actions, (colour) => this.recolour(colour));
+    this.outage = new Outage();
     this.badge = new Badge({ show: (ids) => this.showItems(ids), stop: () => this.connection.send({ type: "stop" }) });
     this.palette = new Palette(actions);
     this.menu = new Menu(this.actions);
@@ -155,9 +157,10 @@ export class Studio {
     this.unacked = 0;
   }
 
-  /** @param {boolean} isOpen */
-  connected(isOpen) {
-    document.body.classList.toggle("lost", !isOpen);
+  /** @param {boolean} isOpen @param {boolean} isStranger */
+  connected(isOpen, isStranger) {
+    if (isOpen) this.outage.over();
+    else this.outage.tell(isStranger, this.connection.isTaken);
     this.badge.connected(isOpen);
     if (isOpen) this.unacked = 0;
     else this.lost();
