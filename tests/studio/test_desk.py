@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import importlib.util
 import zipfile
 from collections.abc import Callable
 from io import BytesIO
@@ -14,6 +15,7 @@ import pytest
 import packwork as pw
 from packwork.errors import PackworkError
 from packwork.live import edits
+from packwork.live.face import exporting
 from packwork.live.face.opening import Opening, opening_of
 from packwork.studio import wire
 from packwork.studio.files import Exporter
@@ -308,6 +310,31 @@ def test_what_cannot_be_exported_is_refused_in_a_line(play, asked: dict, said: s
         assert "\n" not in str(refusal.value)
 
     play(scenario)
+
+
+def test_options_that_mean_nothing_are_refused_before_it_is_waited_for_what_moves(
+    play, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        exporter = Exporter(desk)
+        monkeypatch.setattr(exporter, "_at_rest", pytest.fail)
+        with pytest.raises(PackworkError, match="no colour"):
+            await exporter.file({"format": "png", "options": {"background": "notacolour"}})
+
+    play(scenario)
+
+
+def test_formats_whose_packages_are_missing_are_offered_with_the_reason(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert exporting.missing() == {}
+    find = importlib.util.find_spec
+    monkeypatch.setattr(
+        importlib.util, "find_spec", lambda name: None if name == "typst" else find(name)
+    )
+    assert exporting.missing() == {"pdf": "needs the package typst; install it: pip install typst"}
 
 
 def test_a_desk_begins_with_a_run_that_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

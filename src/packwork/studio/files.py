@@ -14,6 +14,7 @@ from packwork.live.face.exporting import (
     FORMATS,
     RECIPE,
     SESSION,
+    check,
     film_of,
     kept_bytes,
     layout_bytes,
@@ -134,6 +135,8 @@ class Exporter:
         owner = self._workspace.owner
         if owner is None:
             raise PackworkError(NOT_YET)
+        if kind in FORMATS or kind in FILM_FORMATS:
+            check(kind, options)
         await self._at_rest()
         if kind == SESSION:
             kept = await asyncio.wrap_future(owner.call(lambda session: session.kept()))

@@ -21,6 +21,8 @@ from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
 from packwork.temporary import TemporaryFolder
 from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options
+from packwork.writers.film.options import FilmOptions
+from packwork.writers.registry import check_extra
 
 FORMATS: Mapping[str, str] = {
     "svg": "image/svg+xml",
@@ -83,12 +85,34 @@ def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
     """
     if kind not in FILM_FORMATS:
         raise WriteError(kind[:20], f"is no film; use one of {', '.join(FILM_FORMATS)}")
+    return film_bytes(Film(layout, *_filming(options)), f"layout.{kind.removeprefix(FILM)}")
+
+
+def check(kind: str, options: Mapping[str, Any]) -> None:
+    """Refuse options that a layout's format or a film's does not have."""
+    if kind in FILM_FORMATS:
+        _filming(options)
+    else:
+        _drawing(options)
+
+
+def _filming(options: Mapping[str, Any]) -> tuple[FilmOptions, str, bool]:
     drawn = {"background": "white", "show_container": False}
     drawn |= {name: options[name] for name in drawn if name in options}
     _drawing(drawn)
     settings = film_options(**{name: value for name, value in options.items() if name not in drawn})
-    film = Film(layout, settings, str(drawn["background"]), bool(drawn["show_container"]))
-    return film_bytes(film, f"layout.{kind.removeprefix(FILM)}")
+    return settings, str(drawn["background"]), bool(drawn["show_container"])
+
+
+def missing() -> dict[str, str]:
+    """Formats whose packages are not installed, each with a line that says what to install."""
+    found = {}
+    for kind in (*FORMATS, *FILM_FORMATS):
+        try:
+            check_extra(f"layout.{kind}")
+        except WriteError as error:
+            found[kind] = str(error).partition(": ")[2]
+    return found
 
 
 def recipe_zip(document: Document, name: str) -> bytes:

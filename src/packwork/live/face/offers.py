@@ -12,6 +12,7 @@ from typing import Any, get_args
 from packwork.errors import ReadError
 from packwork.fonts import installed_families
 from packwork.geometry.outline import Outline
+from packwork.live.face.exporting import missing
 from packwork.live.options import LiveOptions
 from packwork.options import SizeMode, offered
 from packwork.readers.builtin import (
@@ -99,6 +100,7 @@ def offers() -> dict[str, Any]:
         "containers": [_container(name) for name in containers if ":" not in name],
         "fonts": offered_fonts(),
         "palettes": dict(PALETTES),
+        "missing": missing(),
         "items": [
             {"name": name, **asdict(drawing_of(builtin_item(name)))}
             for name in (*icons, *(one for one in NAMES if ":" not in one and one not in icons))

@@ -30,9 +30,11 @@ export class Exporting {
   /**
    * @param {Connection} connection
    * @param {Collage} collage
+   * @param {() => Promise<any>} offers what the studio offers, or null
    */
-  constructor(connection, collage) {
+  constructor(connection, collage, offers) {
     this.connection = connection;
+    this.offers = offers;
     this.collage = collage;
     this.kind = "svg";
     this.formats = h("div", { class: "formats", role: "radiogroup", "aria-label": "Format" });
@@ -65,6 +67,16 @@ export class Exporting {
     this.note.textContent = this.worth;
     this.note.dataset.is = this.collage.state?.certified ? "good" : "bad";
     this.dialog.showModal();
+    this.offers().then((offered) => Object.entries(offered?.missing ?? {}).forEach(([kind, reason]) => this.leaveOut(kind, reason)));
+  }
+
+  /** @param {string} kind @param {string} reason */
+  leaveOut(kind, reason) {
+    const field = this.formats.querySelector(`[value="${kind}"]`);
+    if (!(field instanceof HTMLInputElement)) return;
+    field.disabled = true;
+    const said = field.parentElement?.querySelector("span");
+    if (said) said.textContent = reason;
   }
 
   get worth() {
@@ -79,6 +91,7 @@ export class Exporting {
     event.preventDefault();
     const options = Object.fromEntries([.../** @type {NodeListOf<HTMLInputElement>} */ (this.fields.querySelectorAll("input, select"))].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
     this.go.disabled = true;
+    [this.note.textContent, this.note.dataset.is] = ["Making the file …", "good"];
     const done = await this.download(this.kind, options);
     this.go.disabled = false;
     if (done) this.dialog.close();

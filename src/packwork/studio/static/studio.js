@@ -61,7 +61,7 @@ export class Studio {
     });
     this.dropping = new Dropping(this.connection, this.collage);
     this.ordering = new Ordering(this);
-    this.exporting = new Exporting(this.connection, this.collage);
+    this.exporting = new Exporting(this.connection, this.collage, () => this.panels.load());
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
     this.bar = new Bar(this.actions, (colour) => this.recolour(colour));
