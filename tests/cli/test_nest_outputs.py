@@ -93,11 +93,22 @@ def test_names_are_no_markup_of_the_list(shop: Path, packwork: Command) -> None:
 def test_the_help_names_what_is_written_and_no_other(shop: Path, packwork: Command) -> None:
     said = packwork("nest --help").output
     assert ".csv" in said
-    assert ".packwork" not in said
-    result = packwork("nest 45mm hook.svg -o a.packwork")
+    assert ".packwork" in said
+    result = packwork("nest 45mm hook.svg -o a.step")
     assert result.exit_code == 2
-    assert "the ending '.packwork' is not known; use one of .svg" in result.output
+    assert "the ending '.step' is not known; use one of .svg" in result.output
     assert ".csv" in result.output
+
+
+def test_each_sheet_is_a_session_too(shop: Path, packwork: Command) -> None:
+    result = packwork("nest 100x60mm hook.svg*9 --kerf 2mm --passes 40 -o a.packwork -o a.dxf")
+    assert result.exit_code == 0, result.output
+    sessions = sorted(shop.glob("a*.packwork"))
+    assert [one.stem for one in sessions] == [one.stem for one in sorted(shop.glob("a*.dxf"))]
+    assert sum(len(pw.Layout.load(one).items) for one in sessions) == 9
+    assert packwork(f"measure {sessions[0].name}").exit_code == 0
+    line = "nest 100x60mm hook.svg --passes 5 -o b.packwork --no-clobber"
+    assert [packwork(line).exit_code for _ in range(2)] == [0, 2]
 
 
 def test_a_table_that_is_there_is_kept(shop: Path, packwork: Command) -> None:

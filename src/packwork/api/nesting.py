@@ -17,6 +17,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline, OutlineLike
 from packwork.progress import Stop, never
 from packwork.readers.instances import is_instance
+from packwork.readers.layouts.read import is_session
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.separation.strip import WorkBound
@@ -93,6 +94,10 @@ class Nest:
             writers.write_all([(Path(path), all_sheets_bytes(path, sheets, pages))])
             return (Path(path),)
         paths = [nested.sheet_file(Path(path), k, len(self)) for k in range(1, len(self) + 1)]
+        if is_session(path):
+            for one, layout in zip(paths, self.layouts, strict=True):
+                layout.save(one, **drawing)
+            return tuple(paths)
         writers.write_all(
             [(one, writers.encoded(layout, one, options))
              for one, layout in zip(paths, self.layouts, strict=True)]

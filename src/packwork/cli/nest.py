@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -31,8 +32,8 @@ NestFiles = Annotated[
         rich_help_panel=Group.WRITTEN.value,
         show_default="nest.svg",
         help="File to write, one for each sheet where there are several: .dxf, .svg, .png, "
-        ".jpg, .webp, .tif, .geojson. One for all: .pdf, with a list of parts; .csv, a table "
-        "of where each part lies. May be given several times.",
+        ".jpg, .webp, .tif, .geojson; .packwork, to go on by hand. One for all: .pdf, with a list "
+        "of parts; .csv, a table of where each part lies. May be given several times.",
     ),
 ]
 
@@ -111,11 +112,14 @@ def nest(
     """
     with clear_errors():
         from packwork import writers
+        from packwork.cli.outputs import saving
         from packwork.cli.show import Paper
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
+        from packwork.readers.layouts.read import is_session
         from packwork.separation.strip import WorkBound
         from packwork.uses.nest_request import length_of, read_request
+        from packwork.uses.nested import sheet_file
         from packwork.uses.nesting import nest as nest_parts
 
         files = list(output or (DEFAULT_OUTPUT,))
@@ -138,14 +142,19 @@ def nest(
             found = nest_parts(
                 counted, sheets, gap=gap, margin=away, seed=seed, work=work, stop=stop
             )  # fmt: skip
-        drawn, faults = _drawn(found, files)
+        sessions = [path for path in files if is_session(path)]
+        drawn, faults = _drawn(found, [path for path in files if path not in sessions])
         certified = found.certified and not faults
         if no_clobber:
             writers.check_new([path for path, _ in drawn])
         if report is not None:
             said = {**found.report(), "certified": certified, "faults": faults}
             drawn.append((report, writers.json_bytes(said)))
-        writers.write_all(drawn)
+        with contextlib.ExitStack() as saved:
+            for k, one in enumerate(found.sheets, start=1):
+                paths = [sheet_file(path, k, len(found.sheets)) for path in sessions]
+                drawn += saved.enter_context(saving(one.layout, paths))
+            writers.write_all(drawn)
         console.print(_summary(found, sheets[0], certified))
         console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
         written = {path for path, _ in drawn}
@@ -168,11 +177,12 @@ def nest(
 def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None:
     """Refuse, before a run, what could not be written after it; ``every``: reports, too."""
     from packwork import writers
+    from packwork.readers.layouts.read import SESSION, is_session
     from packwork.sources import check_no_input
 
     for path in files:
-        if path.suffix.lower() != TABLE:
-            writers.check_output(path, TABLE)
+        if path.suffix.lower() != TABLE and not is_session(path):
+            writers.check_output(path, TABLE, SESSION)
     for path in every:
         writers.check_writable(path)
     writers.check_outputs(every)

@@ -13,6 +13,7 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.live.options import LiveOptions
+from packwork.live.true_sizes import NestRules
 from packwork.pipeline.plan.forces import forces_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -77,21 +78,31 @@ class Document:
 
     @classmethod
     def from_layout(cls, layout: Layout) -> Document:
-        """Document of a layout: nothing held, sizes as free as its run had them."""
+        """Document of a layout: nothing held, sizes as free as its run had them.
+
+        Of a nest, parts that may have other angles than most are held at theirs.
+        """
         count = len(layout.items)
         options = LiveOptions.from_manifest(layout.manifest)
+        container, manifest = layout.container, layout.manifest
+        held = np.zeros((count, len(PROPERTIES)), dtype=bool)
+        if (rules := NestRules.of(manifest)) is not None:
+            container = rules.ground(container, options.padding)
+            manifest = {**manifest, "nest": {**manifest["nest"], "margin": options.padding}}
+            own = np.isin(np.arange(count) + 1, list(rules.own_angles))
+            held[own, PROPERTIES.index("angle")] = True
         document = cls(
-            container=layout.container,
+            container=container,
             items=layout.items,
             ids=np.arange(count),
             poses=layout.poses,
             weights=layout.weights,
             smallest=layout.poses.scale,
             largest=layout.poses.scale,
-            held=np.zeros((count, len(PROPERTIES)), dtype=bool),
+            held=held,
             options=options,
             next_id=count,
-            manifest=layout.manifest,
+            manifest=manifest,
             notes=attached(layout),
         )
         return document.with_ranges(options)
@@ -108,6 +119,11 @@ class Document:
         )
         rows = {number: row for row, number in enumerate(self.ids.tolist())}
         return replace(made, notes=tuple(notes_on(made, rows, self.notes)))
+
+    @property
+    def is_nest(self) -> bool:
+        """Whether its items are parts of true size."""
+        return NestRules.of(self.manifest) is not None
 
     @property
     def own_areas(self) -> FloatArray:

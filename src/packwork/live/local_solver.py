@@ -16,6 +16,7 @@ from packwork.live.neighbourhood.contacts import RINGS
 from packwork.live.neighbourhood.flow import LINGER, Flow
 from packwork.live.neighbourhood.places import brought_inside
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
+from packwork.live.nested_again import separated
 from packwork.live.refilling import is_other_cloud, refilled, taken_back
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop
@@ -259,6 +260,8 @@ class LocalSolver:
         A gesture that would ruin the rest is taken back.
         """
         self._bring_inside()
+        if self.document.is_nest and self._separate(stop):
+            return
         asked = self.document
         if not (is_other_cloud(self.base, asked) and self._refill(asked, stop)):
             strict = self._make_room(near)
@@ -273,6 +276,26 @@ class LocalSolver:
         if (back := taken_back(self.base, self.document)) is not None:
             self.news = (back.message,)
             self._turn_to(back.document)
+
+    def _separate(self, stop: Stop) -> bool:
+        """Take apart parts of true size: first from where all others lay before they gave way.
+
+        Those that the hand has put somewhere stay there if they can.
+        """
+        now, base, marks = self.document, self.base, self.marks
+        by_hand = marks.placed_by_user | marks.by_hand
+        _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
+        back = ~np.isin(now.ids[rows], list(by_hand))
+        poses = now.poses.with_some(rows[back], base.poses.subset(theirs[back]))
+        placed = np.isin(now.ids, list(by_hand))
+        for start, still in ((poses, placed), (now.poses, placed), (poses, placed & False)):
+            found = separated(now.with_poses(start), still, stop)
+            if found is not None and not self._certificate.in_the_way(now.with_poses(found)):
+                self._turn_to(now.with_poses(found))
+                return True
+            if stop():
+                break
+        return False
 
     def _bring_inside(self) -> None:
         """Put what the hand has put where it sticks out to the nearest place, at its size.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from packwork.errors import RecipeError
-from packwork.live.commands.command import Command, made, named_item
+from packwork.live.commands.command import Command, made, named_item, true_scale
 from packwork.live.commands.items import Add, Recolour, Remove, Replace, Weigh
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
@@ -53,6 +53,8 @@ def weighed(session: Session, pairs: Iterable[tuple[Item, float]]) -> Iterator[A
     places = widest_places(document, session.shapes)
     for (item, weight), (x, y, radius) in zip(pairs, places, strict=False):
         area = first_area(document, radius, weight)
+        if document.is_nest:
+            area = item.outline.area * true_scale(document, item) ** 2
         asset = named_item(session.library, item)
         yield made(Add, asset=asset, x=x, y=y, area=area, weight=weight)
 

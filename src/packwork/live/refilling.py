@@ -127,7 +127,7 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
 
 def advice_of(document: Document) -> tuple[str, ...]:
     """Advice on a layout as it stands: what is poor and what would do, as after a run."""
-    if len(document) == 0:
+    if len(document) == 0 or document.is_nest:
         return ()
     layout = document.layout
     seen = shape_metrics(layout.outlines, document.container)

@@ -17,6 +17,7 @@ from packwork.live.commands.container import SetContainer, SetOption
 from packwork.live.commands.items import Add, Remove
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import Document
+from packwork.live.nested_again import nested_again
 from packwork.live.options import LiveOptions
 from packwork.pipeline import run
 from packwork.pipeline.job import Job
@@ -54,6 +55,8 @@ def poured_again(
     ``asked``: where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
     ``anchors``.
     """
+    if document.is_nest:
+        return _nested(document, seed, shown, stop, asked)
     is_by_text = asked.get("embeddings") == BY_TEXT
     job = job_again(document, seed, {} if is_by_text else asked)
     if is_by_text:
@@ -65,6 +68,21 @@ def poured_again(
             raise
         layout, kept = run_shown(job, shown, stop)
     return arranged(document.ids[kept].tolist(), layout.poses)
+
+
+def _nested(
+    document: Document, seed: int, shown: Shown, stop: Stop, asked: Mapping[str, Any]
+) -> Arrange:
+    if asked:
+        raise RecipeError(next(iter(asked)), "parts of a nest lie where most fit, in no order")
+
+    def show(share: float) -> None:
+        shown(Moment(
+            container=document.container, items=document.items, poses=document.poses,
+            progress=min(share, 1.0), stage="nest",
+        ))  # fmt: skip
+
+    return nested_again(document, seed, show, stop)
 
 
 def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:

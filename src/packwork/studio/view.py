@@ -29,6 +29,8 @@ class View:
     """All that is drawn.
 
     ``poses``: as many as items; None before they have a place.
+    ``angles``: the only ones allowed, radians; None for any.
+    ``is_nest``: whether items are parts of true size.
     """
 
     container: Container
@@ -37,6 +39,8 @@ class View:
     weights: FloatArray
     held: BoolArray
     options: Mapping[str, Any] = field(default_factory=dict)
+    angles: tuple[float, ...] | None = None
+    is_nest: bool = False
     poses: Poses | None
 
     @classmethod
@@ -49,6 +53,8 @@ class View:
             weights=document.weights,
             held=document.held,
             options=document.options.model_dump(),
+            angles=document.options.rotation.choices,
+            is_nest=document.is_nest,
             poses=poses or document.poses,
         )
 
@@ -81,6 +87,7 @@ class View:
         return (
             self.container is other.container
             and self.options == other.options
+            and self.is_nest == other.is_nest
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
             and _same(self.held, other.held)
@@ -131,6 +138,8 @@ class Scenes:
             unit=container.unit,
             items=tuple(self._thing(view, k) for k in range(len(view.items))),
             options=dict(view.options),
+            angles=view.angles,
+            is_nest=view.is_nest,
         )
         self._last = (view, scene)
         return scene

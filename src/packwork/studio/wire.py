@@ -69,6 +69,10 @@ class Scene(Message):
     unit: str
     items: tuple[Thing, ...]
     options: dict[str, Any]
+    angles: tuple[float, ...] | None = None
+    """The only ones allowed, radians; None for any."""
+    is_nest: bool = False
+    """Whether items are parts of true size."""
 
 
 class LeftOut(Message):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
@@ -209,7 +210,23 @@ def layout_on(sheet: Sheet, laid: Sequence[SheetPart], poses: Floats, edge: floa
         ))  # fmt: skip
     earlier = [] if sheet.held is None else sorted(turned_over(sheet.held))
     numbers = [*earlier, *(np.flatnonzero(over) + before + 1).tolist()]
-    return Layout(container, tuple(items), placed, np.ones(len(items)), {"mirrored": numbers})
+    usual = Counter(one.angles for one in laid).most_common(1)[0][0] if laid else ()
+    own = [k for k, one in enumerate(laid, before + 1) if one.angles != usual]
+    rules = {"mirrored": numbers, "rotate": rotation_text(usual),
+             "own_angles": [*range(1, before + 1), *own]}  # fmt: skip
+    return Layout(container, tuple(items), placed, np.ones(len(items)), rules)
+
+
+def rotation_text(angles: tuple[float, ...] | None) -> str:
+    """Angles as options of runs say them.
+
+    >>> rotation_text(None), rotation_text((0.0, math.pi)), rotation_text((0.0,))
+    ('free', '0,180', '0,')
+    """
+    if angles is None:
+        return "free"
+    degrees = ",".join(f"{math.degrees(angle):.12g}" for angle in angles)
+    return degrees if len(angles) > 1 else f"{degrees or 0},"
 
 
 def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any]) -> NestedSheet:

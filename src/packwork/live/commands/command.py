@@ -18,6 +18,7 @@ from packwork.options import Options
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt
+from packwork.units import convert
 
 FARTHEST = 1e3
 """Coordinates at most, in sides of the canvas: farther is nowhere. Chosen."""
@@ -97,13 +98,22 @@ def index_of(document: Document, number: int, what: str) -> int:
     return found
 
 
+def true_scale(document: Document, item: Item) -> float:
+    """Scale of a part in a nest: as of the same part there, else of a drawing in px."""
+    if item in document.items:
+        return float(document.poses.scale[document.items.index(item)])
+    return convert(1.0, "px", document.container.unit)
+
+
 def is_chart(document: Document) -> bool:
     """Whether sizes of items stand for numbers, as keys beside them say."""
     return bool(document.notes) or any(item.datum is not None for item in document.items)
 
 
-def check_no_chart(document: Document, what: str) -> None:
-    """Refuse to size marks of a chart."""
+def check_may_size(document: Document, what: str) -> None:
+    """Refuse to size marks of a chart, and parts of true size."""
+    if document.is_nest:
+        raise RecipeError(what, "parts of a nest keep their true size")
     if is_chart(document):
         raise RecipeError(what, "marks of a chart are as large as their numbers say; change those")
 

@@ -106,6 +106,8 @@ class SetOption(Command):
             raise RecipeError(self.name[:40], f"is no option of a session; use one of {choices}")
         values: dict[str, Any] = {**dict(document.options), self.name: self.value}
         options = validated(LiveOptions, values)
+        if document.is_nest and options.sizes != "fixed":
+            raise RecipeError("sizes", "parts of a nest keep their true size")
         check_padding(document.container, options.padding, len(document))
         if (options.sizes, options.size_ratio) == (
             document.options.sizes,

@@ -19,10 +19,11 @@ from packwork.live.commands.command import (
     ItemIds,
     Library,
     Number,
-    check_no_chart,
+    check_may_size,
     index_of,
     known,
     sized,
+    true_scale,
 )
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
@@ -111,6 +112,8 @@ class Replace(Command):
         k = index_of(document, self.item, "replace")
         new = cast(Item, known(library.items, self.asset, "replace"))
         factor = math.sqrt(document.items[k].outline.area / new.outline.area)
+        if document.is_nest:
+            factor = true_scale(document, new) / float(document.poses.scale[k])
         return sized(_with_item(document.scaled(k, factor), k, new), "replace")
 
 
@@ -123,7 +126,7 @@ class Weigh(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with other weights and sizes."""
-        check_no_chart(document, "weigh")
+        check_may_size(document, "weigh")
         rows = [index_of(document, number, "weigh") for number in self.items]
         weights = document.weights.copy()
         before = np.where(weights[rows] > 0, weights[rows], 1.0)

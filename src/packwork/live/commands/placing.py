@@ -17,12 +17,13 @@ from packwork.live.commands.command import (
     ItemIds,
     Library,
     Number,
-    check_no_chart,
+    check_may_size,
     index_of,
     sized,
 )
 from packwork.live.document import PROPERTIES, Document
 from packwork.scene.pose import Poses
+from packwork.start.angles_and_sizes import nearest_allowed
 
 NEARLY = 1.1
 """By how much an item that was given a size may be larger or smaller than that. Chosen."""
@@ -55,12 +56,17 @@ class Turn(Command):
     kind: Literal["turn"] = "turn"
     item: ItemId
     angle: Number
-    """Degrees from upright, clockwise."""
+    """Degrees from upright, clockwise; where only some are allowed, the nearest of these is had."""
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the item turned."""
         k = index_of(document, self.item, "turn")
-        return _posed(document, k, angle=math.radians(math.fmod(self.angle, 360.0)))
+        angle = math.radians(math.fmod(self.angle, 360.0))
+        if document.is_nest and document.held[k, PROPERTIES.index("angle")]:
+            return document
+        if (allowed := document.options.rotation.choices) is not None:
+            angle = float(nearest_allowed(np.array([angle]), None, allowed)[0])
+        return _posed(document, k, angle=angle)
 
 
 class Scale(Command):
@@ -73,7 +79,7 @@ class Scale(Command):
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the item of another size."""
         k = index_of(document, self.item, "scale")
-        check_no_chart(document, "scale")
+        check_may_size(document, "scale")
         scale = float(document.poses.scale[k]) * self.factor
         smallest, largest = document.smallest.copy(), document.largest.copy()
         is_free = document.options.sizes == "free"
@@ -95,6 +101,7 @@ class Cover(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with all items of other sizes but those whose size is held."""
+        check_may_size(document, "cover")
         free = ~document.held[:, PROPERTIES.index("size")]
         areas = document.areas
         left = self.share * document.container.outline.area - areas[~free].sum()

@@ -104,6 +104,22 @@ class VectorRecord(Options):
     is_traced: bool = False
 
 
+class ArcLineRecord(Options):
+    """Points one after another, each side straight or an arc."""
+
+    points: Numbers
+    bulges: Annotated[tuple[Number, ...], Field(max_length=MAX_POINTS)]
+    is_closed: bool
+
+
+class LineRecord(VectorRecord):
+    """A drawing of lines for a machine, with arcs."""
+
+    kind: Literal["lines"] = "lines"  # type: ignore[assignment]
+    cut: Annotated[tuple[ArcLineRecord, ...], Field(max_length=MOST_LINES)]
+    engraved: Annotated[tuple[ArcLineRecord, ...], Field(max_length=MOST_LINES)]
+
+
 class PictureRecord(Options):
     """Pixels."""
 
@@ -125,7 +141,8 @@ class PhotoRecord(Options):
 
 
 ArtRecord: TypeAlias = Annotated[
-    FlatRecord | VectorRecord | PictureRecord | PhotoRecord, Field(discriminator="kind")
+    FlatRecord | VectorRecord | LineRecord | PictureRecord | PhotoRecord,
+    Field(discriminator="kind"),
 ]
 
 

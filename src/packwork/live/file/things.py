@@ -137,7 +137,7 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         record.source,
         outline,
         outline if record.ink is None else shared.outline(record.ink),
-        art_of(record.art),
+        art_of(record.art, outline),
         Label(label.name, label.link, label.title),
         None if text is None else _text_of(text, shared),
         colour_of(record.halo) if record.halo else "",

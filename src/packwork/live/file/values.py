@@ -7,18 +7,23 @@ from __future__ import annotations
 
 import base64
 import binascii
+from collections.abc import Sequence
 
 import numpy as np
+import shapely
 from shapely import LinearRing
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
+from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import valid
+from packwork.geometry.overlay import buffered, valid
 from packwork.live.file.records import (
     FARTHEST,
+    ArcLineRecord,
     ArtRecord,
     FlatRecord,
+    LineRecord,
     Matrix,
     OutlineRecord,
     PhotoRecord,
@@ -32,7 +37,10 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.scene.colour import css_colour
-from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
+from packwork.scene.item import Art, FlatArt, LineArt, PhotoArt, PictureArt, VectorArt
+
+LINES_OFF = 1e-4
+"""How far lines for a machine may lie beyond their part's outline, as a share of its extent."""
 
 SAME = 1e-9
 """By how much, relatively, two ways to compute one area may differ. Derived: rounding."""
@@ -111,6 +119,12 @@ def art_record(art: Art, extent: float) -> ArtRecord:
     """
     if isinstance(art, FlatArt):
         return FlatRecord(fill=art.fill)
+    if isinstance(art, LineArt):
+        drawn = _vector_record(art).model_dump(exclude={"kind"})
+        return LineRecord(
+            **drawn, cut=tuple(map(_arcs_record, art.cut)),
+            engraved=tuple(map(_arcs_record, art.engraved)),
+        )  # fmt: skip
     if isinstance(art, VectorArt):
         return _vector_record(art)
     if isinstance(art, PhotoArt):
@@ -134,10 +148,15 @@ def photo_record(art: PhotoArt, extent: float) -> PhotoRecord:
     return PhotoRecord(preview=_vector_record(art.preview), printed=_vector_record(printed))
 
 
-def art_of(record: ArtRecord) -> Art:
-    """The art of a record."""
+def art_of(record: ArtRecord, outline: Outline) -> Art:
+    """The art of a record; lines for a machine lie in the outline that stands for them."""
     if isinstance(record, FlatRecord):
         return FlatArt(colour_of(record.fill))
+    if isinstance(record, LineRecord):
+        art = _vector_of(record)
+        cut, engraved = (tuple(map(_arcs_of, many)) for many in (record.cut, record.engraved))
+        _check_inside((*cut, *engraved), art.matrix, outline)
+        return LineArt(art.markup, art.matrix, art.is_traced, cut, engraved)
     if isinstance(record, VectorRecord):
         return _vector_of(record)
     if isinstance(record, PhotoRecord):
@@ -148,6 +167,36 @@ def art_of(record: ArtRecord) -> Art:
             raise UnfitError("holds a picture that is not the PNG it is said to be")
     matrix = matrix_of(record.matrix)
     return PictureArt(png, record.width, record.height, matrix, record.is_traced)
+
+
+def _arcs_record(line: ArcLine) -> ArcLineRecord:
+    return ArcLineRecord(
+        points=text_of(line.points), bulges=tuple(line.bulges.tolist()), is_closed=line.is_closed
+    )
+
+
+def _arcs_of(record: ArcLineRecord) -> ArcLine:
+    points, bulges = points_of(record.points), np.array(record.bulges, dtype=np.float64)
+    if len(points) != len(bulges) or len(points) < 2:
+        raise UnfitError("holds a line whose arcs do not fit its points")
+    return ArcLine(points, bulges, record.is_closed)
+
+
+def _check_inside(lines: Sequence[ArcLine], matrix: FloatArray, outline: Outline) -> None:
+    """Refuse lines that would be cut or engraved beyond what is certified."""
+    if sum(len(line.points) for line in lines) > MAX_POINTS:
+        raise UnfitError("holds too many points of lines for a machine")
+    room = buffered(outline.region, LINES_OFF * outline.extent)
+    shapely.prepare(room)
+    for line in (one.mapped(matrix, LINES_OFF * outline.extent) for one in lines):
+        bulges = np.maximum(np.abs(line.bulges), 1.0)
+        chords = np.hypot(*(np.roll(line.points, -1, axis=0) - line.points).T)
+        # More than half a circle lies in the part only where the circle is no larger.
+        if (chords * bulges > 4.0 * outline.extent).any():
+            raise UnfitError("holds lines for a machine that leave their part")
+        points = line.flattened(LINES_OFF * outline.extent)
+        if not shapely.covers(room, shapely.points(points)).all():
+            raise UnfitError("holds lines for a machine that leave their part")
 
 
 def photo_of(record: PhotoRecord) -> PhotoArt:

@@ -57,7 +57,8 @@ function choosing(studio) {
 function items(studio) {
   const { choice } = studio;
   const when = () => choice.ids.size > 0;
-  const sizes = () => when() || studio.room.isOn;
+  const turns = () => when() || studio.room.isOn;
+  const sizes = () => (when() && !studio.collage.scene?.is_nest) || studio.room.isOn;
   return [
     { id: "edit-room", group: "Items", label: "Edit the container, or leave off", keys: ["C"], icon: "shape", when: () => studio.collage.hasPoses, run: () => studio.editRoom() },
     { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
@@ -73,8 +74,8 @@ function items(studio) {
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
     { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when: sizes, run: () => studio.resize(LARGER) },
     { id: "smaller", group: "Items", label: "Smaller", keys: ["-"], repeats: true, when: sizes, run: () => studio.resize(1 / LARGER) },
-    { id: "clockwise", group: "Items", label: "Turn clockwise", keys: ["."], repeats: true, when: sizes, run: () => studio.turn(TURN) },
-    { id: "anticlockwise", group: "Items", label: "Turn anticlockwise", keys: [","], repeats: true, when: sizes, run: () => studio.turn(-TURN) },
+    { id: "clockwise", group: "Items", label: "Turn clockwise", keys: ["."], repeats: true, when: turns, run: () => studio.turn(TURN) },
+    { id: "anticlockwise", group: "Items", label: "Turn anticlockwise", keys: [","], repeats: true, when: turns, run: () => studio.turn(-TURN) },
   ];
 }
 

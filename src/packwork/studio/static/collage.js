@@ -145,6 +145,32 @@ export class Collage {
     return { x, y, angle, scale };
   }
 
+  /**
+   * The nearest angle that an item may have, radians.
+   * @param {number} id
+   * @param {number} angle
+   */
+  allowed(id, angle) {
+    if (this.scene?.is_nest && this.item(id)?.held[1]) return this.pose(id)?.angle ?? angle;
+    const angles = this.scene?.angles;
+    if (!angles?.length) return angle;
+    const off = angles.map((one) => shortest(one - angle));
+    return angle + off.reduce((least, one) => (Math.abs(one) < Math.abs(least) - 1e-9 ? one : least));
+  }
+
+  /**
+   * The angle that an item has once it is turned on; where only some are allowed, the next of them.
+   * @param {number} id
+   * @param {number} by radians
+   */
+  turned(id, by) {
+    const from = this.pose(id)?.angle ?? 0;
+    const [angles, way] = [this.scene?.angles, Math.sign(by)];
+    if (!angles?.length) return from + by;
+    const ahead = angles.map((one) => way * shortest(way * (one - from) - Math.PI) + way * Math.PI).filter((off) => Math.abs(off) > 1e-3);
+    return this.allowed(id, from + (ahead.length ? way * Math.min(...ahead.map(Math.abs)) : 0));
+  }
+
   /** @param {number} id */
   item(id) {
     const k = this.rows.get(id);

@@ -57,10 +57,12 @@ export class Hand {
    * @param {{x: number, y: number}} about
    */
   turn(angle, about) {
-    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+    const [first] = this.began;
+    const step = first ? this.collage.allowed(first[0], first[1].angle + angle) - first[1].angle : angle;
+    const [cos, sin] = [Math.cos(step), Math.sin(step)];
     for (const [id, from] of this.began) {
       const [x, y] = [from.x - about.x, from.y - about.y];
-      this.put(id, { ...from, x: about.x + cos * x - sin * y, y: about.y + sin * x + cos * y, angle: from.angle + angle });
+      this.put(id, { ...from, x: about.x + cos * x - sin * y, y: about.y + sin * x + cos * y, angle: this.collage.allowed(id, from.angle + step) });
     }
     this.later(() => together([...this.began.keys()].flatMap((id) => this.turned(id))));
   }

@@ -265,8 +265,9 @@ export class Stage {
     const [a, b, c, d] = frame;
     const [ux, uy] = unit(d, a);
     const top = [(a[0] + b[0]) / 2 + TURN_AWAY * ux, (a[1] + b[1]) / 2 + TURN_AWAY * uy];
+    const corners = this.collage.scene?.is_nest ? [] : [a, b, c, d];
     return [
-      ...[a, b, c, d].map((at, corner) => ({ at, kind: /** @type {const} */ ("scale"), corner })),
+      ...corners.map((at, corner) => ({ at, kind: /** @type {const} */ ("scale"), corner })),
       { at: /** @type {[number, number]} */ (top), kind: "turn", corner: -1 },
     ];
   }

@@ -343,8 +343,7 @@ export class Studio {
   turn(degrees) {
     if (this.room.isOn) return this.room.change({ angle: degrees });
     const turns = [...this.choice.ids].map((item) => {
-      const angle = ((this.collage.pose(item)?.angle ?? 0) * 180) / Math.PI + degrees;
-      return { kind: "turn", item, angle };
+      return { kind: "turn", item, angle: (this.collage.turned(item, (degrees * Math.PI) / 180) * 180) / Math.PI };
     });
     this.connection.do(together(turns));
   }

@@ -1,0 +1,183 @@
+"""Nests under the hand: true sizes, allowed angles, lines for machines; laid anew."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+
+import packwork as pw
+from packwork.errors import ReadError, RecipeError
+from packwork.live import edits
+from packwork.live.document import PROPERTIES, Document
+from packwork.live.face.exporting import kept_bytes, layout_bytes
+from packwork.live.file.session_file import packed, read_session, unpacked
+from packwork.live.file.values import text_of
+from packwork.live.nested_again import nested_again
+from packwork.live.session import Session
+from packwork.readers.items import read_items
+from packwork.scene.item import LineArt
+from packwork.separation.strip import WorkBound
+
+TILE = [(0, 0), (40, 0), (40, 20), (0, 20)]
+HOOK = [(0, 0), (40, 0), (40, 10), (10, 10), (10, 30), (0, 30)]
+
+
+def nested(**options: Any) -> pw.Layout:
+    asked = {"kerf": 2, "passes": 60, **options}
+    (sheet,) = pw.nest("160x100mm", [(TILE, 3), (HOOK, 4)], **asked).layouts
+    return sheet
+
+
+def session_of(layout: pw.Layout) -> Session:
+    return Session(Document.from_layout(layout))
+
+
+def test_a_nest_keeps_its_gap_its_sizes_and_its_angles() -> None:
+    session = session_of(nested(rotate="0,180"))
+    options = session.document.options
+    assert (options.padding, options.sizes, options.rotate) == (2.0, "fixed", "0,180")
+    edits.turn(session, 0, 130)
+    assert math.degrees(session.document.poses.angle[0]) == pytest.approx(180)
+    for edit in (
+        lambda: edits.scale(session, 0, 2.0),
+        lambda: edits.weigh(session, 0, 2.0),
+        lambda: edits.cover(session, 0.9),
+        lambda: edits.set(session, sizes="free"),
+    ):
+        with pytest.raises(RecipeError, match="true size"):
+            edit()
+    before = session.document.areas
+    assert session.settle().certified
+    assert np.array_equal(session.document.areas, before)
+
+
+def test_what_is_brought_has_the_size_of_its_drawing(tmp_path: Path) -> None:
+    session = session_of(nested())
+    file = tmp_path / "tag.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm" viewBox="0 0 2 1">'
+        '<path d="M0 0h2v1h-2z"/></svg>',
+        encoding="utf-8",
+    )
+    (number,) = edits.add(session, _items(file))
+    row = session.document.index(number)
+    assert session.document.areas[row] == pytest.approx(200, rel=1e-6)
+    edits.replace(session, 0, _items(file)[0])
+    assert session.document.areas[0] == pytest.approx(200, rel=1e-6)
+
+
+def _items(file: Path) -> Any:
+    return read_items([file]).items
+
+
+def test_the_margin_is_the_ground_and_is_taken_off_once() -> None:
+    layout = nested(margin=8)
+    session = session_of(layout)
+    bounds = session.document.container.outline.bounds
+    assert bounds == pytest.approx((6, 6, 154, 94))
+    assert session.settle().certified
+    again = Document.from_layout(session.layout)
+    assert again.container.outline.bounds == pytest.approx(bounds)
+
+
+def test_parts_of_other_angles_are_held_at_theirs_and_rows_follow_what_is_removed() -> None:
+    layout = nested()
+    said: Mapping[str, Any] = {**layout.manifest["nest"], "own_angles": [2, 5], "mirrored": [5]}
+    rules = {**layout.manifest, "nest": said}
+    made = pw.Layout(layout.container, layout.items, layout.poses, layout.weights, rules)
+    session = session_of(made)
+    held = session.document.held[:, PROPERTIES.index("angle")]
+    assert np.flatnonzero(held).tolist() == [1, 4]
+    angle = session.document.poses.angle[1]
+    edits.turn(session, 1, 77)
+    assert session.document.poses.angle[1] == angle
+    edits.remove(session, 0)
+    assert session.layout.manifest["nest"]["mirrored"] == [4]
+    assert session.layout.manifest["nest"]["own_angles"] == [1, 4]
+
+
+@pytest.mark.parametrize("said", [3, {"rotate": "up", "own_angles": "x", "margin": "y"}, {}])
+def test_a_manifest_may_say_anything(said: object) -> None:
+    layout = nested()
+    made = pw.Layout(
+        layout.container, layout.items, layout.poses, layout.weights, {"nest": said, "seed": 0}
+    )
+    assert len(Document.from_layout(made)) == len(layout.items)
+
+
+def test_a_nest_is_laid_anew_about_what_is_held() -> None:
+    session = session_of(nested())
+    edits.move(session, 0, 120, 80)
+    session.settle()
+    edits.hold(session, 0)
+    before = session.document
+    shares: list[float] = []
+    command = nested_again(before, 3, shares.append, work=WorkBound(passes=40))
+    session.apply(command)
+    after = session.document
+    assert len(command.items) == len(before) - 1
+    assert after.poses.x[0] == before.poses.x[0]
+    assert not np.array_equal(after.poses.x, before.poses.x)
+    assert np.array_equal(np.sort(after.areas), np.sort(before.areas))
+    assert session.is_certified
+    assert shares
+    edits.hold(session, "*")
+    with pytest.raises(RecipeError, match="are held"):
+        nested_again(session.document, 3)
+
+
+def _round_part(folder: Path) -> Path:
+    drawing = ezdxf.new(units=4)
+    drawing.modelspace().add_circle((0, 0), 15)
+    drawing.modelspace().add_circle((4, 3), 2, dxfattribs={"layer": "engrave"})
+    drawing.saveas(folder / "ring.dxf")
+    return folder / "ring.dxf"
+
+
+def test_arcs_go_through_a_session_into_a_dxf(tmp_path: Path) -> None:
+    found = pw.nest("100x80mm", [str(_round_part(tmp_path)) + "*3"], kerf=1, passes=30)
+    state = session_of(found.layouts[0]).kept()
+    read, _ = read_session(kept_bytes(state), "a.packwork")
+    arts = [item.art for item in read.document.items]
+    assert all(isinstance(art, LineArt) and len(art.engraved) == 1 for art in arts)
+    (tmp_path / "out.dxf").write_bytes(layout_bytes(Session(read.document).layout, "dxf", {}))
+    lines = ezdxf.readfile(tmp_path / "out.dxf").modelspace().query("LWPOLYLINE")
+    bent = [line for line in lines if any(abs(point[4]) == 1.0 for point in line.get_points())]
+    assert len(bent) == 6
+
+
+def test_lines_that_leave_their_part_are_refused(tmp_path: Path) -> None:
+    found = pw.nest("100x80mm", [str(_round_part(tmp_path))], kerf=1, passes=10)
+    data = kept_bytes(session_of(found.layouts[0]).kept())
+    parts = dict(unpacked(data))
+    (name,) = (one for one in parts if one.startswith("items/"))
+    record = json.loads(parts[name])
+    for points, bulges in (
+        ([[0.0, 0.0], [900.0, 0.0]], [0.0, 0.0]),
+        ([[-5.0, 0.0], [5.0, 0.0]], [400.0, 0.0]),
+        ([[-5.0, 0.0], [5.0, 0.0]], [0.0]),
+    ):
+        record["art"]["cut"] = [
+            {"points": text_of(np.array(points)), "bulges": bulges, "is_closed": False}
+        ]
+        spoilt = packed({**parts, name: json.dumps(record).encode()})
+        with pytest.raises(ReadError):
+            read_session(spoilt, "a.packwork")
+
+
+def test_no_two_parts_of_a_moved_nest_are_nearer_than_the_tool() -> None:
+    session = session_of(nested())
+    edits.move(session, 2, 80, 50)
+    session.flow(epochs=60)
+    assert session.settle().certified
+    regions = [outline.region for outline in session.layout.outlines]
+    near = [shapely.distance(a, b) for k, a in enumerate(regions) for b in regions[:k]]
+    assert min(near) > 2 - 1e-9
