@@ -148,7 +148,8 @@ class Bring(PageRequest):
             if opening is not None:
                 workspace.open_another(opening)
                 return
-        found = items_of([importer.source(one) for one in self.sources])
+        sources = [importer.source(one) for one in self.sources]
+        found = items_of(sources, is_nest=workspace.is_nest)
         for left_out in found.skipped:
             workspace.say(f"left out: {importer.without_folder(str(left_out))}", is_error=False)
         items, at = found.items, (self.x, self.y)
@@ -188,7 +189,8 @@ class Swap(PageRequest):
         tab.importer.read(partial(self._swap, tab))
 
     def _swap(self, tab: Tab) -> None:
-        (item, *_) = items_of([tab.importer.source(self.source)]).items
+        source = tab.importer.source(self.source)
+        (item, *_) = items_of([source], is_nest=tab.workspace.is_nest).items
 
         def put(session: Session) -> None:
             asset = named_item(session.library, item)

@@ -113,9 +113,9 @@ def _container(name: str) -> dict[str, Any]:
     return {"name": name, "path": path_of(outline, FINENESS), "box": outline.bounds}
 
 
-def items_of(sources: Sequence[str]) -> ItemsRead:
-    """Items of bundled names and of folders of files that were given."""
-    return read_items(sources)
+def items_of(sources: Sequence[str], *, is_nest: bool = False) -> ItemsRead:
+    """Items of bundled names and of folders of files; of a nest they are drawings for a machine."""
+    return read_items(sources, holes="keep" if is_nest else "fill", by_lines=is_nest)
 
 
 def offered_fonts() -> tuple[str, ...]:
