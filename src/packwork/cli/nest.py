@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -112,14 +113,11 @@ def nest(
     """
     with clear_errors():
         from packwork import writers
-        from packwork.cli.outputs import saving
         from packwork.cli.show import Paper
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
-        from packwork.readers.layouts.read import is_session
         from packwork.separation.strip import WorkBound
         from packwork.uses.nest_request import length_of, read_request
-        from packwork.uses.nested import sheet_file
         from packwork.uses.nesting import nest as nest_parts
 
         files = list(output or (DEFAULT_OUTPUT,))
@@ -142,18 +140,15 @@ def nest(
             found = nest_parts(
                 counted, sheets, gap=gap, margin=away, seed=seed, work=work, stop=stop
             )  # fmt: skip
-        sessions = [path for path in files if is_session(path)]
-        drawn, faults = _drawn(found, [path for path in files if path not in sessions])
+        drawn, faults = _drawn(found, files)
         certified = found.certified and not faults
         if no_clobber:
             writers.check_new([path for path, _ in drawn])
         if report is not None:
             said = {**found.report(), "certified": certified, "faults": faults}
             drawn.append((report, writers.json_bytes(said)))
-        with contextlib.ExitStack() as saved:
-            for k, one in enumerate(found.sheets, start=1):
-                paths = [sheet_file(path, k, len(found.sheets)) for path in sessions]
-                drawn += saved.enter_context(saving(one.layout, paths))
+        with _sessions(found, files) as sessions:
+            drawn += sessions
             writers.write_all(drawn)
         console.print(_summary(found, sheets[0], certified))
         console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
@@ -204,6 +199,7 @@ def _drawn(found: NestedSheets, files: list[Path]) -> tuple[list[tuple[Path, byt
     """Files of all sheets, and what is wrong with them."""
     from packwork import writers
     from packwork.cli.running import faults_in
+    from packwork.readers.layouts.read import is_session
     from packwork.uses.nested import sheet_file
     from packwork.writers.parts_list import all_sheets_bytes, is_for_all
 
@@ -211,6 +207,7 @@ def _drawn(found: NestedSheets, files: list[Path]) -> tuple[list[tuple[Path, byt
     options = writers.WriteOptions(png=writers.SvgOptions(background="white", show_container=True))
     drawn, faults = list[tuple[Path, bytes]](), list(found.faults)
     layouts, pages = [one.layout for one in found.sheets], list[bytes]()
+    files = [path for path in files if not is_session(path)]
     of_all = [path for path in files if is_for_all(path)]
     for k, layout in enumerate(layouts, start=1):
         paths = [sheet_file(path, k, len(layouts)) for path in files if path not in of_all]
@@ -224,6 +221,23 @@ def _drawn(found: NestedSheets, files: list[Path]) -> tuple[list[tuple[Path, byt
     if layouts:
         drawn += [(path, all_sheets_bytes(path, layouts, pages)) for path in of_all]
     return drawn, faults
+
+
+@contextlib.contextmanager
+def _sessions(found: NestedSheets, files: list[Path]) -> Iterator[list[tuple[Path, bytes]]]:
+    """Session files of all sheets, for the block to write."""
+    from packwork.cli.outputs import saving
+    from packwork.uses.nested import sheet_file
+
+    with contextlib.ExitStack() as saved:
+        many = len(found.sheets)
+        yield [
+            one
+            for k, sheet in enumerate(found.sheets, start=1)
+            for one in saved.enter_context(
+                saving(sheet.layout, [sheet_file(path, k, many) for path in files])
+            )
+        ]
 
 
 def _summary(found: NestedSheets, sheet: Sheet, certified: bool) -> str:

@@ -114,9 +114,10 @@ class Document:
     def layout(self) -> Layout:
         """The layout as it is now; of its manifest what does not depend on places."""
         ground = ground_in(self.manifest)
-        made = Layout(
-            self.container, self.items, self.poses, self.weights, self.manifest, ground=ground
-        )
+        manifest = self.manifest
+        if (nest := NestRules.of(manifest)) is not None:
+            manifest = {**manifest, "nest": {**manifest["nest"], **nest.rows(self.ids)}}
+        made = Layout(self.container, self.items, self.poses, self.weights, manifest, ground=ground)
         rows = {number: row for row, number in enumerate(self.ids.tolist())}
         return replace(made, notes=tuple(notes_on(made, rows, self.notes)))
 

@@ -11,8 +11,6 @@ from numbers import Integral
 from types import TracebackType
 from typing import Any, Self
 
-import numpy as np
-
 from packwork.errors import RecipeError
 from packwork.live.certificate import Requests, Settlement, promise_of
 from packwork.live.commands.command import Command, Library, made
@@ -26,7 +24,6 @@ from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.names import Which, find_items, one_item
 from packwork.live.neighbourhood.caches import ShapeCache
 from packwork.live.refilling import advice_of
-from packwork.live.true_sizes import NestRules
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
@@ -149,14 +146,12 @@ class Session:
     @property
     def layout(self) -> Layout:
         """The layout as it is now, and whether it is certified."""
-        document = self.document
-        kept = {k: v for k, v in document.manifest.items() if k not in OF_PLACES}
+        document, layout = self.document, self.document.layout
+        kept = {k: v for k, v in layout.manifest.items() if k not in OF_PLACES}
         stated = {"promised": asdict(promise_of(document)), "certified": self.is_certified}
         # What was asked of the run is not what holds now.
         manifest = {**kept, **stated, "edited": document.options.model_dump()}
-        if (rules := NestRules.of(kept)) is not None:
-            manifest["nest"] = {**kept["nest"], **_rows_of(rules, document)}
-        return replace(document.layout, manifest=manifest, track=self._solver.track)
+        return replace(layout, manifest=manifest, track=self._solver.track)
 
     def find(self, which: Which) -> tuple[int, ...]:
         """Numbers of the items that a name means, in their order; :meth:`positions` are others.
@@ -403,12 +398,3 @@ class Session:
         self._solver.leap_to(getattr(self.history, kind)(self.document))
         self.log.flush()
         return True
-
-
-def _rows_of(rules: NestRules, document: Document) -> dict[str, list[int]]:
-    """Numbers of parts, from 1, as they stand in a document whose first ones they are by now."""
-    numbers = document.ids + 1
-    return {
-        name: (np.flatnonzero(np.isin(numbers, list(known))) + 1).tolist()
-        for name, known in (("mirrored", rules.mirrored), ("own_angles", rules.own_angles))
-    }

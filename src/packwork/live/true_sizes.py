@@ -7,6 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
+from packwork.arrays import IntArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
@@ -50,6 +53,14 @@ class NestRules:
         is_length = isinstance(margin, int | float) and 0 < margin < math.inf
         own, mirrored = (_numbers(said.get(name)) for name in ("own_angles", "mirrored"))
         return cls(str(rotate), own, mirrored, float(str(margin)) if is_length else 0.0)
+
+    def rows(self, ids: IntArray) -> dict[str, list[int]]:
+        """The numbers as rows, from 1, where parts stand that had those numbers less 1 as ids."""
+        found = {"own_angles": self.own_angles, "mirrored": self.mirrored}
+        return {
+            name: (np.flatnonzero(np.isin(ids + 1, list(known))) + 1).tolist()
+            for name, known in found.items()
+        }
 
     def ground(self, container: Container, gap: float) -> Container:
         """The container less what the margin keeps free beyond the gap."""

@@ -129,6 +129,11 @@ class Count(PageRequest):
         tab.workspace.change(lambda session: edits.count(session, self.count), "Changing the count")
 
 
+def _is_nest(tab: Tab) -> bool:
+    shown = tab.workspace.shown
+    return shown is not None and shown.view.is_nest
+
+
 class Bring(PageRequest):
     """Bring items: bundled ones by name, or files that were sent before."""
 
@@ -149,7 +154,7 @@ class Bring(PageRequest):
                 workspace.open_another(opening)
                 return
         sources = [importer.source(one) for one in self.sources]
-        found = items_of(sources, is_nest=workspace.is_nest)
+        found = items_of(sources, is_nest=_is_nest(tab))
         for left_out in found.skipped:
             workspace.say(f"left out: {importer.without_folder(str(left_out))}", is_error=False)
         items, at = found.items, (self.x, self.y)
@@ -190,7 +195,7 @@ class Swap(PageRequest):
 
     def _swap(self, tab: Tab) -> None:
         source = tab.importer.source(self.source)
-        (item, *_) = items_of([source], is_nest=tab.workspace.is_nest).items
+        (item, *_) = items_of([source], is_nest=_is_nest(tab)).items
 
         def put(session: Session) -> None:
             asset = named_item(session.library, item)

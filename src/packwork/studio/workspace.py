@@ -142,11 +142,6 @@ class Workspace:
         return Shown(view, state, 0 if frame is None else frame.done)
 
     @property
-    def is_nest(self) -> bool:
-        """Whether items are parts of true size."""
-        return self.owner is not None and self.owner.frame.document.is_nest
-
-    @property
     def canvas(self) -> str | None:
         """Longer side of the canvas, as options say it; None before there is one."""
         if self.owner is None:
