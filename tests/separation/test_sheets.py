@@ -139,3 +139,19 @@ def test_tiles_are_small_and_make_up_the_region() -> None:
     sides = np.array([one.bounds for one in found])
     assert (sides[:, 2:] - sides[:, :2]).max() <= 2.0 + 1e-9
     assert sum(one.area for one in found) == pytest.approx(HIDE.area)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_is_laid_at_last_lies_on_sheets_in_use(seed: int) -> None:
+    parts = [Part(region=SQUARE, count=6), Part(region=shapely.box(-2, -1, 2, 1), count=2)]
+    laid, left = lay(parts, [FreeSheet(shapely.box(0, 0, 12, 10)) for _ in range(4)], 4, seed)
+    assert not left
+    assert [one.sheet for one in laid] == [0]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_widest_part_needs_not_lie_to_a_hair(seed: int) -> None:
+    plate = shapely.affinity.scale(shapely.Point(0, 0).buffer(1), 2.03, 2.55)
+    sheets = [FreeSheet(shapely.box(0, 0, 20, 20)) for _ in range(3)]
+    laid, _ = lay([Part(region=plate, count=2, turns=(0.3,))], sheets, 20, seed)
+    assert [one.sheet for one in laid] == [0]

@@ -15,6 +15,10 @@ SPARSE, MUCH_LONGER = 0.45, 1.5
 """Density at which parts are brought in first, and how much longer the sheets are cut off where
 some have no room: sheets may be narrow at an end."""
 
+BROUGHT_IN = 0.95
+"""Share of the work after which parts are no longer moved for others, but laid where these leave
+room, which takes a pass for each kind and each part that has room. Chosen."""
+
 FIRST_PATIENCE = 30
 """Passes without a lower loss after which a part goes back at first."""
 
@@ -50,7 +54,7 @@ class SheetSearch(StripSearch):
         waiting = deque(self.first_fit(order.tolist(), length, until))
         failed, patience, kinds = 0, FIRST_PATIENCE, self.problem.shape_of
         batch = math.ceil(len(waiting) / 2)
-        while waiting and not self.is_over(until):
+        while waiting and not self.is_over(BROUGHT_IN * until):
             if failed >= len(waiting):
                 # None of them has room: on a longer stretch, or with more patience.
                 if length < self.ground.end:
@@ -76,9 +80,11 @@ class SheetSearch(StripSearch):
                 waiting = deque(k for k in waiting if kinds[k] != kind)
                 waiting.extend(alike)
                 failed += len(alike)
-        if waiting and not self.stop():
-            # The work is done: what fits on empty ground is laid all the same.
-            self.first_fit(waiting, self.ground.end, math.inf)
+        # What fits beside the others, or else on empty ground, is laid all the same.
+        last = int(self.ground.bay_at(np.array([self.best.length]))[0])
+        for bay in dict.fromkeys((self.ground.bays[last], self.ground.bays[-1])):
+            if not self.stop():
+                waiting = deque(self.first_fit(waiting, bay.end, math.inf))
 
     def first_fit(self, parts: Iterable[int], length: float, until: float) -> list[int]:
         """Lay parts where nothing has to give way; returns those that found no such place."""

@@ -23,6 +23,10 @@ hull. More find narrower gaps and take longer, with their cube."""
 MOST_ROWS, MOST_COLUMNS = 400, 20_000
 """Rows and columns of that image at most, on a strip of which a quarter is covered."""
 
+ROOMIER = 1.05
+"""Length at least of what parts are laid on at first, over the width of the widest: on the very
+width it would have to lie to a hair. Chosen."""
+
 MOST, LEAST, FALL = 2.0, 1.2, 0.95
 """Factors of weights in a pass: of the worst pair, of the least, and of pairs that are apart."""
 
@@ -44,7 +48,7 @@ class Problem:
         obstacles = [Part(region=region) for region in ground.obstacles]
         self.shapes, self.turns = tables([*parts, *obstacles], self.pixel)
         widths = np.ptp(flattest(parts, ground.height)[0][:, ::2], axis=1)
-        self.widest, self.narrowest = float(widths.max()), float(widths.min())
+        self.widest, self.narrowest = ROOMIER * float(widths.max()), float(widths.min())
         wide = [np.ptp(shapely.get_coordinates(part.region), axis=0).max() for part in parts]
         self.decays = np.array(wide)[self.shape_of] * DECAY_SHARE
 
