@@ -46,6 +46,8 @@ class Ground:
     height: float
     bays: tuple[Bay, ...] = ()
     obstacles: tuple[Region, ...] = ()
+    axes: tuple[int, ...] = (0,)
+    """Along which a shorter one is shorter: x, y."""
 
     def height_at(self, length: float) -> float:
         """Height of what is cut off at a length."""

@@ -6,8 +6,7 @@ import math
 from dataclasses import dataclass
 
 from packwork.separation.ground import Ground
-from packwork.separation.kernels.collision import X1, Y1
-from packwork.separation.shapes import Floats, boxes_of
+from packwork.separation.shapes import boxes_of
 from packwork.separation.strip import Strip, StripSearch
 
 
@@ -16,6 +15,7 @@ class SquareGround(Ground):
     """A square of any side."""
 
     height: float = math.inf
+    axes: tuple[int, ...] = (0, 1)
 
     def height_at(self, length: float) -> float:
         """The same as the length."""
@@ -43,15 +43,3 @@ class SquareSearch(StripSearch):
             if strip.length <= side:
                 return Strip(side, strip.poses, strip.lefts)
             side *= GROWTH
-
-    def extent(self, boxes: Floats) -> float:
-        """Side of the square that parts with these boxes need."""
-        return float(boxes[:, [X1, Y1]].max())
-
-    def shorter(self, best: Strip, share: float) -> None:
-        """Cut a share of the side out, across and down; what lies beyond the cuts moves."""
-        cut, poses = best.length * share, best.poses.copy()
-        for axis in (0, 1):
-            line = self.random.uniform(0.0, best.length)
-            poses[poses[:, axis] > line, axis] -= cut
-        self.put(best.length - cut, poses, fresh=True)

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.errors import RecipeError
+from packwork.separation.compact import StripCompaction
 from packwork.separation.ground import Ground
-from packwork.separation.kernels.collision import X0, X1
+from packwork.separation.kernels.collision import X0, X1, Y1
 from packwork.separation.shapes import Floats, Part, flattest
 from packwork.separation.state import Problem, WorkerState
 
@@ -28,6 +29,10 @@ PROGRESS = 0.98
 
 SHRINKS = ((3, 0.01), (15, 0.004), (math.inf, 0.001))
 """By how much a strip is shortened, by the passes that the one before took."""
+
+LABOUR = 15
+"""Passes above which a layout was hard to reach: those are compacted. Of others the next is as
+easily reached. Chosen."""
 
 EXPLORED = 0.8
 """Share of the work after which strips are only compressed."""
@@ -196,16 +201,26 @@ class StripSearch:
         self.work.best_so_far = f"{left} parts left" if left else f"length {self.best.length:.5g}"
         return self.best
 
+    def compacted(self, strip: Strip, share: float) -> Strip:
+        """Move all parts together as long as a step shortens the strip by that share."""
+        last = np.isfinite(strip.poses[:, 0])
+        last &= strip.lefts >= self.ground.start_at(strip.length)
+        compaction = StripCompaction(self.problem, strip.poses, last, strip.length)
+        self.put(strip.length, compaction.run(share))
+        shorter = self.extent(self.layout.arrays[0][: len(self.problem)]) < strip.length
+        return self.keep(self.layout.poses) if shorter and self.layout.loss == 0.0 else strip
+
     def extent(self, boxes: Floats) -> float:
         """Length that parts with these boxes need."""
-        return float(boxes[:, X1].max())
+        return float(boxes[:, [X1, Y1][: len(self.ground.axes)]].max())
 
     def shorter(self, best: Strip, share: float) -> None:
-        """Cut a share of the length out of the last sheet; what lies right of the cut moves."""
+        """Cut a share of the length out of the last sheet; what lies beyond the cut moves."""
         cut = best.length * share
         poses = best.poses.copy()
-        line = self.random.uniform(self.ground.start_at(best.length), best.length)
-        poses[poses[:, 0] > line, 0] -= cut
+        for axis in self.ground.axes:
+            line = self.random.uniform(self.ground.start_at(best.length), best.length)
+            poses[poses[:, axis] > line, axis] -= cut
         length = self.ground.skip_back(best.length - cut, self.problem.narrowest)
         self.put(length, poses, fresh=True)
 
@@ -228,7 +243,10 @@ class StripSearch:
             if loss == 0.0:
                 failures = []
                 share = next(share for most, share in SHRINKS if passes <= most)
-                self.shorter(self.keep(poses), share)
+                strip = self.keep(poses)
+                if passes > LABOUR:
+                    strip = self.compacted(strip, share)
+                self.shorter(strip, share)
                 continue
             failures.append((loss, poses))
             failures.sort(key=lambda one: one[0])
@@ -252,12 +270,14 @@ class StripSearch:
     def compress(self, best: Strip, until: float = 1.0) -> Strip:
         """Shorten a strip by ever less, and take back what does not succeed."""
         begun = self.work.share
+        best = self.compacted(best, FINEST)
         while not self.is_over(until):
             done = (self.work.share - begun) / max(until - begun, 1e-9)
-            self.shorter(best, CLOSEST * (FINEST / CLOSEST) ** min(done, 1.0))
+            share = CLOSEST * (FINEST / CLOSEST) ** min(done, 1.0)
+            self.shorter(best, share)
             loss, poses, _ = self.separate(PATIENCE_AT_END, until)
             if loss == 0.0:
-                best = self.keep(poses)
+                best = self.compacted(self.keep(poses), share)
         return best
 
     def run(self) -> Strip:

@@ -14,9 +14,10 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.compact import blocks
-from packwork.compaction.kernels import broad_phase, contacts, interior_point, steps
+from packwork.compaction.kernels import broad_phase, contacts, steps
 from packwork.compaction.kernels.distances import Board
 from packwork.compaction.kernels.steps import TRAVEL
+from packwork.compaction.programmes import maximised
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
 from packwork.settle.kernels import descent
@@ -228,7 +229,7 @@ def downward(
     """
     rows = contacts.rows_of(board, items, pairs, trust, gap, hair)
     gain, low, high = descent.gains_and_bounds(board, slope, *turns, items, trust)
-    z = _maximised(rows, gain, low, high)
+    z = maximised(rows, gain, low, high, ACCURACY)
     return _step(board, items, z, low, high, trust)
 
 
@@ -248,51 +249,8 @@ def inward(
     for c in range(2):
         low[c : 4 * n : 4], high[c : 4 * n : 4] = -1.0, 1.0
     gain[4 * n], low[4 * n] = -weight, -1.0
-    z = _maximised(rows, gain, low, high)
+    z = maximised(rows, gain, low, high, ACCURACY)
     return _step(board, items, z, low, high, trust)
-
-
-def _maximised(
-    rows: interior_point.Rows, gain: FloatArray, low: FloatArray, high: FloatArray
-) -> FloatArray:
-    """Nearly the best unknowns, four an item; of items that only move, two are solved for."""
-    if (high - low).reshape(-1, 4)[:, 2:].any():
-        return np.asarray(interior_point.maximise(rows, gain, low, high, ACCURACY))
-    n = len(gain) // 4
-    moves = [np.zeros(4 * (-(-n // 2))) for _ in range(3)]
-    for some, four in zip(moves, (gain, low, high), strict=True):
-        some[: 2 * n] = four.reshape(-1, 4)[:, :2].ravel()
-    z = np.zeros((n, 4))
-    found = interior_point.maximise(in_twos(rows), *moves, ACCURACY)
-    z[:, :2] = found[: 2 * n].reshape(-1, 2)
-    return z.ravel()
-
-
-def in_twos(rows: interior_point.Rows) -> interior_point.Rows:
-    """Rows in which two items that only move, one after another, count as one with four unknowns.
-
-    The Newton matrix is half as long and its band half as wide.
-
-    Examples
-    --------
-    >>> both = np.array([[1.0, 2, 0, 0, 3, 4, 0, 0]])
-    >>> rows = interior_point.Rows(np.array([0]), np.array([3]), both, np.ones(1))
-    >>> two = in_twos(rows)
-    >>> two.first.tolist(), two.second.tolist(), two.coefficients.tolist()
-    ([0], [1], [[1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0, 4.0]])
-    """
-    first, second = rows.first, rows.second
-    is_one = (second < 0) | (first // 2 == second // 2)
-    coefficients = np.zeros_like(rows.coefficients)
-    every = np.arange(len(first))
-    for c in range(2):
-        coefficients[every, 2 * (first % 2) + c] = rows.coefficients[:, c]
-        touched = np.flatnonzero(second >= 0)
-        behind = np.where(is_one, 0, 4) + 2 * (second % 2) + c
-        coefficients[touched, behind[touched]] = rows.coefficients[touched, 4 + c]
-    return interior_point.Rows(
-        first // 2, np.where(is_one, -1, second // 2), coefficients, rows.limits
-    )
 
 
 def _step(
