@@ -342,6 +342,69 @@ def test_a_reload_and_a_second_page_show_the_same(open_desk: Callable[..., Desk]
     other.until("!studio.collage.items.some(item => item.held[0])")
 
 
+def test_a_turn_of_the_wheel_zooms_a_little_with_ctrl_too(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.mouse.move(*desk.place(0))
+    for key, delta in ((None, -100), ("Control", -120), ("Control", -1200)):
+        before = desk.look("studio.view.zoom")
+        if key:
+            desk.page.keyboard.down(key)
+        desk.page.mouse.wheel(0, delta)
+        desk.until(f"studio.view.zoom > {before}")
+        assert desk.look("studio.view.zoom") < 1.4 * before
+        if key:
+            desk.page.keyboard.up(key)
+
+
+def test_options_follow_what_is_undone(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.locator("#tab-options").click()
+    slider = desk.page.locator("#ask-padding")
+    before = slider.input_value()
+    slider.fill("4")
+    desk.until("studio.collage.scene.options.padding === 4")
+    desk.settled()
+    desk.page.locator("#ask-sizes").select_option("shared")
+    desk.until("studio.collage.scene.options.sizes === 'shared'")
+    desk.settled()
+    desk.page.locator("#canvas").focus()
+    for _ in range(2):
+        desk.page.keyboard.press("Control+z")
+    desk.until("document.querySelector('#ask-sizes').value === 'free'")
+    desk.until(f"document.querySelector('#ask-padding').value === '{before}'")
+    assert desk.page.locator("label[for=ask-padding] output").inner_text().startswith(before)
+    desk.settled()
+
+
+def test_the_list_of_items_stays_while_the_hand_is_on_the_canvas(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk({"width": 1440, "height": 460})
+    scroll = "document.querySelector('#panel .body').scrollTop"
+    desk.page.mouse.move(*desk.place(2))
+    desk.page.mouse.down()
+    desk.until("studio.choice.ids.has(2)")
+    assert desk.look(scroll) == 0
+    desk.page.mouse.up()
+    desk.until(f"{scroll} > 0")
+
+
+@pytest.mark.parametrize("panel", ["room", "items", "words", "options", "more"])
+def test_what_a_finger_meets_is_large_enough(open_desk: Callable[..., Desk], panel: str) -> None:
+    desk = open_desk(PHONE, has_touch=True, is_mobile=True)
+    desk.page.locator(f"#tab-{panel}").tap()
+    desk.until("document.querySelector('#panel .body').children.length > 0")
+    small = desk.look(
+        "[...document.querySelectorAll('button, input:not([type=checkbox], .unseen), select')]"
+        ".filter(e => e.checkVisibility() && e.getBoundingClientRect().height < 44)"
+        ".map(e => e.outerHTML)"
+    )
+    assert small == []
+    assert desk.look(
+        "(body => body.scrollWidth <= body.clientWidth)(document.querySelector('#panel .body'))"
+    )
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", [PHONE, {"width": 1024, "height": 768}], ids=["phone", "tablet"])
 def test_nothing_reaches_out_of_the_window(

@@ -26,7 +26,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_desk_left_alone_for_longest_is_written_over(folder: Path) -> None:
-    with pytest.raises(PackworkError, match="no desk to go on with"):
+    with pytest.raises(PackworkError, match="nothing is kept to go on with"):
         kept_workspaces.last()
     for time in range(kept_workspaces.MOST_WORKSPACES):
         kept = kept_workspaces.new()

@@ -38,7 +38,7 @@ def studio(
         int, typer.Option("--port", help="Port to listen at; 0 for one that is free.", max=65_535)
     ] = 0,
     again: Annotated[
-        bool, typer.Option("--again", help="Go on with what was on the desk last.")
+        bool, typer.Option("--again", help="Go on with what was worked on last.")
     ] = False,
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open the browser on it.")
@@ -59,7 +59,7 @@ def studio(
 
     [bold]packwork studio work.packwork[/]  a session; also a recipe.toml or a layout.geojson
 
-    [bold]packwork studio --again[/]  what was on the desk last, with all that undo leads to
+    [bold]packwork studio --again[/]  what was worked on last, with all that undo leads to
 
     Needs the extra: pip install '.[studio]'
     """

@@ -27,6 +27,7 @@ from packwork.studio.guard import AGAIN, PROTOCOL, Guard
 from packwork.studio.importer import Importer
 from packwork.studio.proof import Secret
 from packwork.studio.tab import Tab
+from packwork.studio.wording import for_page
 from packwork.studio.workspace import Workspace
 
 MOST_TABS = 8
@@ -108,7 +109,7 @@ class Studio:
         await socket.accept(PROTOCOL)
         person, joins = person_of(socket.scope.get("subprotocols", ()))
         if not self._presence.take(person, joins=joins):
-            await socket.close(TAKEN, "somebody else is at this desk")
+            await socket.close(TAKEN, "somebody else works here")
             return
         tab = Tab(self._workspace, socket, self._importer)
         self._tabs.add(tab)
@@ -159,7 +160,7 @@ async def _body(request: Request, most: int) -> bytes:
 
 def refused(error: PackworkError) -> Response:
     """Answer of one clear line."""
-    return PlainTextResponse(f"{' '.join(str(error).split())}\n", 400)
+    return PlainTextResponse(f"{for_page(' '.join(str(error).split()))}\n", 400)
 
 
 def guarded(workspace: Workspace, uploads: Uploads, secret: Secret) -> Guard:

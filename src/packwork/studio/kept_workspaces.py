@@ -100,7 +100,7 @@ def last() -> KeptWorkspace:
     """The workspace that was used last."""
     found = max(_known(), key=_last_used, default=None)
     if found is None:
-        raise PackworkError("there is no desk to go on with; leave --again out")
+        raise PackworkError("nothing is kept to go on with; leave --again out")
     return KeptWorkspace(found, found.with_suffix(".json"))
 
 

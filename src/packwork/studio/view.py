@@ -16,6 +16,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.studio.wire import LeftOut, Scene, Shape, Thing
+from packwork.studio.wording import for_page
 
 MOST_LEFT_OUT = 100
 """Unplaced items that pages are told of at most. Chosen."""
@@ -185,6 +186,9 @@ def left_out_of(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:
     # A layout's file may come from anywhere.
     rows = [one for one in found if isinstance(one, Mapping)] if isinstance(found, list) else []
     return tuple(
-        LeftOut(name=str(one.get("item"))[:MOST_TOLD], reason=str(one.get("reason"))[:MOST_TOLD])
+        LeftOut(
+            name=str(one.get("item"))[:MOST_TOLD],
+            reason=for_page(str(one.get("reason")))[:MOST_TOLD],
+        )
         for one in rows[:MOST_LEFT_OUT]
     )

@@ -32,6 +32,7 @@ from packwork.live.relayout import Moment, in_place, poured, poured_again, poure
 from packwork.live.session import Session
 from packwork.studio.view import Scenes, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
+from packwork.studio.wording import for_page
 
 News = Line | Variant
 """What all pages are told beside what there is to be seen."""
@@ -45,7 +46,7 @@ MOST_LINES = 32
 QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
 
-NOT_YET = "the desk is still being laid; try it again in a moment"
+NOT_YET = "the first layout is still on its way; try it again in a moment"
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,10 +169,10 @@ class Workspace:
             covered=view.covered,
             moving=is_moving,
             certified=not is_moving and not in_the_way and len(view.items) > 0,
-            in_the_way=in_the_way[:20],
+            in_the_way=tuple(map(for_page, in_the_way[:20])),
             entangled=() if frame is None or is_moving else frame.entangled,
             unplaced=self._left_out(view),
-            advice=() if frame is None or is_moving else frame.advice,
+            advice=() if frame is None or is_moving else tuple(map(for_page, frame.advice)),
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy or work,
@@ -385,7 +386,7 @@ class Workspace:
 
     def say(self, text: str, *, is_error: bool = True) -> None:
         """Tell all pages a line, from any thread."""
-        self._wake(Line(text=text[:500], is_error=is_error))
+        self._wake(Line(text=for_page(text)[:500], is_error=is_error))
 
     def _wake(self, line: News | None = None) -> None:
         """Tell all who listen, from any thread."""

@@ -17,7 +17,7 @@ export class Badge {
     this.share = h("strong", {}, "–");
     this.word = h("span", { class: "word" }, "connecting");
     this.bar = h("span", { class: "progress", "aria-hidden": "true" });
-    this.button = h("button", { type: "button", id: "badge", "data-is": "working", title: "How things stand", onclick: () => this.open() },
+    this.button = h("button", { type: "button", id: "badge", "data-is": "lost", title: "How things stand", onclick: () => this.open() },
       this.lamp, this.share, this.word, this.bar);
     this.stop = h("button", { type: "button", id: "stop", hidden: true, onclick: () => hears.stop() }, "Stop");
     this.why = h("div", { id: "why", popover: "auto" });

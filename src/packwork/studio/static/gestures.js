@@ -13,6 +13,8 @@ const STILL = { mouse: 3, pen: 4, touch: 8 };
 const REACH = { mouse: 9, pen: 10, touch: 22 };
 /** Time after which a finger that stays asks for the menu, ms. */
 const LONG = 550;
+/** Logarithm of the factor by which one turn of a wheel zooms at most. */
+const NOTCH = 0.3;
 /** Angles that are snapped to with shift, degrees. */
 const SNAP = 15;
 
@@ -201,6 +203,7 @@ export class Gestures {
     this.stage.marquee = null;
     if (!doing.moves) this.clicked(doing);
     this.end();
+    this.choice.changed();
   }
 
   /** @param {Doing} doing */
@@ -261,7 +264,9 @@ export class Gestures {
     const { x, y } = point(event);
     const lines = event.deltaMode === 1 ? 30 : 1;
     const isZoom = event.ctrlKey || event.metaKey || !isTrackpad(event);
-    if (isZoom) this.view.zoomAt(Math.exp((-lines * event.deltaY) / (event.ctrlKey ? 120 : 500)), x, y);
+    // A pinch on a pad comes as a wheel with ctrl, in small steps.
+    const step = (-lines * event.deltaY) / (event.ctrlKey && isTrackpad(event) ? 120 : 500);
+    if (isZoom) this.view.zoomAt(Math.exp(Math.min(Math.max(step, -NOTCH), NOTCH)), x, y);
     else this.view.pan(-event.deltaX, -event.deltaY);
   }
 

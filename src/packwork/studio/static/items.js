@@ -10,7 +10,7 @@ import { thumbOf } from "./thumbs.js";
 
 /** Rows of the list at most. */
 const MOST = 400;
-const AS = /** @type {const} */ ([["beside", "beside the others"], ["items", "in place of them"], ["photos", "so, as photos"]]);
+const AS = /** @type {const} */ ([["beside", "beside the others"], ["items", "in place of them"], ["photos", "in place of them, as whole photos"]]);
 
 export class ItemList {
   /** @param {Studio} studio */
@@ -76,6 +76,8 @@ export class ItemList {
   edit(groups) {
     const { choice, collage } = this.studio;
     const chosen = groups.filter((group) => group.some((one) => choice.has(one.id)));
+    // Nothing scrolls away under a hand that is at work on the canvas.
+    if (this.studio.gestures.pointers.size) return;
     const row = chosen.length === 1 ? this.list.querySelector('button.item[aria-pressed="true"]')?.closest("li") : null;
     if (!row) return this.editor.element.remove();
     if (this.editor.element.parentNode !== row) {

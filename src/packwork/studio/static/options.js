@@ -25,6 +25,27 @@ export function fillOptions(body, studio, questions) {
   studio.forces.refresh();
 }
 
+/**
+ * Bring the fields up to what holds now, as after undo; what is being changed stays.
+ * @param {HTMLElement} body
+ * @param {import("./studio.js").Studio} studio
+ */
+export function refreshOptions(body, studio) {
+  for (const [name, value] of Object.entries(studio.collage.scene?.options ?? {})) {
+    const field = body.querySelector(`#ask-${name}`);
+    const isOther = (field instanceof HTMLInputElement || field instanceof HTMLSelectElement) && field.value !== String(value);
+    if (!isOther || field.matches(":active")) continue;
+    field.value = String(value);
+    const shown = field.parentElement?.querySelector("output");
+    if (shown) shown.textContent = `${value}${unitOf(name, studio)}`;
+  }
+}
+
+/** @param {string} name @param {import("./studio.js").Studio} studio */
+function unitOf(name, studio) {
+  return name === "padding" ? ` ${studio.collage.scene?.unit ?? ""}` : "";
+}
+
 /** @param {Question} one @param {Record<string, any>} now @param {(name: string, value: any) => void} set */
 function choiceOf(one, now, set) {
   const value = String(now[one.name] ?? one.default);
@@ -43,7 +64,7 @@ function choiceOf(one, now, set) {
 function sliderOf(one, now, set, studio) {
   const value = Number(now[one.name] ?? one.default);
   const [least, most, step] = one.range;
-  const unit = one.name === "padding" ? ` ${studio.collage.scene?.unit ?? ""}` : "";
+  const unit = unitOf(one.name, studio);
   const shown = h("output", {}, `${value}${unit}`);
   const field = h("input", { type: "range", min: least, max: Math.max(most, value), step, value: String(value),
     oninput: (/** @type {Event} */ event) => (shown.textContent = `${/** @type {HTMLInputElement} */ (event.target).value}${unit}`),

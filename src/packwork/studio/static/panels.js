@@ -4,7 +4,7 @@
 import { byId, button, h, icon, vector } from "./dom.js";
 import { FontField } from "./fonts.js";
 import { ItemList } from "./items.js";
-import { fillOptions } from "./options.js";
+import { fillOptions, refreshOptions } from "./options.js";
 import { tell } from "./toasts.js";
 import { Words } from "./words.js";
 
@@ -91,6 +91,7 @@ export class Panels {
   refresh() {
     if (this.current === "items") this.items.refresh();
     this.studio.forces.refresh();
+    if (this.current === "options" && this.body) refreshOptions(this.body, this.studio);
     if (this.current === "words") this.words.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {

@@ -227,7 +227,7 @@ export class Studio {
     const panel = byId("panel").hidden ? { width: 0, height: 0 } : byId("panel").getBoundingClientRect();
     const size = { width: box.width, height: box.height, top: ABOVE };
     if (isWide) Object.assign(this.view.size, size, { left: 76 + (panel.width && panel.width + 44), right: MARGIN, bottom: 72 });
-    else Object.assign(this.view.size, size, { left: 12, right: 12, bottom: 118 + (panel.height && panel.height + 8) });
+    else Object.assign(this.view.size, size, { left: 12, right: 12, bottom: 122 + (panel.height && panel.height + 16) });
     this.stage.resize();
     this.view.refit();
   }

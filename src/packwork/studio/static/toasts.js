@@ -3,11 +3,12 @@
 
 import { byId, h } from "./dom.js";
 
-const SECONDS = 6;
+/** Seconds that a line stays: at least, and more for each letter, so that it can be read; at most. */
+const [LEAST, A_LETTER, LONGEST] = [4, 0.05, 12];
 const MOST = 4;
 
 /**
- * Show a line; errors stay longer.
+ * Show a line, for as long as it takes to read it.
  * @param {string} text
  * @param {{isError?: boolean, act?: {label: string, run: () => void}}} [more]
  */
@@ -20,7 +21,8 @@ export function tell(text, { isError = false, act } = {}) {
   toast.append(h("button", { type: "button", class: "close", "aria-label": "Close", onclick: () => toast.remove() }, "×"));
   list.append(toast);
   while (list.children.length > MOST) list.firstElementChild?.remove();
-  setTimeout(() => toast.remove(), 1000 * SECONDS * (isError || act ? 2 : 1));
+  const seconds = Math.min(LEAST + A_LETTER * text.length, LONGEST) + (act ? LEAST : 0);
+  setTimeout(() => toast.remove(), 1000 * seconds);
 }
 
 /**
