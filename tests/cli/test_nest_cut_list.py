@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -75,6 +76,23 @@ def test_what_is_optional_may_be_left_out(shop: Path, packwork: Command) -> None
     assert result.exit_code == 0, result.output
     assert "optional, left out: tile*" in result.output
     assert len(names(shop / "a.geojson")) >= 1
+
+
+def test_a_kit_lies_on_one_sheet_and_two_kits_are_two(shop: Path, packwork: Command) -> None:
+    listed(
+        shop,
+        "file,count,name,together\nparts/tile.svg,2,arm,kit\nparts/tile.svg,1,foot,kit\n"
+        "parts/tile.svg,1,tag,\n",
+    )
+    result = packwork("nest 34x44mm job/list.csv*2 --passes 60 -o a.geojson --report r.json")
+    assert result.exit_code == 0, result.output
+    kits = [names(path) for path in sorted(shop.glob("a-*.geojson"))]
+    assert [Counter(one)["arm"] for one in kits] == [2, 2]
+    assert [Counter(one)["foot"] for one in kits] == [1, 1]
+    listed(shop, "file,count,together\nparts/tile.svg,9,kit\n")
+    result = packwork("nest 34x44mm job/list.csv --passes 60 -o b.geojson")
+    assert result.exit_code == 1
+    assert "no room for tile*9" in result.output
 
 
 def test_columns_that_say_nothing_and_files_elsewhere_are_named(

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from packwork.separation.ground import ground_of, tiles
 from packwork.separation.shapes import Part
@@ -155,3 +157,29 @@ def test_the_widest_part_needs_not_lie_to_a_hair(seed: int) -> None:
     sheets = [FreeSheet(shapely.box(0, 0, 20, 20)) for _ in range(3)]
     laid, _ = lay([Part(region=plate, count=2, turns=(0.3,))], sheets, 20, seed)
     assert [one.sheet for one in laid] == [0]
+
+
+@given(
+    counts=st.lists(st.integers(1, 5), min_size=1, max_size=4),
+    loose=st.integers(0, 4),
+    seed=st.integers(0, 99),
+)
+@settings(deadline=None, max_examples=15)
+def test_parts_that_go_together_lie_on_one_sheet(counts: list[int], loose: int, seed: int) -> None:
+    kinds = [
+        Part(region=region, count=count, turns=(0.0, 1.5), together=f"set {k}")
+        for k, count in enumerate(counts) for region in (SQUARE, TRIANGLE)
+    ]  # fmt: skip
+    parts = [*kinds, Part(region=SQUARE, count=loose)]
+    sheets = [FreeSheet(shapely.box(0, 0, 8, 6)) for _ in range(3)]
+    laid, left = lay(parts, sheets, 200, seed)
+    for name in {part.together for part in kinds}:
+        own = {k for k, part in enumerate(parts) if part.together == name}
+        on = [one.sheet for one in laid if own & set(one.kinds)]
+        counted = sum(left[k] for k in own)
+        assert len(on) <= 1
+        assert counted in {0, sum(parts[k].count for k in own)}
+        assert bool(on) is (counted == 0)
+    placed = Counter(kind for one in laid for kind in one.kinds)
+    assert all(placed[k] + left[k] == part.count for k, part in enumerate(parts))
+    assert max((overlap(regions(parts, one)) for one in laid), default=0.0) < 1e-9

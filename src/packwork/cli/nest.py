@@ -56,7 +56,8 @@ def nest(
         typer.Argument(
             metavar="PART...",
             help="DXF or SVG files, folders; part.dxf*12 for twelve. Or a table of them, with the "
-            "columns file, count and, where wanted, name, rotate, mirror, optional, priority.",
+            "columns file, count and, where wanted, name, rotate, mirror, optional, priority, "
+            "together.",
         ),
     ] = None,
     rotate: Annotated[

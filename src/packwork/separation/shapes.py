@@ -62,6 +62,9 @@ class Part:
     is_optional: bool = False
     """Whether it only fills what all others leave of the sheets that they take."""
 
+    together: str = ""
+    """Name of the parts that lie on the same sheet as this one."""
+
 
 class ShapeTable(NamedTuple):
     """Edges (ax, ay, bx, by) and poles (x, y, radius) of all shapes, and where each begins."""

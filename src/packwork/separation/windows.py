@@ -27,6 +27,14 @@ MOST_IN_WINDOW = 800
 EMPTIEST = 0.3
 """Share of sheets that parts cover at least."""
 
+TRIAL = 0.5
+"""Share of the work that is left to parts that go together which is spent on each sheet that they
+are tried on. More overlooks sheets further on, less those that are full. Chosen."""
+
+TOGETHER, AMONG = 0.7, 0.5
+"""Share of the work that parts which go together have where there are others, and the share of that
+in which others are brought in among them, or they come closer. Chosen."""
+
 FILLING = 0.2
 """Share of the work that optional parts have, where there are some."""
 
@@ -62,14 +70,21 @@ def lay_on_sheets(
     every = np.repeat(np.arange(len(parts)), [part.count for part in parts])
     queue = sorted(laying.random.permutation(every).tolist(), key=lambda k: -parts[k].priority)
     optional = [kind for kind in queue if parts[kind].is_optional]
-    required = [kind for kind in queue if not parts[kind].is_optional]
+    joined = [kind for kind in queue if parts[kind].together]
+    required = [kind for kind in queue if not (parts[kind].is_optional or parts[kind].together)]
     work.start()
-    if not (required and optional):
-        missing = laying.lay(queue, work)
+    missing = Counter[int]()
+    if joined:
+        first = work.part(TOGETHER if required else 1.0)
+        first.start()
+        missing, required = laying.lay_together(joined, required, first)
+        work.done += first.done
+    if not ((required or joined) and optional):
+        missing += laying.lay(required + optional, work)
     else:
         first = work.part(1.0 - FILLING)
         first.start()
-        missing = laying.lay(required, first)
+        missing += laying.lay(required, first)
         work.done += first.done
         missing += laying.fill(optional, work) if not missing else Counter(optional)
     return sorted(laying.laid.values(), key=lambda one: one.sheet), missing
@@ -82,7 +97,14 @@ class _Laying:
         self, parts: Sequence[Part], sheets: Sequence[FreeSheet], seed: int, workers: int,
         stop: Callable[[], bool],
     ) -> None:  # fmt: skip
-        self.parts, self.sheets, self.workers, self.stop = parts, list(sheets), workers, stop
+        self.sheets, self.workers, self.stop = list(sheets), workers, stop
+        priorities = [part.priority for part in parts]
+        # What goes together is there before others are brought in among it.
+        ahead = max(priorities) - min(priorities) + 1
+        self.parts = [
+            replace(part, priority=part.priority + ahead) if part.together else part
+            for part in parts
+        ]
         self.random = np.random.default_rng(seed)
         self.areas = [part.region.area for part in parts]
         self.laid = dict[int, LaidSheet]()
@@ -127,6 +149,67 @@ class _Laying:
             whole = sum(self.areas[kind] for kind in queue)
             work.best_so_far = f"{len(queue)} parts left"
         return Counter(queue)
+
+    def area(self, queue: Sequence[int]) -> float:
+        """Area of parts, in square units."""
+        return float(sum(self.areas[kind] for kind in queue))
+
+    def lay_together(
+        self, queue: Sequence[int], loose: list[int], work: WorkBound
+    ) -> tuple[Counter[int], list[int]]:
+        """Lay parts so that those of one name lie on one sheet, then loose ones among them.
+
+        Returns those without room, and what is left of the loose ones. First fit decreasing, of all
+        parts of a name, where those of a sheet move for more.
+        """
+        names = dict.fromkeys(self.parts[kind].together for kind in queue)
+        sets = [[kind for kind in queue if self.parts[kind].together == name] for name in names]
+        sets.sort(key=lambda one: (-self.parts[one[0]].priority, -self.area(one)))
+        missing, ahead = Counter[int](), self.area(queue)
+        on_sheet, found = dict[int, list[int]](), dict[int, LaidSheet]()
+        trials = work.part(1.0 - AMONG)
+        trials.start()
+        for one in sets:
+            bound = trials.part(min(self.area(one) / ahead, 1.0))
+            bound.start()
+            ahead -= self.area(one)
+            sheet = self._sheet_for(one, on_sheet, found, bound)
+            if sheet is None:
+                missing += Counter(one)
+            trials.done += bound.done
+            work.best_so_far = f"{len(on_sheet)} sheets"
+        work.done += trials.done
+        for n, k in enumerate(sorted(on_sheet), start=1):
+            room = self.sheets[k].area - self.area(on_sheet[k])
+            taken = self._taken(loose, room) if loose else 0
+            bound = work.part(1.0 / (len(on_sheet) - n + 1))
+            laid, left = self._search([*on_sheet[k], *loose[:taken]], [k], bound)
+            work.done += bound.done
+            if not any(left[kind] for kind in on_sheet[k]):
+                found[k] = laid[0]
+                loose = [*left.elements(), *loose[taken:]]
+            self._keep(found[k])
+        return missing, loose
+
+    def _sheet_for(
+        self, parts: list[int], on_sheet: dict[int, list[int]], found: dict[int, LaidSheet],
+        work: WorkBound,
+    ) -> int | None:  # fmt: skip
+        """Lay parts on the first sheet that has room for all of them; None if none has."""
+        too_small = list[FreeSheet]()
+        for k, sheet in enumerate(self.sheets):
+            every = [*on_sheet.get(k, ()), *parts]
+            if self.area(every) > sheet.area or (k not in on_sheet and sheet in too_small):
+                continue
+            trial = work.part(TRIAL)
+            laid, left = self._search(every, [k], trial, shrinks=False)
+            work.done += trial.done
+            if not left:
+                on_sheet[k], found[k] = every, laid[0]
+                return k
+            if k not in on_sheet:
+                too_small.append(sheet)
+        return None
 
     def fill(self, queue: list[int], work: WorkBound) -> Counter[int]:
         """Lay what has room beside what lies on the sheets that are used."""

@@ -25,6 +25,9 @@ SQUARE = "square"
 
 Holes: TypeAlias = Literal["keep", "fill"]
 
+MOST_SETS = 1_000
+"""Times that a list with parts that go together may be wanted."""
+
 MOST_DIGITS = 9
 """Digits of a priority."""
 
@@ -33,7 +36,7 @@ WITHIN_LIMIT = 4
 
 _TIMES = re.compile(r"(?P<source>.+)\*(?P<count>[0-9]{1,6})")
 
-RULES = ("rotate", "mirror", "optional", "priority")
+RULES = ("rotate", "mirror", "optional", "priority", "together")
 """Columns of a cut list that say how its parts may lie."""
 
 _YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
@@ -166,13 +169,24 @@ def _parts(text: str, usual: Mapping[str, str], holes: Holes, scale: float) -> I
         except RecipeError as error:
             raise ReadError(source, f"{row.where}: {error}") if row.where else error from None
         items = read_items(row.file, holes=holes, by_lines=True).items
+        sets = _sets(source, rules.get("together", ""), 1 if times is None else times)
         for k, item in enumerate(items, start=1):
             name = f"{row.name} {k}" if len(items) > 1 else row.name
-            yield SheetPart(
-                item=replace(item, name=name) if row.name else item,
-                count=row.count * (1 if times is None else times), angles=angles, scale=scale,
-                mirrors=mirrors, is_optional=is_optional, priority=priority,
-            )  # fmt: skip
+            named = replace(item, name=name) if row.name else item
+            for together, copies in sets:
+                yield SheetPart(
+                    item=named, count=row.count * copies, angles=angles, scale=scale,
+                    mirrors=mirrors, is_optional=is_optional, priority=priority, together=together,
+                )  # fmt: skip
+
+
+def _sets(source: str, name: str, times: int) -> list[tuple[str, int]]:
+    """Names of what goes together, and how often each part is in it: a list wanted twice is two."""
+    if not name:
+        return [("", times)]
+    if times > MOST_SETS:
+        raise RecipeError("together", f"{source} is wanted {times:,} times; {MOST_SETS:,} at most")
+    return [(f"{source} {name} {k}", 1) for k in range(times)]
 
 
 def angles_of(rotate: str) -> tuple[float, ...] | None:

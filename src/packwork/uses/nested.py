@@ -51,6 +51,9 @@ class SheetPart:
     is_optional: bool = False
     """Whether it only fills what the others leave of the sheets that they take. Not on a strip."""
 
+    together: str = ""
+    """Name: all parts of the same one lie on one sheet, or none of them is laid."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:

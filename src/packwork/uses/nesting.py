@@ -133,6 +133,13 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
         raise RecipeError("rotate", f"{turns:,} angles of all parts are more than {MOST_TURNS:,}")
     if sheets[0].is_strip and any(one.is_optional for one in parts):
         raise RecipeError("optional", "a strip of open length has always room; give a sheet")
+    if any(one.is_optional and one.together for one in parts):
+        raise RecipeError("together", "parts of a name are laid all or none; they are not optional")
+    sets = Counter[str]()
+    for one in parts:
+        sets[one.together] += one.count if one.together else 0
+    if sets and max(sets.values()) > MOST_ON_STRIP:
+        raise RecipeError("together", f"more than {MOST_ON_STRIP:,} parts go together; nest fewer")
     if len(sheets) > 1 and any(sheet.is_strip for sheet in sheets):
         raise RecipeError("sheet", "a strip of open length has no end after which others come")
 
@@ -156,7 +163,7 @@ def _part(asked: SheetPart, gap: float) -> Part:
     region = shapely.transform(asked.item.outline.region, lambda points: points * asked.scale)
     return Part(
         region=spare(region, gap), count=asked.count, turns=asked.angles, mirrors=asked.mirrors,
-        priority=asked.priority, is_optional=asked.is_optional,
+        priority=asked.priority, is_optional=asked.is_optional, together=asked.together,
     )  # fmt: skip
 
 
