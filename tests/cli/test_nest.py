@@ -327,3 +327,10 @@ def test_any_bytes_are_an_instance_or_refused(data: bytes) -> None:
         path.write_bytes(data)
         with contextlib.suppress(ReadError):
             assert read_instance(path).parts
+
+
+def test_a_tool_is_a_distance_of_parts(folder: Path, packwork: Command) -> None:
+    result = packwork("nest 300x200mm builtin:star --tool 150mm --passes 3")
+    assert result.exit_code == 2
+    assert "with the distance that it keeps" in result.output
+    assert packwork("nest 300x200mm builtin:star --tool wide --passes 3").exit_code == 2

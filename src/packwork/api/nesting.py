@@ -114,6 +114,7 @@ def nest(
     mirror: bool = False,
     holes: Literal["keep", "fill"] = "keep",
     kerf: str | float = 0.0,
+    tool: str | float = 0.0,
     margin: str | float | None = None,
     time: float = 20.0,
     passes: int | None = None,
@@ -139,6 +140,9 @@ def nest(
         ``"fill"``: no part lies in the hole of another.
     kerf, margin
         Smallest distance of parts, and of parts from the edge; a number is in units of the sheet.
+    tool
+        Diameter of a mill's tool: ``kerf`` is as much at least, and a notice names places that it
+        cannot enter.
     time, passes
         Seconds to search; or passes, which give the same nest again.
     stop
@@ -172,8 +176,11 @@ def nest(
         ]  # fmt: skip
     gap = _length("kerf", kerf, sheets[0])
     away = None if margin is None else _length("margin", margin, sheets[0])
+    bit = _length("tool", tool, sheets[0])
     work = WorkBound.of(time, passes)
-    found = nesting.nest(laid, sheets, gap=gap, margin=away, seed=seed, work=work, stop=stop)
+    found = nesting.nest(
+        laid, sheets, gap=gap, margin=away, tool=bit, seed=seed, work=work, stop=stop
+    )
     unplaced = Counter[str]()
     for item, count in found.unplaced:
         unplaced[item.name] += count

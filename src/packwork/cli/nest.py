@@ -72,6 +72,13 @@ def nest(
             help="Distance of parts, and from the sheet's edge, as 2mm: the tool's width."
         ),
     ] = "0",
+    tool: Annotated[
+        str,
+        typer.Option(
+            help="Diameter of a mill's tool, as 6mm: --kerf is as much at least, and places that "
+            "it cannot enter are named."
+        ),
+    ] = "0",
     mirror: Annotated[bool, typer.Option("--mirror", help="Parts may be turned over.")] = False,
     holes: Annotated[
         Literal["keep", "fill"],
@@ -127,6 +134,7 @@ def nest(
             sheet, parts or [], optional or [], rotate, mirror=mirror, holes=holes
         )
         gap = length_of("kerf", kerf, sheets[0])
+        bit = length_of("tool", tool, sheets[0])
         away = None if margin is None else length_of("margin", margin, sheets[0])
         _check_files(files, every, no_clobber)
         console = Paper(quiet)
@@ -139,7 +147,7 @@ def nest(
 
         with bar.showing(), interrupt.listening():
             found = nest_parts(
-                counted, sheets, gap=gap, margin=away, seed=seed, work=work, stop=stop
+                counted, sheets, gap=gap, margin=away, tool=bit, seed=seed, work=work, stop=stop
             )  # fmt: skip
         drawn, faults = _drawn(found, files)
         certified = found.certified and not faults

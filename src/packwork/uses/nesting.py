@@ -20,6 +20,7 @@ from packwork.separation.square import SquareGround, SquareSearch
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
+from packwork.uses.tool_reach import tell_unreached
 
 MOST_ON_STRIP = 2_000
 """Parts on a strip: prices of pairs take 64 bytes each, a pass over them a second."""
@@ -41,7 +42,7 @@ MOST_EDGE_CORNERS, EDGE_TOLERANCE = 256, 2e-4
 
 def nest(
     parts: Sequence[SheetPart], sheets: Sequence[Sheet], *, gap: float = 0.0,
-    margin: float | None = None, seed: int = 0, workers: int = 2,
+    margin: float | None = None, tool: float = 0.0, seed: int = 0, workers: int = 2,
     work: WorkBound, stop: Callable[[], bool] = lambda: False,
 ) -> NestedSheets:  # fmt: skip
     """Lay parts on as few sheets as the search finds, and on as short a part of the last one.
@@ -54,6 +55,8 @@ def nest(
         Smallest distance between parts, in the sheets' unit.
     margin
         Smallest distance of parts from a sheet's edge, at least the gap; the gap if None.
+    tool
+        Diameter of what goes round parts: the gap at least; places that it cannot enter are told.
     work
         Passes or seconds that it searches.
     stop
@@ -66,6 +69,9 @@ def nest(
     """
     parts = [one for one in parts if one.count]
     _check(parts, sheets)
+    gap = max(gap, tool)
+    if tool:
+        tell_unreached(parts, tool, sheets[0].unit)
     margin = gap if margin is None else margin
     if margin < gap:
         raise RecipeError("margin", f"{margin:g} is less than {gap:g}, the distance of parts")
