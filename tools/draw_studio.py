@@ -19,7 +19,7 @@ def main() -> None:
     from studio.browsing import Desk, Server, chromium
 
     FOLDER.mkdir(exist_ok=True)
-    server = Server().start()
+    server = Server("heart", "builtin:icons", "-n", "60").start()
     with chromium() as browser:
         desk = Desk(browser.new_page(viewport=SIZE), server.address)
         desk.settled()

@@ -78,7 +78,7 @@ def first_layout(browser: Any) -> Row:
     for _ in range(FIRST_LAYOUTS):
         page = browser.new_page(viewport=WIDE)
         began = time.perf_counter()
-        server = Server().start()
+        server = Server("heart", "builtin:icons", "-n", "60").start()
         desk = Desk(page, server.address)
         desk.until("Boolean(globalThis.studio?.collage.hasPoses)")
         taken.append(time.perf_counter() - began)

@@ -15,6 +15,7 @@ from packwork.live.face.exporting import kept_bytes
 from packwork.live.face.opening import Opening, opening_sent, read_once
 from packwork.live.session import Session
 from packwork.readers.layouts.read import SESSION
+from packwork.studio.kept_workspaces import Shelf
 from packwork.studio.tab import Tab
 from packwork.studio.workspace import Workspace
 
@@ -111,7 +112,7 @@ def test_a_recipe_that_names_what_was_not_sent_is_refused(
     [
         ([("a.packwork", b"PK\x03\x04nothing")], "a.packwork"),
         ([("a.geojson", b"{")], "a.geojson"),
-        ([("a.toml", b'losses = {"os:system" = 1}')], "--allow-code"),
+        ([("a.toml", b'losses = {"os:system" = 1}')], "is code"),
         ([("a.geojson", b"{}"), ("b.packwork", b"")], "open it alone"),
         ([("letter.doc", b"\xd0\xcf")], "what was sent"),
     ],
@@ -134,6 +135,16 @@ def test_what_cannot_be_opened_is_a_line_and_the_desk_stays(
     play(scenario)
 
 
+class OneFile(Shelf):
+    """Always the same file."""
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+
+    def new_file(self) -> Path:
+        return self._file
+
+
 def test_drawings_are_no_documents(tmp_path: Path) -> None:
     (tmp_path / "tile.svg").write_text(SVG, encoding="utf-8")
     assert opening_sent(tmp_path) is None
@@ -145,7 +156,7 @@ def test_what_is_opened_is_kept_apart_from_what_was_there(
     first, second = tmp_path / "first.packwork", tmp_path / "second.packwork"
 
     async def work() -> None:
-        desk = Workspace(Opening(document=opening.document, kept_in=first), lambda: second)
+        desk = Workspace(Opening(document=opening.document, kept_in=first), OneFile(second))
         await desk.begin()
         while desk.owner is None:
             await asyncio.sleep(0.01)

@@ -122,6 +122,12 @@ class Document:
         return replace(made, notes=tuple(notes_on(made, rows, self.notes)))
 
     @property
+    def title(self) -> str:
+        """Title that a person has given, or its container's name."""
+        given = self.manifest.get("title")
+        return given if isinstance(given, str) and given else self.container.name
+
+    @property
     def is_nest(self) -> bool:
         """Whether its items are parts of true size."""
         return NestRules.of(self.manifest) is not None

@@ -5,9 +5,11 @@ from __future__ import annotations
 import asyncio
 import json
 import time
+from base64 import b64encode
 from collections import Counter
 from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager, suppress
+from dataclasses import asdict
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -62,6 +64,7 @@ class Studio:
             Route("/proof/{nonce}", self._proof),
             Route(AGAIN, self._again, methods=["POST"]),
             Route("/choices", self._choices),
+            Route("/recent", self._recent),
             Route("/files", self._batch, methods=["POST"]),
             Route("/files/{batch}", self._file, methods=["POST"]),
             Route("/export", self._export, methods=["POST"]),
@@ -79,6 +82,12 @@ class Studio:
 
     async def _choices(self, request: Request) -> Response:
         return JSONResponse(await asyncio.to_thread(offers))
+
+    async def _recent(self, request: Request) -> Response:
+        shelf = self._workspace.shelf
+        found = [] if shelf is None else await asyncio.to_thread(shelf.recent)
+        told = [{**asdict(one), "png": b64encode(one.png).decode("ascii")} for one in found]
+        return JSONResponse(told)
 
     async def _batch(self, request: Request) -> Response:
         return JSONResponse({"batch": self._uploads.new_batch()})

@@ -21,7 +21,8 @@ from filelock import FileLock, Timeout
 
 from packwork.errors import PackworkError
 from packwork.folders import private_folder
-from packwork.live.face.opening import lock_of
+from packwork.live.face.exporting import layout_bytes
+from packwork.live.face.opening import lock_of, read_once
 
 MOST_WORKSPACES = 8
 """Workspaces that are kept; then the one left alone for longest is written over. Chosen."""
@@ -94,6 +95,66 @@ def new() -> KeptWorkspace | None:
                 one.unlink(missing_ok=True)
             return KeptWorkspace(file, file.with_suffix(".json"))
     return None
+
+
+class Shelf:
+    """Workspaces on disk for one page, whose port and key they are given."""
+
+    def __init__(self, port: int, key: str) -> None:
+        self._port, self._key = port, key
+        self._seen: dict[tuple[Path, float], Recent] = {}
+
+    def new_file(self) -> Path | None:
+        """File of an empty workspace; None if none may be kept."""
+        made = new()
+        return None if made is None else self._remembered(made)
+
+    def file(self, name: str) -> Path:
+        """File of a workspace that :meth:`recent` has told of."""
+        found = next((file for file in _known() if file.stem == name), None)
+        if found is None:
+            raise PackworkError("that is not there any more; open another one")
+        return self._remembered(KeptWorkspace(found, found.with_suffix(".json")))
+
+    def recent(self) -> list[Recent]:
+        """Workspaces that nobody works at, the newest first; what cannot be read is left out."""
+        found = []
+        for file in sorted(_known(), key=_last_used, reverse=True):
+            key = file, _last_used(file)
+            with contextlib.suppress(Timeout, OSError, PackworkError):
+                with FileLock(lock_of(file), blocking=False):
+                    if key not in self._seen:
+                        self._seen[key] = _looked_at(file)
+                found.append(self._seen[key])
+        return found
+
+    def _remembered(self, kept: KeptWorkspace) -> Path:
+        kept.remember(self._port, self._key)
+        return kept.file
+
+
+@dataclass(frozen=True)
+class Recent:
+    """Workspace as a list shows it.
+
+    ``name``: of its file, without folder and ending; ``changed``: seconds since 1970.
+    """
+
+    name: str
+    title: str
+    count: int
+    changed: float
+    png: bytes
+
+
+PICTURE_PX = 240
+"""Longer side of its picture. Chosen."""
+
+
+def _looked_at(file: Path) -> Recent:
+    document = read_once(file).document
+    png = layout_bytes(document.layout, "png", {"pixels": PICTURE_PX, "show_container": True})
+    return Recent(file.stem, document.title, len(document), _last_used(file), png)
 
 
 def last() -> KeptWorkspace:

@@ -6,13 +6,12 @@ written from it.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter, ValidationError
 
-from packwork.errors import PackworkError, ReadError
+from packwork.errors import PackworkError
 from packwork.live import edits
 from packwork.live.commands.command import Command, ItemIds, made, named_container, named_item
 from packwork.live.commands.container import SetContainer
@@ -25,8 +24,9 @@ from packwork.live.owner import Leap
 from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
 from packwork.scene.container import Container, on_canvas
+from packwork.studio.documents import Begin, Name, Open, PageRequest
 from packwork.studio.importer import FILES
-from packwork.studio.wire import SAID, Message
+from packwork.studio.wire import SAID
 from packwork.units import canvas_size
 
 if TYPE_CHECKING:
@@ -44,20 +44,9 @@ SAME = "same"
 """What the container of now is called."""
 
 Count32: TypeAlias = Annotated[int, Field(ge=0, lt=2**32)]
-Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
 Place: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 Weight: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Font: TypeAlias = Annotated[str, Field(max_length=200)]
-
-
-class PageRequest(Message):
-    """A message of a page."""
-
-    type: str
-
-    @abstractmethod
-    def act(self, tab: Tab) -> None:
-        """Do what the page asks for."""
 
 
 class Do(PageRequest):
@@ -164,22 +153,6 @@ class Bring(PageRequest):
             workspace.change(lambda session: edits.add(session, items), ADDING)
         else:
             workspace.pour(0, lambda session: list(brought(session, items)))
-
-
-class Open(PageRequest):
-    """Have another document on the desk: a session, a recipe or a layout that was sent before."""
-
-    type: Literal["open"] = "open"
-    source: Name
-
-    def act(self, tab: Tab) -> None:
-        """Read it; what is there stays until it lies."""
-        tab.importer.read(partial(self._open, tab), "Opening")
-
-    def _open(self, tab: Tab) -> None:
-        if (opening := opening_sent(tab.importer.folder(self.source))) is None:
-            raise ReadError("open", "what was sent is neither a session, a recipe nor a layout")
-        tab.workspace.open_another(opening)
 
 
 class Swap(PageRequest):
@@ -354,8 +327,8 @@ class Set(PageRequest):
 
 
 Told: TypeAlias = Annotated[
-    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Swap | Room | Fill | Picture
-    | Order | Alike | Words | More | Set,
+    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | Swap | Room | Fill
+    | Picture | Order | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

@@ -83,17 +83,11 @@ def serve(
     secret = Secret(name, key_before=key_before, is_plain=host not in LOOPBACK)
     if kept is not None:
         kept.remember(port, secret.key)
-
-    def new_file() -> Path | None:
-        if (made := kept_workspaces.new()) is None:
-            return None
-        made.remember(port, secret.key)
-        return made.file
-
+    shelf = kept_workspaces.Shelf(port, secret.key)
     address = f"http://{name}/#{secret.text}"
     with closing(Uploads()) as uploads:
         config = uvicorn.Config(
-            guarded(Workspace(opening, new_file), uploads, secret),
+            guarded(Workspace(opening, shelf), uploads, secret),
             log_level="warning",
             access_log=False,
             server_header=False,

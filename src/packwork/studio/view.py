@@ -42,6 +42,7 @@ class View:
     options: Mapping[str, Any] = field(default_factory=dict)
     angles: tuple[float, ...] | None = None
     is_nest: bool = False
+    title: str = ""
     poses: Poses | None
 
     @classmethod
@@ -56,6 +57,7 @@ class View:
             options=document.options.model_dump(),
             angles=document.options.rotation.choices,
             is_nest=document.is_nest,
+            title=document.title,
             poses=poses or document.poses,
         )
 
@@ -88,7 +90,7 @@ class View:
         return (
             self.container is other.container
             and self.options == other.options
-            and self.is_nest == other.is_nest
+            and (self.is_nest, self.title) == (other.is_nest, other.title)
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
             and _same(self.held, other.held)
@@ -141,6 +143,7 @@ class Scenes:
             options=dict(view.options),
             angles=view.angles,
             is_nest=view.is_nest,
+            title=view.title or container.name,
         )
         self._last = (view, scene)
         return scene

@@ -73,6 +73,8 @@ class Scene(Message):
     """The only ones allowed, radians; None for any."""
     is_nest: bool = False
     """Whether items are parts of true size."""
+    title: str = ""
+    """That a person has given, or the container's name."""
 
 
 class LeftOut(Message):
@@ -103,6 +105,8 @@ class State(Message):
     """Share of that, 0 where nobody knows."""
     can_stop: bool
     saved: bool
+    fresh: bool = False
+    """Whether it began with nothing that a person named, and nothing was done since."""
 
 
 class Variant(Message):

@@ -24,12 +24,12 @@ from packwork.errors import PackworkError
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Cancel, Drop, Grab
 from packwork.live.commands.together import Together
-from packwork.live.document import Document
-from packwork.live.face.opening import Keeper, Opening, kept_in, opened, read_once
+from packwork.live.face.opening import Keeper, Opening, begun_with, kept_in
 from packwork.live.macros import prepared
 from packwork.live.owner import Frame, Leap, Owner
-from packwork.live.relayout import Moment, in_place, poured, poured_again, poured_into
+from packwork.live.relayout import Moment, in_place, poured_again, poured_into
 from packwork.live.session import Session
+from packwork.studio.kept_workspaces import Shelf
 from packwork.studio.view import Scenes, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
 from packwork.studio.wording import for_page
@@ -64,10 +64,9 @@ class Shown:
 class Workspace:
     """Workspace that pages look at and work on."""
 
-    def __init__(
-        self, opening: Opening, new_file: Callable[[], Path | None] = lambda: None
-    ) -> None:
-        self._opening, self._new_file = opening, new_file
+    def __init__(self, opening: Opening, shelf: Shelf | None = None) -> None:
+        self._opening, self.shelf = opening, shelf
+        self._is_fresh = opening.is_bare
         self._loop: asyncio.AbstractEventLoop | None = None
         self._worker = ThreadPoolExecutor(1, "studio")
         self._drawer = ThreadPoolExecutor(1, "drawing")
@@ -179,6 +178,7 @@ class Workspace:
             progress=self._progress if self._busy else 0.0,
             can_stop=bool(self._busy),
             saved=self._desk is not None and self._desk[1] is not None,
+            fresh=self._is_fresh and not (frame is not None and frame.can_undo),
         )
 
     def _left_out(self, view: View) -> tuple[LeftOut, ...]:
@@ -284,25 +284,15 @@ class Workspace:
 
         The one that is there stays, and stays kept, until the other one lies.
         """
-        before = self._desk
-        self._open(opening, self._new_file)
+        before, self._is_fresh = self._desk, False
+        self._open(opening, lambda: None if self.shelf is None else self.shelf.new_file())
         self._end(before)
 
     def _open(self, opening: Opening, new_file: Callable[[], Path | None]) -> None:
-        keeper = None
-        if opening.file is not None and opening.is_copied:
-            session = read_once(opening.file)
-        elif opening.file is not None:
-            session, keeper = opened(opening.file)
-        elif opening.recipe is not None:
-            layout = poured(
-                opening.recipe, lambda moment: self._see(View.of_moment(moment), moment)
-            )
-            session = Session(Document.from_layout(layout))
-        elif opening.document is not None:
-            session = Session(opening.document)
-        else:
+        begun = begun_with(opening, lambda moment: self._see(View.of_moment(moment), moment))
+        if begun is None:
             return
+        session, keeper = begun
         document = session.document
         left_out = () if opening.file is not None else left_out_of(document.manifest)
         self._unplaced = (document.ids, left_out)

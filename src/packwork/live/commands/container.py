@@ -15,10 +15,12 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
 from packwork.live.document import PROPERTIES, Document
+from packwork.live.file.records import Text
 from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.limits import check_padding
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
+from packwork.scene.item import MAX_LENGTH
 from packwork.start.angles_and_sizes import nearest_allowed
 
 MOST_POINTS = 100_000
@@ -89,6 +91,18 @@ class PlaceContainer(Command):
         to_y = y - along * x - across * y + self.y
         place = affine.similarity(to_x, to_y, turn, self.factor)
         return replace(document, container=_outlined(container, container.outline.mapped(place)))
+
+
+class Entitle(Command):
+    """Give the document a title."""
+
+    kind: Literal["entitle"] = "entitle"
+    title: Annotated[Text, Field(max_length=MAX_LENGTH)]
+    """Empty for that of its container."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the title."""
+        return replace(document, manifest={**document.manifest, "title": self.title})
 
 
 class SetOption(Command):

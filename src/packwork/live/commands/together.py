@@ -8,7 +8,13 @@ from typing import Annotated, Literal, TypeAlias, get_args
 from pydantic import Field, TypeAdapter
 
 from packwork.live.commands.command import Command, Library
-from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
+from packwork.live.commands.container import (
+    Entitle,
+    PlaceContainer,
+    Reshape,
+    SetContainer,
+    SetOption,
+)
 from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
@@ -18,7 +24,7 @@ SingleCommand: TypeAlias = Annotated[
     Move | Turn | Scale | Exchange | Cover | Arrange
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour
-    | SetContainer | Reshape | PlaceContainer | SetOption,
+    | SetContainer | Reshape | PlaceContainer | SetOption | Entitle,
     Field(discriminator="kind"),
 ]  # fmt: skip
 """Any command that is one edit by itself."""

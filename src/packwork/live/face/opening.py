@@ -10,6 +10,7 @@ from typing import Any
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk, lock_beside
+from packwork.live.relayout import Shown, poured
 from packwork.live.session import Session
 from packwork.readers.layouts.read import holds_layout, is_drawn, read_written
 from packwork.readers.recipe import read_recipe
@@ -32,6 +33,7 @@ class Opening:
 
     ``kept_in``: file in which the session is kept, with a journal; None to keep it nowhere.
     ``is_copied``: whether ``file`` is read once and never written.
+    ``is_bare``: whether nothing was given.
     """
 
     recipe: Recipe | None = None
@@ -39,6 +41,7 @@ class Opening:
     file: Path | None = None
     kept_in: Path | None = None
     is_copied: bool = False
+    is_bare: bool = False
 
 
 def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) -> Opening:
@@ -62,7 +65,7 @@ def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) 
     if count is None and len(inputs) < 2:
         count = FIRST_COUNT
     recipe = make_recipe(container=container, items=items, **_drafted(count, options))
-    return Opening(recipe=recipe)
+    return Opening(recipe=recipe, is_bare=not inputs)
 
 
 def opening_sent(folder: Path) -> Opening | None:
@@ -122,6 +125,16 @@ def opened(path: Path) -> tuple[Session, Keeper]:
     """Session that a file holds, all done again that its journal adds, and what keeps it there."""
     disk = Disk(path, is_journaled=True)
     return disk.opened(Session), Keeper(disk)
+
+
+def begun_with(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] | None:
+    """Session of an opening, its run shown, and what keeps it; None where it is empty."""
+    if opening.file is not None:
+        return (read_once(opening.file), None) if opening.is_copied else opened(opening.file)
+    document = opening.document
+    if opening.recipe is not None:
+        document = Document.from_layout(poured(opening.recipe, shown))
+    return None if document is None else (Session(document), None)
 
 
 def kept_in(path: Path, session: Session) -> Keeper:

@@ -110,7 +110,8 @@ function views(studio) {
 function files(studio) {
   return [
     { id: "export", group: "File", label: "Export", keys: ["Mod+E"], icon: "export", when: () => studio.collage.hasPoses, run: () => studio.exporting.open() },
-    { id: "save", group: "File", label: "Save the session as a file", keys: ["Mod+S"], when: () => studio.collage.hasPoses, run: () => studio.exporting.download("packwork", {}) },
+    { id: "new", group: "File", label: "New, or a recent one", keys: ["Shift+N"], run: () => studio.start.open() },
+    { id: "save", group: "File", label: "Save a copy as a session", keys: ["Mod+S"], when: () => studio.collage.hasPoses, run: () => studio.exporting.download("packwork", {}) },
     { id: "add", group: "File", label: "Open or add files", keys: ["Mod+O"], icon: "file", run: () => studio.dropping.choose() },
     { id: "folder", group: "File", label: "Add a folder", keys: ["Mod+Shift+O"], run: () => studio.dropping.chooseFolder() },
     { id: "room", group: "File", label: "Take a file as the container", keys: ["Shift+O"], run: () => studio.dropping.chooseOne((batch) => studio.dropping.fill(batch)) },

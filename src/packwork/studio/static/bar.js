@@ -15,19 +15,24 @@ const CHOSEN = ["hold", "release", "duplicate", "replace", "exchange", "remove"]
 export class Bar {
   /**
    * @param {Map<string, Action>} actions
-   * @param {(colour: string) => void} recolour
+   * @param {{recolour: (colour: string) => void, entitle: (title: string) => void, files: (x: number, y: number) => void}} hears
    */
-  constructor(actions, recolour) {
+  constructor(actions, { recolour, entitle, files }) {
     this.actions = actions;
     /** @type {Map<string, HTMLButtonElement[]>} */
     this.buttons = new Map();
-    this.title = h("span", { id: "title" }, "");
+    this.title = h("input", { id: "title", type: "text", maxlength: "200", "aria-label": "Name of the document", title: "Rename", spellcheck: "false",
+      onchange: () => entitle(this.title.value.trim()), onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && this.title.blur() });
+    const menu = button("down", "Document: new, open, recent, save", () => {
+      const box = menu.getBoundingClientRect();
+      files(box.left, box.bottom + 4);
+    }, { id: "files", "aria-haspopup": "menu" });
     this.saved = h("span", { id: "saved", hidden: true, title: "All you do is kept on this machine: packwork studio --again goes on with it" }, "saved");
     const share = /** @type {Action} */ (actions.get("export"));
     const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), onclick: share.run }, "Export");
     this.buttons.set("export", [leave]);
     byId("bar").append(
-      h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title, this.saved),
+      h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title, menu, this.saved),
       h("div", { class: "group", role: "group", "aria-label": "History" }, ...LEFT.map((id) => this.button(id))),
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );
@@ -54,7 +59,8 @@ export class Bar {
   show(title, chosen, isSaved, colour) {
     if (colour && document.activeElement !== this.colour) this.colour.value = colour;
     this.colour.classList.toggle("mixed", !colour);
-    this.title.textContent = title;
+    if (document.activeElement !== this.title) this.title.value = title;
+    this.title.size = Math.min(Math.max(title.length, 4), 24);
     this.saved.hidden = !isSaved;
     this.name.textContent = chosen;
     byId("choice").hidden = !chosen;

@@ -21,6 +21,7 @@ const ICONS = {
   items: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",
   words: "M5 6V4h14v2M12 4v16M9 20h6",
   options: "M4 7h9M17 7h3M4 17h3M11 17h9M15 5v4M9 15v4",
+  down: "m7 10 5 5 5-5",
   close: "M6 6l12 12M18 6 6 18",
   plus: "M12 5v14M5 12h14",
   minus: "M5 12h14",

@@ -106,7 +106,7 @@ export class Exporting {
     try {
       const body = JSON.stringify({ format: kind, options });
       const answer = await this.connection.ask("/export", { method: "POST", body, headers: { "content-type": "application/json" } });
-      save(await answer.blob(), `${this.collage.scene?.name || "collage"}.${endingOf(kind)}`);
+      save(await answer.blob(), `${this.collage.scene?.title || "collage"}.${endingOf(kind)}`);
       tell(`${FORMATS.find(([ending]) => ending === kind)?.[1] ?? kind} exported`);
       return true;
     } catch (error) {

@@ -7,6 +7,7 @@ import { shownKey } from "./keys.js";
 /** @typedef {import("./actions.js").Action} Action */
 
 const OF_ITEMS = ["hold", "release", "middle", "duplicate", "replace", "exchange", "remove", "alike", "chosen"];
+const OF_FILES = ["new", "add", "folder", "save", "export"];
 const OF_NOTHING = ["add", "folder", "room", "all", "pour", "fit", "export"];
 
 export class Menu {
@@ -31,7 +32,25 @@ export class Menu {
    * @param {boolean} isOfItems
    */
   open(x, y, isOfItems) {
-    const actions = (isOfItems ? OF_ITEMS : OF_NOTHING).map((id) => /** @type {Action} */ (this.actions.get(id)));
+    this.show(isOfItems ? OF_ITEMS : OF_NOTHING, x, y);
+  }
+
+  /**
+   * Open with what can be done with documents.
+   * @param {number} x
+   * @param {number} y
+   */
+  openFiles(x, y) {
+    this.show(OF_FILES, x, y);
+  }
+
+  /**
+   * @param {string[]} ids
+   * @param {number} x
+   * @param {number} y
+   */
+  show(ids, x, y) {
+    const actions = ids.map((id) => /** @type {Action} */ (this.actions.get(id)));
     this.element.replaceChildren(...actions.filter((one) => !one.when || one.when()).map((one) => this.row(one)));
     this.element.showPopover();
     const { offsetWidth, offsetHeight } = this.element;

@@ -24,6 +24,7 @@ import { Replacing } from "./replacing.js";
 import { Room } from "./room.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
+import { Start } from "./start.js";
 import { say, tell } from "./toasts.js";
 import { Variants } from "./variants.js";
 import { View } from "./view.js";
@@ -64,7 +65,11 @@ export class Studio {
     this.exporting = new Exporting(this.connection, this.collage, () => this.panels.load());
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
-    this.bar = new Bar(this.actions, (colour) => this.recolour(colour));
+    this.bar = new Bar(this.actions, {
+      recolour: (colour) => this.recolour(colour),
+      entitle: (title) => this.connection.do({ kind: "entitle", title }),
+      files: (x, y) => this.menu.openFiles(x, y),
+    });
     this.outage = new Outage();
     this.badge = new Badge({ show: (ids) => this.showItems(ids), stop: () => this.connection.send({ type: "stop" }) });
     this.palette = new Palette(actions);
@@ -74,6 +79,9 @@ export class Studio {
     this.panels = new Panels(this);
     this.words = this.panels.words;
     this.incoming = new Incoming(this);
+    this.start = new Start(this);
+    /** Whether templates were offered on this page, where nothing else was there. */
+    this.wasOffered = false;
     this.dropping.takes = (files) => this.incoming.take(files);
     this.replacing = new Replacing(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
@@ -124,7 +132,7 @@ export class Studio {
       this.view.whole = { width: scene.width, height: scene.height };
       this.view.fit(false);
     }
-    document.title = `${scene.name} – Packwork studio`;
+    document.title = `${scene.title} – Packwork studio`;
     this.refresh();
   }
 
@@ -132,6 +140,8 @@ export class Studio {
   stated(state) {
     const before = this.collage.state;
     this.collage.state = state;
+    if (state.fresh && !this.wasOffered) this.start.open();
+    this.wasOffered = true;
     this.badge.show(state);
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
@@ -193,7 +203,7 @@ export class Studio {
     const count = this.choice.ids.size;
     const [id] = this.choice.ids;
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
-    this.bar.show(this.collage.scene?.name ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
+    this.bar.show(this.collage.scene?.title ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
     byId("empty").hidden = this.collage.hasPoses;
     byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";

@@ -1,0 +1,71 @@
+"""Messages of a page that put another document on the desk, and the base of all its messages."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+
+from pydantic import Field
+
+from packwork.errors import ReadError
+from packwork.live.face.opening import Opening, opening_sent
+from packwork.live.face.templates import template
+from packwork.studio.wire import Message
+
+if TYPE_CHECKING:
+    from packwork.studio.tab import Tab
+
+Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
+
+
+class PageRequest(Message):
+    """A message of a page."""
+
+    type: str
+
+    @abstractmethod
+    def act(self, tab: Tab) -> None:
+        """Do what the page asks for."""
+
+
+class Open(PageRequest):
+    """Have another document on the desk: a session, a recipe or a layout that was sent before."""
+
+    type: Literal["open"] = "open"
+    source: Name
+
+    def act(self, tab: Tab) -> None:
+        """Read it; what is there stays until it lies."""
+        tab.importer.read(partial(self._open, tab), "Opening")
+
+    def _open(self, tab: Tab) -> None:
+        if (opening := opening_sent(tab.importer.folder(self.source))) is None:
+            raise ReadError("open", "what was sent is neither a session, a recipe nor a layout")
+        tab.workspace.open_another(opening)
+
+
+class Begin(PageRequest):
+    """Begin another document with a template, or go on with one that is kept."""
+
+    type: Literal["begin"] = "begin"
+    template: Literal["icons", "letters", "words", "nest", "photos", "mosaic"] | None = None
+    source: Name | None = None
+    """Files of those templates that take some."""
+    kept: Annotated[str, Field(pattern="^desk-[0-9]{1,2}$")] | None = None
+    """Name of the kept one."""
+
+    def act(self, tab: Tab) -> None:
+        """Open it; what is there stays until it lies."""
+        tab.importer.read(partial(self._begin, tab), "Opening")
+
+    def _begin(self, tab: Tab) -> None:
+        shelf = tab.workspace.shelf
+        if self.template is not None:
+            folder = None if self.source is None else tab.importer.folder(self.source)
+            opening = template(self.template, folder)
+        elif self.kept is not None and shelf is not None:
+            opening = Opening(file=shelf.file(self.kept))
+        else:
+            raise ReadError("begin", "takes a template or the name of what is kept")
+        tab.workspace.open_another(opening)

@@ -1,0 +1,84 @@
+"""How a document begins on the page: templates, what was kept, a name; in a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from studio.browsing import PHONE, Desk, Server, in_browser
+
+pytestmark = in_browser
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    made = Server().start()
+    yield made
+    made.stop()
+
+
+def test_a_desk_without_inputs_offers_templates(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    dialog = desk.page.locator("dialog.start[open]")
+    dialog.wait_for()
+    assert dialog.locator("img[src*=templates]").count() == 6
+    desk.until("[...document.querySelectorAll('dialog.start img')].every(one => one.naturalWidth)")
+    desk.picture("start")
+    dialog.get_by_role("button", name="Parts on a sheet").click()
+    desk.until("studio.collage.scene?.is_nest")
+    desk.settled()
+    desk.picture("template-nest")
+    # It is kept apart: what was there before can be gone on with.
+    desk.page.keyboard.press("Shift+N")
+    dialog.get_by_role("button", name="heart 60 items").first.click()
+    desk.until("studio.collage.scene?.title === 'heart'")
+    desk.settled()
+
+
+def test_photographs_of_ones_own_fill_a_heart(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    files = []
+    for k, colour in enumerate(("tan", "teal", "navy", "plum")):
+        files.append(tmp_path / f"{colour}.png")
+        Image.new("RGB", (60 + 20 * k, 50), colour).save(files[-1])
+    desk = open_desk()
+    desk.page.keyboard.press("Shift+N")
+    with desk.page.expect_file_chooser() as waiting:
+        desk.page.locator("dialog.start").get_by_role("button", name="Your photographs").click()
+    waiting.value.set_files(files)
+    desk.until(
+        "studio.collage.items.length === 4 && studio.collage.items.some(x => x.name === 'plum')"
+    )
+    desk.settled()
+
+
+def test_a_document_is_renamed_and_begun_by_the_menu(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.keyboard.press("Escape")
+    title = desk.page.locator("#title")
+    title.fill("For Ada")
+    title.press("Enter")
+    desk.until("studio.collage.scene.title === 'For Ada'")
+    assert desk.page.title().startswith("For Ada")
+    desk.page.locator("#files").click()
+    desk.picture("files")
+    with desk.page.expect_download() as waiting:
+        desk.page.get_by_role("menuitem", name="Save a copy").click()
+    assert waiting.value.suggested_filename == "For Ada.packwork"
+
+
+def test_the_start_fits_a_phone(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk(PHONE)
+    if not desk.look("studio.start.dialog.open"):
+        desk.page.locator("#files").click()
+        desk.page.get_by_role("menuitem", name="New").click()
+    desk.page.locator("dialog.start[open]").wait_for()
+    desk.until("[...document.querySelectorAll('dialog.start img')].every(one => one.naturalWidth)")
+    desk.picture("start-phone")
+    box = desk.page.locator("dialog.start").bounding_box()
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= PHONE["width"]
