@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 import packwork as pw
 from packwork import pipeline, uses
 from packwork.cli.show import pile_line
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
+from packwork.progress import Step
 from packwork.readers.layouts.read import read_written
 from packwork.scene.container import Container
 from packwork.settle import bottom_left
@@ -283,3 +285,33 @@ def test_a_pile_of_very_many_says_beforehand_that_it_takes_long(
     monkeypatch.setattr("packwork.uses.piles.use.MANY", most)
     _run("square", count=4, size="12%")
     assert ("a pile of 4 items takes minutes" in caplog.text) == (most < 4)
+
+
+def test_a_pile_leaves_little_bare() -> None:
+    found = []
+    for seed in range(3):
+        recipe = uses.pile_recipe(
+            "square", ["star", "moon", "square"], count=40, size="12%", seed=seed
+        )
+        run = uses.fill(recipe)
+        left, _, right, bottom = run.layout.container.outline.bounds
+        top = np.median([outline.bounds[1] for outline in run.layout.outlines])
+        below = shapely.box(left, top, right, bottom)
+        covered = sum((outline.region & below).area for outline in run.layout.outlines)
+        found.append(covered / below.area)
+    assert np.median(found) > 0.7
+
+
+def test_items_are_told_one_after_another() -> None:
+    counts = []
+
+    class Watcher:
+        every = 1
+
+        def on_step(self, step: Step) -> None:
+            counts.append(len(step.poses))
+
+    recipe = uses.pile_recipe("square", ["circle", "star"], count=9, size="12%")
+    uses.fill(recipe, observer=Watcher())
+    assert counts[:9] == list(range(1, 10))
+    assert set(counts[9:]) == {9}

@@ -37,6 +37,9 @@ longer, smaller leaves more way to the fine ones. Tried."""
 USUAL_ROUNDS = 60
 """Rounds at which the progress told is a half. Chosen."""
 
+ARRIVALS = 60
+"""Steps at most in which items are told that have come one after another. Chosen."""
+
 GRID = 65
 """Points along each side of the room among which bonds look for their middle. Chosen."""
 
@@ -64,6 +67,7 @@ class Arrival:
     """Arrival of a pile's items at their first places.
 
     ``known``: ``(m,)`` items that begin where their poses have them, not quite clear of each other.
+    ``keeps``: whether those stay there as well as they can; they have come in their order if not.
     ``ranks``: ``(n,)`` items of a lower rank get their places first, and so lie lower; empty for
     one rank.
     ``shuffle``: logarithm of size within which items without a place come in random order and not
@@ -75,6 +79,7 @@ class Arrival:
     """
 
     known: IntArray = field(default_factory=lambda: np.arange(0))
+    keeps: bool = True
     ranks: IntArray = field(default_factory=lambda: np.arange(0))
     shuffle: float = 0.0
     source: Source | None = None
@@ -180,12 +185,16 @@ class _Pile:
         """Give all items a first place without conflicts; those that are known keep theirs."""
         all_items, known = self._items, self._arrival.known
         standing = known
-        self._is_given = len(known) > 0
-        if self._is_given:
+        self._is_given = len(known) > 0 and self._arrival.keeps
+        if len(known):
             near = self._arrangement(room, COARSE, known)
             lost = separate_fixed(near, self._gap, self._hair)
             self._take_over(near, known)
             standing = np.delete(known, lost)
+            if not self._is_given:
+                many = len(standing)
+                for come in np.linspace(1, many, min(many, ARRIVALS), dtype=int):
+                    self._tell(standing[:come], self._places(standing[:come]))
         arrangement = self._arrangement(room, COARSE, all_items)
         lifted = np.setdiff1d(all_items, standing)
         sizes = self._order_sizes(arrangement)
@@ -341,9 +350,12 @@ class _Pile:
             self._details[room, FINE] = detail
             if tolerance > FINE:
                 self._details[room, tolerance] = detail.covers(tolerance)
-        x, y, zero = self._poses.x[items], self._poses.y[items], np.zeros(len(items))
         detail = self._details[room, tolerance].subset(items, self._poses)
-        return detail.arrangement(np.column_stack([x, y, zero, zero]))
+        return detail.arrangement(self._places(items))
+
+    def _places(self, items: IntArray) -> FloatArray:
+        x, y, zero = self._poses.x[items], self._poses.y[items], np.zeros(len(items))
+        return np.column_stack([x, y, zero, zero])
 
     def _take_over(self, arrangement: Arrangement, items: IntArray) -> None:
         self._poses = _moved(self._poses, items, arrangement.places)

@@ -199,7 +199,7 @@ class _Fitting:
         self._pins = np.column_stack([limits.x, limits.y])
         self._noise = NOISE * rng.random(image.shape)
         self._fields = fields
-        self._heights = _heights(fields, image.shape, self._px_per_cu)
+        self._heights = heights_on(fields, image.shape, self._px_per_cu)
         self._near = None if homes is None else homes.points * self._px_per_cu
         self._pull = np.zeros(count) if homes is None else homes.pull
         self._homes = allowed_pixels(limits, image, self._px_per_cu)
@@ -361,7 +361,7 @@ class _Fitting:
         return self._outlines[item], float(scale), float(turn)
 
 
-def _heights(
+def heights_on(
     fields: Sequence[FieldForce], shape: tuple[int, ...], px_per_cu: float
 ) -> list[FloatArray]:
     """Heights of fields at all pixels, as shares of the canvas' longer side."""

@@ -172,6 +172,7 @@ class Occupancy:
         is_everywhere: bool = False,
         field: FloatArray | None = None,
         pull: float = 1.0,
+        rows: tuple[int, int] | None = None,
     ) -> tuple[float, int, int] | None:
         """Score, row and column for the stencil's box where it touches most; None if none.
 
@@ -180,10 +181,12 @@ class Occupancy:
         ``is_everywhere``: look at places that touch nothing, too.
         ``field``, ``pull``: ``(rows, columns)`` that is added as well, so many times; None for
         none.
+        ``rows``: first one and end of those that its box may take; None for all.
         """
-        height = stencil.mask.shape[0]
-        _kernels.find_free(self._rows, stencil.boxes, height, self._free)
-        if not self._free.any():
+        height, (top, bottom) = stencil.mask.shape[0], rows or (0, self.shape[0])
+        free = self._free[top:bottom]
+        _kernels.find_free(self._rows[top:bottom], stencil.boxes, height, free)
+        if not free.any():
             return None
         fringe = stencil.fringe
         if len(fringe) > self._most_fringe:
@@ -191,11 +194,11 @@ class Occupancy:
         steps = fringe[:, 0] * self.taken.shape[1] + fringe[:, 1]
         origin = np.array(stencil.origin)
         score, row, column = _kernels.best_touching(
-            self._free, self.taken, self._margin, steps, worth,
-            worth if field is None else field, 0.0 if field is None else float(pull),
+            free, self.taken[top:], self._margin, steps, worth[top:],
+            worth[top:] if field is None else field[top:], 0.0 if field is None else float(pull),
             origin, is_everywhere,
         )  # fmt: skip
-        return (float(score), int(row), int(column)) if row >= 0 else None
+        return (float(score), int(row) + top, int(column)) if row >= 0 else None
 
     def take(self, mask: BoolArray, row: int, column: int) -> None:
         """Take the pixels of a mask put there; what of it lies off the image is not kept."""

@@ -11,7 +11,9 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
+from packwork.forces.forces import Forces
 from packwork.geometry.simplify import hull_areas
 from packwork.metrics.exact import compactness
 from packwork.phrasing import number_of
@@ -24,14 +26,16 @@ from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.registration import matched
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
+from packwork.progress import Stop
 from packwork.recipe.piles import PileOptions
-from packwork.scene.container import brought_over
+from packwork.scene.container import Container, brought_over
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.settle.pile import Arrival, Piled, SettleOptions, pile
-from packwork.start.angles_and_sizes import nearest_allowed
+from packwork.start.angles_and_sizes import nearest_allowed, spread_angles
+from packwork.start.first_fit.lowest_fit import Falling, lowest_fit
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.line_weights import evened
 from packwork.steps.measure import RemarkCount
@@ -95,6 +99,10 @@ MANY = 2_000
 """Items above which it is said that the pile takes long. Of 1,000 it takes a third of a minute of
 one processor core, of 3,000 nearly two, of 10,000 more than seven: rounds grow with the pile's
 height, and what each costs with the items. Measured."""
+
+MOST_ANGLES, LEAST_ANGLES, ALL_ANGLES = 32, 8, 16_000
+"""Angles tried for an item that may turn, at most and at least, and about how many of all items
+together. More find closer places, ever less so, and take as many times longer. Tried."""
 
 AT_EDGE = 1e-3
 """Distance from the canvas' edge, as a share of its longer side, below which an item counts
@@ -175,11 +183,44 @@ def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[J
             shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
             is_round=is_alone,
         )
+        if falls(arrival, forces):
+            poses, known = _fallen(job, room.container, poses, forces, options, context.stop)
+            arrival = replace(arrival, known=known, keeps=False)
         piled = pile(
             room.container, outlines, poses, forces, options, room.basin,
             arrival, context.observer, context.stop,
         )  # fmt: skip
     return job, piled
+
+
+def falls(arrival: Arrival, forces: Forces) -> bool:
+    """Whether nothing but fields says where items come to lie."""
+    is_told = arrival.source is not None or len(arrival.known) > 0
+    return not (is_told or forces.bonds or arrival.centre(forces) is not None)
+
+
+def _fallen(
+    job: Job, container: Container, poses: Poses, forces: Forces, options: SettleOptions, stop: Stop
+) -> tuple[Poses, IntArray]:
+    """Poses of those that found a place by their outlines, and which these are."""
+    rng, outlines = np.random.default_rng(job.plan.seed), job.solid_outlines
+    angles = _angles_tried(job, poses.angle, rng)
+    radii = np.array([outline.radius for outline in outlines]) * poses.scale
+    mixed = radii * np.exp(rng.uniform(-SHUFFLE, SHUFFLE, len(radii)))
+    falling = Falling(
+        outlines, poses.scale, angles, np.argsort(-mixed, kind="stable"), forces.fields,
+        options.gap_cu / 2 + HAIR * container.side,
+    )  # fmt: skip
+    return lowest_fit(container, falling, rng, stop)
+
+
+def _angles_tried(job: Job, first: FloatArray, rng: np.random.Generator) -> list[FloatArray]:
+    """For each item the angles to try, the same for all that may turn alike."""
+    rotations = [one.rotation or job.plan.rotation for one in job.asked]
+    many = min(max(ALL_ANGLES // len(first), LEAST_ANGLES), MOST_ANGLES)
+    spread = {r: spread_angles(many, r.limit, rng) for r in dict.fromkeys(rotations)}
+    spread |= {r: np.array(r.choices) for r in spread if r.choices}
+    return [first[k : k + 1] if r.limit == 0.0 else spread[r] for k, r in enumerate(rotations)]
 
 
 def check_pile(job: Job) -> None:
