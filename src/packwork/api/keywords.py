@@ -329,19 +329,27 @@ class _FillWordsPhotosChart(TypedDict, total=False):
     preset's, or beside them; 0 switches one off."""
 
 
+class _WordsChart(TypedDict, total=False):
+    """Options of words, chart."""
+
+    label_by: str | None
+    """Column that names marks: in files, tooltips and messages, and on marks that have room; of a
+    table of words, their column."""
+
+    size_by: str | None
+    """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
+    all marks are alike."""
+
+    background: str | None
+    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
+
+
 class _WordsPhotos(TypedDict, total=False):
     """Options of words, photos."""
 
     share: str | Mapping[str, float | str] | None
     """Shares of the area where words, photos and other items are mixed:
     words=50%,photos=30%,items=20%."""
-
-
-class _WordsChart(TypedDict, total=False):
-    """Options of words, chart."""
-
-    background: str | None
-    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
 
 
 class FillKeywords(
@@ -379,8 +387,8 @@ class WordsKeywords(
     _FillWordsPile,
     _FillWordsChartPile,
     _FillWordsPhotosChart,
-    _WordsPhotos,
     _WordsChart,
+    _WordsPhotos,
     total=False,
 ):
     """Options of :func:`packwork.words`."""
@@ -494,9 +502,6 @@ class PhotosRun(RunKeywords, PhotosKeywords, total=False):
 class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsChart, total=False):
     """Options of :func:`packwork.chart`."""
 
-    size_by: str | None
-    """Column of numbers that sizes are in proportion to. Default: all marks are alike."""
-
     size_is: Literal["area", "height", "width"]
     """What of a mark is in that proportion: its area, height or width. Default: 'area'."""
 
@@ -514,9 +519,6 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
 
     mark_by: str | None
     """Column whose values have marks of their own: that of the same name, else in turn."""
-
-    label_by: str | None
-    """Column that names marks: in files, tooltips and messages, and on marks that have room."""
 
     by: str | None
     """Column that parts marks into groups: each has a container of its own or, in container none,

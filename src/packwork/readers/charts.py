@@ -29,7 +29,8 @@ class ChartOptions(Options):
     """Columns that were a data frame's index, with their types: they are its index again."""
 
     size_by: str | None = None
-    """Column of numbers that sizes are in proportion to. Default: all marks are alike."""
+    """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
+    all marks are alike."""
 
     size_is: SizeIs = "area"
     """What of a mark is in that proportion: its area, height or width."""
@@ -50,7 +51,8 @@ class ChartOptions(Options):
     """Column whose values have marks of their own: that of the same name, else in turn."""
 
     label_by: str | None = None
-    """Column that names marks: in files, tooltips and messages, and on marks that have room."""
+    """Column that names marks: in files, tooltips and messages, and on marks that have room; of a
+    table of words, their column."""
 
     by: str | None = None
     """Column that parts marks into groups: each has a container of its own or, in container none,

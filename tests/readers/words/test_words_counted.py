@@ -116,6 +116,33 @@ def test_tables_are_read(tmp_path: Path, name: str, text: str) -> None:
     assert counted(str(file)) == {"bear": 2.0, "fox": 1.0}
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("sites.csv", "page,visits,topic,2024\n/a,10,bees,3\n/b,7,honey,5\n"),
+        (
+            "sites.json",
+            '[{"topic": "bees", "visits": 10, "2024": 3}, {"topic": "honey", "2024": 5}]',
+        ),
+    ],
+)
+def test_columns_of_a_table_are_chosen_by_name(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    asked = {"source": str(tmp_path / name), "label_by": "topic", "size_by": "2024"}
+    read = read_words(WordOptions(**asked))
+    assert [(word.text, word.weight) for word in read] == [("honey", 5.0), ("bees", 3.0)]
+    with pytest.raises(
+        RecipeError, match=r"size_by: the table has no column 'sales'; it has .*topic"
+    ):
+        read_words(WordOptions(**{**asked, "size_by": "sales"}))
+
+
+@pytest.mark.parametrize("source", ["bees and honey", {"bees": 2.0}])
+def test_columns_are_of_tables_alone(source: object) -> None:
+    with pytest.raises(RecipeError, match="label_by: names a column; give a table"):
+        read_words(WordOptions(source=source, label_by="topic"))
+
+
 def test_a_long_table_is_cut_and_what_reads_the_same_is_added_up(tmp_path: Path) -> None:
     file = tmp_path / "a.csv"
     file.write_text("".join(f"w{k % 6_000},{1 + k}\n" for k in range(10_000)), encoding="utf-8")

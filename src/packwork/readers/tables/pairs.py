@@ -7,9 +7,9 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
 from packwork.readers.files import read_bytes
 from packwork.readers.tables.cells import is_number_like, written_numbers
@@ -26,6 +26,25 @@ MAX_TABLE_BYTES = 5_000_000
 NAME_COLUMNS = ("word", "text", "name", "term", "label", "key")
 NUMBER_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
 """Names under which tables of others keep the two; else the first and second column."""
+
+
+class PairColumns(NamedTuple):
+    """Columns of the names and of the numbers; None for those that are called so, or come first."""
+
+    label_by: str | None = None
+    size_by: str | None = None
+
+    def check(self, rows: Sequence[tuple[str, Mapping[str, Any]]]) -> None:
+        """Refuse columns that no row has."""
+        there = list(dict.fromkeys(str(key) for _, row in rows for key in row))
+        for option, column in self._asdict().items():
+            if column is not None and column not in there:
+                raise RecipeError(
+                    option, f"the table has no column {column[:40]!r}; it has {enumerated(there)}"
+                )
+
+
+USUAL = PairColumns()
 
 
 @dataclass(frozen=True)
@@ -64,21 +83,26 @@ class Pairs:
     notices: tuple[str, ...] = ()
 
 
-def read_pairs(file: str, asked: TableFormat, most_bytes: int = MAX_TABLE_BYTES) -> Pairs:
+def read_pairs(
+    file: str,
+    asked: TableFormat,
+    most_bytes: int = MAX_TABLE_BYTES,
+    columns: PairColumns = USUAL,
+) -> Pairs:
     """Names and numbers of a file: lines of cells, or JSON.
 
     Its first line may name the columns, and then there may be more of them.
     """
     ending = Path(file).suffix.lower()
     if ending == ".json":
-        return _pairs(_entries(read_json(file, asked), file), file, asked, usual=".")
+        return _pairs(_entries(read_json(file, asked), file), file, asked, ".", columns)
     sheet = read_sheet(read_bytes(file, most_bytes), file, ending, asked)
     usual = "." if sheet.delimiter == "," else ""
-    found = _pairs(_rows(sheet), file, asked, usual)
+    found = _pairs(_rows(sheet, any(columns)), file, asked, usual, columns)
     return Pairs(found.rows, (sheet.notice,) if sheet.notice else ())
 
 
-def pairs_of_rows(rows: Sequence[Mapping[str, Any]]) -> Pairs:
+def pairs_of_rows(rows: Sequence[Mapping[str, Any]], columns: PairColumns = USUAL) -> Pairs:
     """Names and numbers of rows that a program holds.
 
     Examples
@@ -87,15 +111,15 @@ def pairs_of_rows(rows: Sequence[Mapping[str, Any]]) -> Pairs:
     >>> pair.name, pair.others
     ('bear', {'year': '9'})
     """
-    return _pairs(_entries(list(rows), "data"), "data", TableFormat(), usual=".")
+    return _pairs(_entries(list(rows), "data"), "data", TableFormat(), ".", columns)
 
 
-def _rows(sheet: TextTable) -> list[tuple[str, Mapping[str, Any]]]:
+def _rows(sheet: TextTable, is_named: bool) -> list[tuple[str, Mapping[str, Any]]]:
     lines = list(sheet.lines())
     if not lines:
         return []
     first = lines[0][1]
-    named = len(first) > 1 and not any(map(is_number_like, first))
+    named = is_named or (len(first) > 1 and not any(map(is_number_like, first)))
     names = [" ".join(name.split()) for name in first] if named else ["word", "weight"]
     rows: list[tuple[str, Mapping[str, Any]]] = []
     for line, cells in lines[1:] if named else lines:
@@ -126,9 +150,14 @@ def _entries(data: Any, file: str) -> list[tuple[str, Mapping[str, Any]]]:
 
 
 def _pairs(
-    rows: Sequence[tuple[str, Mapping[str, Any]]], file: str, asked: TableFormat, usual: str
+    rows: Sequence[tuple[str, Mapping[str, Any]]],
+    file: str,
+    asked: TableFormat,
+    usual: str,
+    wanted: PairColumns,
 ) -> Pairs:
-    columns = [_columns(row) for _, row in rows]
+    wanted.check(rows)
+    columns = [_columns(row, wanted) for _, row in rows]
     cells = [row.get(second) for (_, row), (_, second) in zip(rows, columns, strict=True)]
     name = next((second for _, second in columns), "weight")
     numbers = written_numbers(cells, file, name, usual=usual, asked=asked.decimal)
@@ -148,12 +177,13 @@ def _pairs(
     )
 
 
-def _columns(row: Mapping[str, Any]) -> tuple[str, str]:
+def _columns(row: Mapping[str, Any], asked: PairColumns) -> tuple[str, str]:
     keys = list(row)
     by_name = {str(key).strip().lower(): key for key in keys}
-    first = _first(NAME_COLUMNS, by_name) or (keys[0] if keys else "")
+    left = [key for key in keys if key != asked.size_by]
+    first = asked.label_by or _first(NAME_COLUMNS, by_name) or (left[0] if left else "")
     rest = [key for key in keys if key != first]
-    wanted = _first(NUMBER_COLUMNS, by_name)
+    wanted = asked.size_by or _first(NUMBER_COLUMNS, by_name)
     return first, wanted if wanted in rest else rest[0] if rest else ""
 
 

@@ -97,6 +97,14 @@ class WordOptions(Options):
     """How many words at most: those of the largest weights. auto: as many as it takes for the
     container's shape to show."""
 
+    label_by: str | None = None
+    """Column that names marks: in files, tooltips and messages, and on marks that have room; of a
+    table of words, their column."""
+
+    size_by: str | None = None
+    """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
+    all marks are alike."""
+
     min_count: Annotated[int, Field(ge=1)] = 1
     """How often a word must stand in the text."""
 

@@ -9,12 +9,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from packwork.errors import ReadError, RowsLostError
+from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.files import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, decoded
 from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.words.options import Word, WordOptions, sound
 from packwork.readers.words.table import MAX_BYTES, read_word_table
 from packwork.readers.words.tokens import (
@@ -206,12 +207,15 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
 
 
 def _words(options: WordOptions, asked: TableFormat) -> Ranked:
-    source = options.source
+    source, columns = options.source, PairColumns(options.label_by, options.size_by)
     stops = own_stop_words(options.stopwords)
+    if any(columns) and (isinstance(source, dict) or not _is_table(source)):
+        key = "label_by" if options.label_by else "size_by"
+        raise RecipeError(key, "names a column; give a table with columns, not a text or weights")
     if isinstance(source, dict):
         read = Ranked(tuple(Word(word, weight) for word, weight in source.items()))
     elif _is_table(source):
-        read = _rows(source, asked)
+        read = _rows(source, asked, columns)
     else:
         text = _text(source, asked)
         read = _counted(text.text, options, stops)
@@ -274,8 +278,8 @@ def _is_long(word: str, options: WordOptions) -> bool:
     return len(word) >= options.min_word_length or "\uac00" <= word <= "\ud7a3"
 
 
-def _rows(source: str, asked: TableFormat) -> Ranked:
-    table = read_word_table(source, asked)
+def _rows(source: str, asked: TableFormat, columns: PairColumns) -> Ranked:
+    table = read_word_table(source, asked, columns)
     if not table.words:
         raise ReadError(source, "holds no words; give lines such as bear,2")
     told = [ReadError(source, notice) for notice in table.notices]

@@ -11,7 +11,15 @@ from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.cells import is_number_like
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.pairs import MOST_NAMED, Pair, Pairs, pairs_of_rows, read_pairs
+from packwork.readers.tables.pairs import (
+    MOST_NAMED,
+    USUAL,
+    Pair,
+    PairColumns,
+    Pairs,
+    pairs_of_rows,
+    read_pairs,
+)
 from packwork.readers.tables.table import total_row
 from packwork.readers.words.options import Word
 
@@ -28,13 +36,13 @@ class TableRead:
     lost: tuple[str, ...] = ()
 
 
-def read_word_table(file: str, asked: TableFormat) -> TableRead:
+def read_word_table(file: str, asked: TableFormat, columns: PairColumns = USUAL) -> TableRead:
     """Words of lines ``word,weight``, or of JSON as ``{"bear": 2}``.
 
     Further columns go under the names of the first line. Rows without a word, or without a
     positive number, are left out and named.
     """
-    return words_of(read_pairs(file, asked, MAX_BYTES), file)
+    return words_of(read_pairs(file, asked, MAX_BYTES, columns), file)
 
 
 def words_of(table: Pairs, file: str) -> TableRead:

@@ -10,6 +10,7 @@ from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.tables.frames import is_frame, rows_of_frame
+from packwork.readers.tables.pairs import PairColumns, pairs_of_rows
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.pictures import check_no_names, known_palette
@@ -54,7 +55,7 @@ def words_recipe(
         # As ``--font`` is meant; the container's own is given beside ``fonts``.
         options["fonts"] = options.pop("font")
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
-    asked = _word_options({"source": _plain_source(source), **own})
+    asked = _word_options({"source": _plain_source(source, own), **own})
     chosen = with_defaults(Verbs.WORDS, options)
     if (font := _container_font(asked, container)) is not None and chosen.get("font") is None:
         chosen["font"] = font
@@ -79,10 +80,17 @@ def _word_options(values: Mapping[str, Any]) -> WordOptions:
     return validated(WordOptions, given)
 
 
-def _plain_source(source: object) -> object:
-    """Tables of other libraries as a dict: a Series, or the first two columns of a frame."""
+def _plain_source(source: object, own: dict[str, Any]) -> object:
+    """Tables of other libraries as a dict: a Series, or two columns of a frame.
+
+    ``own``: options, of which those that say which columns are taken out; else the first two.
+    """
     if is_frame(source):
-        rows = [tuple(row.values()) for row in rows_of_frame(source, has_row_numbers=False)]
+        frame = rows_of_frame(source, has_row_numbers=False)
+        columns = PairColumns(own.pop("label_by", None), own.pop("size_by", None))
+        if any(columns):
+            return {pair.name: pair.number for pair in pairs_of_rows(frame, columns).rows}
+        rows = [tuple(row.values()) for row in frame]
         return {str(row[0]): row[1] for row in rows if len(row) > 1 and row[0] is not None}
     if source is None or isinstance(source, str | os.PathLike | Mapping):
         return source
