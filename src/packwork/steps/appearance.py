@@ -36,8 +36,7 @@ from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
 def beside(layout: Layout) -> IntArray:
     """``(m, 2)`` pairs of items that lie side by side, as ``scene.neighbours`` says."""
-    placed = [item.outline.mapped(layout.poses.matrix(k)) for k, item in enumerate(layout.items)]
-    return side_by_side(placed, layout.poses.x, layout.poses.y)
+    return side_by_side(layout.outlines, layout.poses.x, layout.poses.y)
 
 
 def same_kind_beside(layout: Layout) -> int:

@@ -43,23 +43,31 @@ def smear(rows, words, top, bottom):
 
 
 @kernel
-def find_free(rows, boxes, height, free):
-    """Set a bit of ``free`` where no box of the stencil, moved there, meets a taken pixel."""
+def clear_taken(rows, boxes, height, top, before, free):
+    """Clear bits of ``free`` where a box of the stencil, moved there, meets a taken pixel.
+
+    Its first row is row ``top`` of the image, ``before`` words of each row lie left of it.
+    """
     words = free.shape[1]
     for y in range(free.shape[0]):
-        if y + height > rows.shape[0]:
+        if top + y + height > rows.shape[0]:
             free[y] = np.uint64(0)
             continue
-        free[y] = ALL
         # Only from the first to the last word in which something is free.
         begin, end = 0, words
+        while begin < end and free[y, begin] == np.uint64(0):
+            begin += 1
         for r in range(len(boxes)):
+            if begin == end:
+                break
             row, first, tall, wide, j, k = boxes[r]
             last = first + wide - (1 << k)
             lowest = row + tall - (1 << j)
-            left = _without(rows[y + row, j, k, begin:], first, last, free[y, begin:end])
+            near = rows[top + y + row, j, k, before + begin :]
+            left = _without(near, first, last, free[y, begin:end])
             if lowest != row and left != np.uint64(0):
-                left = _without(rows[y + lowest, j, k, begin:], first, last, free[y, begin:end])
+                near = rows[top + y + lowest, j, k, before + begin :]
+                left = _without(near, first, last, free[y, begin:end])
             if left == np.uint64(0):
                 break
             while free[y, begin] == np.uint64(0):
@@ -86,9 +94,10 @@ def _without(smeared, first, last, free):
 
 
 @kernel
-def best_touching(free, taken, margin, fringe, worth, field, pull, origin, is_everywhere):
+def best_touching(free, taken, begin, fringe, worth, field, pull, origin, is_everywhere):
     """Return score, row and column of the free place whose fringe is taken most; -1 if none.
 
+    ``begin`` is where the first of the places lies among the bytes of ``taken``.
     ``worth + pull * field`` is added for the pixel that the stencil's origin comes to; a worth of
     minus infinity forbids it. Unless ``is_everywhere``, only places beside one that is not free
     come into question.
@@ -125,7 +134,7 @@ def best_touching(free, taken, margin, fringe, worth, field, pull, origin, is_ev
                         continue
                     if more == -np.inf or 1.0 + more < least:
                         continue
-                    base = (y + margin) * width + x + margin
+                    base = begin + y * width + x
                     touched = 0
                     for k in range(len(fringe)):
                         touched += flat[base + fringe[k]]

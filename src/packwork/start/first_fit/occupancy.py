@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.distance_transform import distance_inside, distance_to
@@ -14,6 +16,9 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.raster.coverage import TOUCHED, Rasteriser
 from packwork.start.first_fit import _kernels
+
+Bits: TypeAlias = NDArray[np.uint64]
+"""Rows of pixels, 64 in a word, the lowest bit leftmost."""
 
 REACH = 3
 """Width of a fringe, pixels, in which taken pixels are counted. More tell better which place is
@@ -110,7 +115,8 @@ def stencil_of(mask: BoolArray, origin: tuple[int, int], reach: int) -> Stencil:
 
 
 LEVELS = 10
-"""Widths of boxes that are looked at in one step: powers of two up to 512."""
+"""Widths of boxes that are looked at in one step: powers of two up to 512, for stencils of less
+than 1,024 pixels."""
 
 MOST_FRINGE = 96
 """The same unless more are asked for."""
@@ -121,6 +127,7 @@ class Occupancy:
 
     ``free``: ``(rows, columns)`` the pixels that may be taken.
     ``margin``: pixels by which a fringe may reach out of a box.
+    ``levels``: number of widths of boxes: wider stencils need more.
     ``most_fringe``: pixels round a stencil that are looked at, at most: every so manieth of a
     longer fringe.
 
@@ -140,7 +147,9 @@ class Occupancy:
     0.83 0 2
     """
 
-    def __init__(self, free: BoolArray, margin: int, most_fringe: int = MOST_FRINGE) -> None:
+    def __init__(
+        self, free: BoolArray, margin: int, most_fringe: int = MOST_FRINGE, levels: int = LEVELS
+    ) -> None:
         height, width = free.shape
         self.shape = (height, width)
         self._margin, self._most_fringe = margin, most_fringe
@@ -149,7 +158,7 @@ class Occupancy:
         self.taken[margin : margin + height, margin : margin + width] = ~free
         self._words = -(-width // 64)
         self._rows = np.full(
-            (height, TALLEST + 1, LEVELS, 2 * self._words + 1), _kernels.ALL, dtype=np.uint64
+            (height, TALLEST + 1, levels, 2 * self._words + 1), _kernels.ALL, dtype=np.uint64
         )
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: NearestTaken | None = None
@@ -183,22 +192,32 @@ class Occupancy:
         none.
         ``rows``: first one and end of those that its box may take; None for all.
         """
-        height, (top, bottom) = stencil.mask.shape[0], rows or (0, self.shape[0])
+        top, bottom = rows or (0, self.shape[0])
         free = self._free[top:bottom]
-        _kernels.find_free(self._rows[top:bottom], stencil.boxes, height, free)
+        free[...] = _kernels.ALL
+        _kernels.clear_taken(
+            self._rows[top:bottom], stencil.boxes, stencil.mask.shape[0], 0, 0, free
+        )
         if not free.any():
             return None
         fringe = stencil.fringe
         if len(fringe) > self._most_fringe:
             fringe = fringe[:: -(-len(fringe) // self._most_fringe)]
-        steps = fringe[:, 0] * self.taken.shape[1] + fringe[:, 1]
-        origin = np.array(stencil.origin)
+        width = self.taken.shape[1]
+        steps, begin = fringe[:, 0] * width + fringe[:, 1], self._margin * (width + 1)
         score, row, column = _kernels.best_touching(
-            free, self.taken[top:], self._margin, steps, worth[top:],
+            free, self.taken[top:], begin, steps, worth[top:],
             worth[top:] if field is None else field[top:], 0.0 if field is None else float(pull),
-            origin, is_everywhere,
+            np.array(stencil.origin), is_everywhere,
         )  # fmt: skip
         return (float(score), int(row) + top, int(column)) if row >= 0 else None
+
+    def clear(self, boxes: IntArray, height: int, free: Bits, top: int = 0, word: int = 0) -> None:
+        """Clear bits for the corner of a stencil so high where its boxes meet what is taken.
+
+        ``free``: ``(rows, words)`` of 64 pixels each, from a row and a word on; changed in place.
+        """
+        _kernels.clear_taken(self._rows, boxes, height, top, word, free)
 
     def take(self, mask: BoolArray, row: int, column: int) -> None:
         """Take the pixels of a mask put there; what of it lies off the image is not kept."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -30,6 +30,7 @@ from packwork.scene.layout import Layout
 from packwork.steps.close_gap import RemarkGap, close_gap
 from packwork.steps.control import Replan, Retry
 from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, smaller_copies
+from packwork.steps.track import StartRecording
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer
 from packwork.uses.photos.crop import crops
@@ -42,7 +43,9 @@ from packwork.uses.words.copies import (
     words_needed,
     words_of,
 )
+from packwork.uses.words.fitted import BESIDE, FitWords, goes_by_letters, least_gap
 from packwork.uses.words.graded import GradedPlaces, can_give_way
+from packwork.uses.words.grown import GrowWords
 from packwork.uses.words.repeats import REPEATED, RepeatWords
 from packwork.uses.words.sizes import (
     BelowHero,
@@ -96,16 +99,8 @@ class WordsUse(Use):
     palette_tints = has_nearest = False
 
     def steps(self, job: Job) -> Sequence[RunStep]:
-        """Steps of a cloud, closer together where there are so many words."""
-        gap = close_gap(job, Verbs.WORDS, CLOSE)
-        if gap >= job.plan.gap:
-            return self._listed(job)
-        closer = job.replanned(gap=gap)
-        return [Replan(gap=gap), *self._listed(closer), RemarkGap("words")]
-
-    def _listed(self, job: Job) -> list[RunStep]:
         """Sizes in proportion; where they leave the container bare, sizes that give way in turn."""
-        graded = [Replan(sizes="graded"), *self._graded(job)]
+        graded = [Replan(sizes="graded"), *_closer(job, self._graded)]
         if job.plan.sizes == "graded" and (job.recipe.sizes != AUTO or can_give_way(job)):
             return graded
         first: list[RunStep] = []
@@ -132,18 +127,29 @@ class WordsUse(Use):
 
     def _placed(self, job: Job, is_below_hero: bool = False) -> list[RunStep]:
         """Words whose sizes are not graded, measured."""
+        by_letters = goes_by_letters(job) and not is_below_hero
         bounds: list[RunStep] = [BelowHero()] if is_below_hero else []
         if self.letters.largest is not None:
             bounds.append(LettersAtMost(self.letters.largest))
 
         def listed(job: Job) -> list[RunStep]:
             # However many: levels leave letters no room, and thousands of words become specks.
-            return placing(job, suits_first_fit=True, bounds=bounds)
+            steps = placing(job, suits_first_fit=True, bounds=bounds)
+            if not by_letters:
+                return steps
+            then: list[RunStep] = [StartRecording()] if job.is_recorded else []
+            return [FitWords([*then, GrowWords(BESIDE * EM_PX)], steps), *bounds]
 
-        smallest, steps = self.letters.smallest, listed(job)
-        if smallest is not None:
-            steps = [FewerWords(listed, job, smallest)]
-        return [*steps, *self._filled(job), *self.report(job)]
+        def all_of(job: Job) -> list[RunStep]:
+            smallest, steps = self.letters.smallest, listed(job)
+            if smallest is not None:
+                steps = [FewerWords(listed, job, smallest)]
+            return [*steps, *self._filled(job), *self.report(job)]
+
+        if not by_letters:
+            return _closer(job, all_of)
+        gap = least_gap(job)
+        return [Replan(gap=gap), *all_of(job.replanned(gap=gap))]
 
     def _graded(self, job: Job) -> list[RunStep]:
         """Words each as large as it finds a place in its turn, measured."""
@@ -241,6 +247,14 @@ class WordsUse(Use):
             for item, height in zip(self.read.items, true, strict=True)
             if item in scales
         }
+
+
+def _closer(job: Job, listed: Callable[[Job], list[RunStep]]) -> list[RunStep]:
+    """Steps of a cloud, closer together where there are so many words."""
+    gap = close_gap(job, Verbs.WORDS, CLOSE)
+    if gap >= job.plan.gap:
+        return listed(job)
+    return [Replan(gap=gap), *listed(job.replanned(gap=gap)), RemarkGap("words")]
 
 
 def fuller(tried: Sequence[RunState], context: RunContext) -> RunState:

@@ -1,0 +1,314 @@
+"""Thousands of items of one common size, put one after another on tiles of a fine image.
+
+First-fit decreasing where most is touched, as in ``first_fit``; but an item looks at a few tiles,
+drawn by lot, in place of the whole image, so that pixels may be so fine that no exact search has to
+follow. Tiles in which a smaller item found no place are passed over. Room between two items goes by
+the smaller one of them, which is the later one, and the edge asks for none of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline
+from packwork.progress import Stop, never
+from packwork.raster.coverage import TOUCHED
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.first_fit import URGENCY
+from packwork.start.first_fit.greedy_board import GRAZED
+from packwork.start.first_fit.occupancy import NOISE, Occupancy, Stencil, covered, stencil_of
+from packwork.start.first_poses import container_image
+
+PIXELS_EACH = 42
+"""Side of an item's share of the container, pixels. More waste less room at the edges of pixels and
+take longer. Tried."""
+
+LEAST_PX, MOST_PX = 800, 4_000
+"""Sides of the image at least and at most: two boards of the most take 330 MB."""
+
+TILE_WORDS, TILE_PX = 8, 128
+"""Width of a tile, in words of 64 pixels, and its height. Larger takes longer, smaller packs less,
+and narrow ones take longer, too. Tried."""
+
+COMPARED, OF_FEW = 3, 1_500
+"""Tiles with a place of which the best is taken, and the same times the number of items where that
+is more. More take longer. Tried."""
+
+PUT = 250
+"""Items that are put for one size, all attempts together, or all items once. More take longer.
+Tried."""
+
+LOT = 0.5
+"""How much of the order of tiles, those with most room first, is by lot. Larger looks at more tiles
+without a place, smaller lays items of a size side by side. Tried."""
+
+RETRIED = 0.9
+"""Area of an item over that of the smallest that found no place in a tile, above which it is not
+tried there until nothing else is left. Larger takes longer, smaller packs less. Tried."""
+
+REACH, MOST_FRINGE = 4, 100
+"""Width of the fringe in which taken pixels are counted, and how many of them. Tried."""
+
+FIRST_SHARE = 0.5
+"""Share of the container that the first try's items cover. Any other takes more tries."""
+
+STRIDE, WIDEST, CLOSE = 1.02, 1.12, 1.006
+"""Factor between the first two sizes tried, squared while all fit up to the widest, and that
+between one that fits and one that does not at which the search ends. Smaller finds more. Chosen."""
+
+SHORT = 1.3
+"""By how much less all must cover, over the share that found no place. Smaller takes more tries,
+larger begins from below. Measured."""
+
+MISSING = 0.03
+"""Share of all areas without a place from which a size is given up. Chosen."""
+
+MOST_SIZES = 12
+"""Sizes tried at most. Chosen."""
+
+
+class Tile(NamedTuple):
+    """Part of the image in which the corner of a stencil's box may lie."""
+
+    top: int
+    word: int
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """What a size has come to: poses, or what share of all areas found no place."""
+
+    factor: float
+    missing: float
+    poses: Poses
+
+
+def tiled_fit(
+    container: Container,
+    outlines: Sequence[Outline],
+    scales: FloatArray,
+    angles: FloatArray,
+    rng: np.random.Generator,
+    *,
+    apart: tuple[float, float] = (0.0, 0.0),
+    margin_cu: float = 0.0,
+    attempts: int = 1,
+    tell: Callable[[Poses], None] = lambda poses: None,
+    stop: Stop = never,
+) -> Poses | None:
+    """Poses at the largest common factor found at which nothing overlaps; None if there is none.
+
+    ``scales``, ``angles``: ``(n,)`` in proportion, and radians.
+    ``apart``: room that an item keeps along and across itself from those that are no smaller, item
+    units.
+    ``margin_cu``: room that all keep from each other and from the edge, canvas units.
+    ``attempts``: orders tried for each size of few items; of many, one.
+    ``tell``: told of what lies where after each size that fits.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = tile.mapped(similarity(50.0, 50.0, 0.0, 50.0))
+    >>> container = Container("", "", wall, 100.0, 100.0)
+    >>> rng = np.random.default_rng(0)
+    >>> poses = tiled_fit(container, [tile] * 4, np.ones(4), np.zeros(4), rng)
+    >>> bool(49 < 2 * poses.scale[0] <= 50), len(set(zip(poses.x, poses.y)))
+    (True, 4)
+    """
+    own = np.array([outline.area for outline in outlines])
+    share = float((own * scales**2).sum()) / container.outline.area
+    search = _Search(container, outlines, scales, angles, own, rng, apart, margin_cu, attempts)
+    factor, stride = math.sqrt(FIRST_SHARE / share), STRIDE
+    best: Tried | None = None
+    lost: Tried | None = None
+    for _ in range(MOST_SIZES):
+        found = search.best_at(factor, stop)
+        if found is None:
+            break
+        if found.missing:
+            lost = found
+        else:
+            best = found
+            tell(found.poses)
+        if lost is None:
+            factor, stride = factor * stride, min(stride**2, WIDEST)
+            continue
+        # What would have fitted, were as much left bare.
+        factor = lost.factor * math.sqrt(max(1 - SHORT * lost.missing, 0.5))
+        if best is not None:
+            if lost.factor <= best.factor * CLOSE:
+                break
+            if factor <= best.factor:
+                factor = math.sqrt(best.factor * lost.factor)
+            factor = min(max(factor, best.factor * CLOSE), lost.factor / math.sqrt(CLOSE))
+    return None if best is None else best.poses
+
+
+class _Search:
+    """What is the same for all sizes."""
+
+    def __init__(
+        self,
+        container: Container,
+        outlines: Sequence[Outline],
+        scales: FloatArray,
+        angles: FloatArray,
+        own: FloatArray,
+        rng: np.random.Generator,
+        apart: tuple[float, float],
+        margin_cu: float,
+        attempts: int,
+    ) -> None:
+        each = math.sqrt(container.outline.area / len(outlines)) / container.side
+        side = min(max(round(PIXELS_EACH / each), LEAST_PX), MOST_PX)
+        image, self._px_per_cu = container_image(container, side)
+        self._inside: BoolArray = image > 1 - TOUCHED
+        # As many as the widest stencil that fits needs, its room counted in.
+        self._levels = int(1.2 * max(image.shape)).bit_length()
+        self._edge = Occupancy(self._inside, 0, levels=self._levels)
+        self._outlines, self._scales, self._angles = outlines, scales, angles
+        self._areas, self._rng, self._apart = own * scales**2, rng, apart
+        self._margin_px = margin_cu / 2 * self._px_per_cu + GRAZED
+        self._urgency = self._areas.copy()
+        self._attempts = max(1, min(attempts, PUT // len(outlines)))
+
+    def best_at(self, factor: float, stop: Stop) -> Tried | None:
+        """The best of some attempts at one size, in which what had no place comes earlier."""
+        best: Tried | None = None
+        for _ in range(self._attempts):
+            found = self._put_all(factor, stop)
+            if found is None or (best is not None and best.missing <= found.missing):
+                continue
+            best = found
+            if not found.missing:
+                break
+        return best
+
+    def _put_all(self, factor: float, stop: Stop) -> Tried | None:
+        """What becomes of one size; None if stopped."""
+        scales = self._scales * factor
+        board = _Board(self._edge, self._levels, self._inside, len(scales), self._rng)
+        x, y = np.zeros((2, len(scales)))
+        missing, all_areas = 0.0, float(self._areas.sum())
+        for k in np.argsort(-self._urgency, kind="stable"):
+            if stop():
+                return None
+            place = self._put(board, int(k), float(scales[k]))
+            if place is None:
+                self._urgency[k] *= URGENCY
+                missing += float(self._areas[k]) / all_areas
+                if missing > MISSING:
+                    break
+                continue
+            x[k], y[k] = place
+        return Tried(factor, missing, Poses(x, y, self._angles, scales))
+
+    def _put(self, board: _Board, item: int, scale: float) -> tuple[float, float] | None:
+        """Point at which an item is put, canvas units; None if it finds no place."""
+        angle, px = float(self._angles[item]), scale * self._px_per_cu
+        posed = self._outlines[item].mapped(similarity(0.0, 0.0, angle, px))
+        narrow = stencil_of(*covered(posed, self._margin_px), REACH)
+        turned = np.abs([[np.cos(angle), np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        room = np.rint(turned @ self._apart * px).astype(int)
+        corner = board.put(narrow, int(room[1]), int(room[0]), float(self._areas[item]))
+        if corner is None:
+            return None
+        row, column = np.array(corner) + narrow.origin
+        return column / self._px_per_cu, row / self._px_per_cu
+
+
+class _Board:
+    """Bitmaps of the edge and of items, which ask for more room, and bytes of what either takes.
+
+    That of items is larger, by what a stencil's room may reach beyond the container.
+    """
+
+    def __init__(
+        self,
+        edge: Occupancy,
+        levels: int,
+        inside: BoolArray,
+        count: int,
+        rng: np.random.Generator,
+    ) -> None:
+        height, width = inside.shape
+        self._edge, self._rng, self._pad = edge, rng, max(height, width) // 16
+        padded = height + 2 * self._pad, width + 2 * self._pad
+        self._items = Occupancy(np.ones(padded, dtype=bool), 0, levels=levels)
+        margin = REACH + self._pad
+        self._taken = np.pad(~inside, margin, constant_values=True).astype(np.uint8)
+        self._words = -(-width // 64)
+        self._across = -(-self._words // TILE_WORDS)
+        self._tiles = [
+            Tile(top, word)
+            for top in range(0, height, TILE_PX)
+            for word in range(0, self._words, TILE_WORDS)
+        ]
+        self._left = np.array([float(self._part(inside, *tile).sum()) for tile in self._tiles])
+        self._free = np.empty((TILE_PX, TILE_WORDS), dtype=np.uint64)
+        self._noise = NOISE * rng.random((TILE_PX, 64 * TILE_WORDS))
+        # Smallest item that found no place in each: larger ones are not tried there.
+        self._compared = max(COMPARED, OF_FEW // count)
+        self._failed = np.full(len(self._tiles), np.inf)
+
+    @staticmethod
+    def _part(image: BoolArray, top: int, word: int) -> BoolArray:
+        """What a tile shows of an image."""
+        return image[top : top + TILE_PX, 64 * word : 64 * (word + TILE_WORDS)]
+
+    def put(self, stencil: Stencil, down: int, across: int, area: float) -> tuple[int, int] | None:
+        """Take the pixels of an item, with room round it, at its best place; the corner there."""
+        down, across = min(down, self._pad), min(across, self._pad)
+        wide = stencil_of(_kernels.spread(stencil.mask, down, across), (down, across), REACH)
+        boxes = wide.boxes + np.array([self._pad - down, self._pad - across, 0, 0, 0, 0])
+        lowest = self._pad - down + len(wide.mask)
+        fringe = (wide.fringe - wide.origin)[:: -(-len(wide.fringe) // MOST_FRINGE)]
+        steps = fringe[:, 0] * self._taken.shape[1] + fringe[:, 1]
+        order = np.argsort(-self._left * (1 + LOT * self._rng.random(len(self._left))))
+        for tiles in (order[RETRIED * self._failed[order] > area], order):
+            found = list[tuple[float, int, int]]()
+            for t in tiles.tolist():
+                place = self._best_in(self._tiles[t], stencil, boxes, lowest, steps)
+                if place is None:
+                    self._failed[t] = min(self._failed[t], area)
+                    continue
+                found.append(place)
+                if len(found) == self._compared:
+                    break
+            if found:
+                _, row, column = max(found)
+                self._items.take(stencil.mask, row + self._pad, column + self._pad)
+                top, left = row + self._pad + REACH, column + self._pad + REACH
+                height, width = stencil.mask.shape
+                self._taken[top : top + height, left : left + width] |= stencil.mask
+                middle = (row + height // 2) // TILE_PX, (column + width // 2) // (64 * TILE_WORDS)
+                self._left[self._across * middle[0] + middle[1]] -= stencil.mask.sum()
+                return row, column
+        return None
+
+    def _best_in(
+        self, tile: Tile, stencil: Stencil, boxes: IntArray, lowest: int, steps: IntArray
+    ) -> tuple[float, int, int] | None:
+        """Score and corner of the best place in a tile; None if there is none."""
+        free = self._free[:, : min(TILE_WORDS, self._words - tile.word)]
+        free[...] = _kernels.ALL
+        self._items.clear(boxes, lowest, free, *tile)
+        if free.any():
+            self._edge.clear(stencil.boxes, len(stencil.mask), free, *tile)
+        if not free.any():
+            return None
+        m, width = REACH + self._pad, self._taken.shape[1]
+        begin, corner = (tile.top + m) * width + 64 * tile.word + m, np.zeros(2, dtype=np.int64)
+        score, row, column = _kernels.best_touching(
+            free, self._taken, begin, steps, self._noise, self._noise, 0.0, corner, False
+        )
+        return float(score), tile.top + int(row), 64 * tile.word + int(column)

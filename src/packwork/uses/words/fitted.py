@@ -1,0 +1,107 @@
+"""Words of one common scale with room between them that goes by their letters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import final
+
+import numpy as np
+
+from packwork.compaction.options import HAIR
+from packwork.geometry.bezier import FLATTENING
+from packwork.offers import Verbs
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.limits import check_padding, padded
+from packwork.pipeline.run import RunContext, RunStep, run_steps
+from packwork.pipeline.state import RunState
+from packwork.progress import Step, until_over
+from packwork.readers.words.items import EM_PX
+from packwork.recipe.verbs import VERBS
+from packwork.scene.pose import Poses
+from packwork.solve.solver import Ending
+from packwork.start.first_fit.tiled import tiled_fit
+from packwork.steps.place import first_angles
+from packwork.steps.starts import ATTEMPTS, FEW, may_rearrange
+
+BESIDE, ABOVE = 0.15, 0.015
+"""Room between two words, ems of the smaller, along and across them. Larger draws less ink, 0.05
+more beside 2 % of it; smaller lets two words of a line read as one. By eye."""
+
+SPARE = 2 * HAIR + 4 * FLATTENING
+"""What curves reach beyond their polygons, and rounding, as a share of the canvas. Derived."""
+
+COVERED = 0.5
+"""Share of the container that words come to cover, by which the least gap goes. Chosen."""
+
+
+def goes_by_letters(job: Job) -> bool:
+    """Whether a job is of many words and of nothing else, at one common scale and kept angles."""
+    plan, are_words = job.plan, len(job.use.words) == len(job.items) > FEW
+    is_still = plan.rotation.is_still or bool(plan.rotation.choices)
+    is_plain = not plan.method and not plan.share and may_rearrange(job)
+    return plan.sizes == "shared" and are_words and is_still and is_plain
+
+
+def least_gap(job: Job) -> float:
+    """Gap that all words keep, canvas units: what was asked for, or the least room above.
+
+    Unless a gap was asked for: the usual one is far more than small letters need.
+    """
+    if job.recipe.padding != VERBS[Verbs.WORDS].defaults["padding"]:
+        return job.plan.gap
+    scales = np.sqrt(job.weights / [item.outline.area for item in job.items])
+    covered = COVERED * job.container.outline.area
+    em = EM_PX * float(scales.min()) * float(np.sqrt(covered / job.weights.sum()))
+    return min(job.plan.gap, ABOVE * em)
+
+
+@final
+class FitWords(RunStep):
+    """Places and common scale of words by tiled first fit, exact.
+
+    Parameters
+    ----------
+    then
+        Steps once there are some.
+    otherwise
+        Steps for a container in which no size is found so.
+    """
+
+    share = 1.0
+
+    def __init__(self, then: Sequence[RunStep], otherwise: Sequence[RunStep]) -> None:
+        self._then, self._otherwise = then, otherwise
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State in which no word comes nearer than the gap to another or to the edge."""
+        job, heard = state.job, context.heard_by(state.recorder)
+        plan, outlines = job.plan, job.solid_outlines
+        check_padding(job.container, plan.gap, len(job.items))
+        unit = np.sqrt(job.weights / [item.outline.area for item in job.items])
+        ink = float(job.weights.sum()) / job.container.outline.area
+
+        def tell(poses: Poses) -> None:
+            covered = ink * float(poses.scale[0] / unit[0]) ** 2
+            shares = (covered, 0.0, 0.0)
+            heard.observer.on_step(
+                Step(0, 1, 0, 0, covered, poses, lambda: shares, is_finish=True, stage="finish")
+            )
+
+        with job.clock.time("start"):
+            rng = np.random.default_rng(plan.seed)
+            region = padded(job.container, plan.gap) if plan.gap else job.container
+            poses = tiled_fit(
+                region, outlines, unit, first_angles(job, rng), rng,
+                apart=(BESIDE * EM_PX, ABOVE * EM_PX) if plan.gap else (0.0, 0.0),
+                margin_cu=plan.gap + SPARE * job.container.side, attempts=ATTEMPTS[plan.effort],
+                tell=tell, stop=until_over(context.stop, job.seconds_left(0.9)),
+            )  # fmt: skip
+        if poses is None:
+            return run_steps(self._otherwise, state, context)
+        ending = Ending.STOPPED if context.stop() else Ending.DONE
+        found = replace(
+            state, poses=poses, nominal=poses.scale, method="first-fit", is_tight=True,
+            ending=ending,
+        )  # fmt: skip
+        return run_steps(self._then, found, context)

@@ -1,0 +1,78 @@
+"""Words of one common scale stand apart by their letters."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.geometry.outline import Outline
+from packwork.readers.words.items import EM_PX
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.uses.words.fitted import BESIDE
+from packwork.uses.words.grown import barred
+
+NAMES = ("harbour", "tide", "gull", "mast", "rope", "oar", "in", "of")
+WORDS = {f"{NAMES[k % 8]}{chr(97 + k // 8)}": (k + 1) ** -0.5 for k in range(80)}
+
+
+def _gaps(layout: pw.Layout) -> np.ndarray:
+    """Gaps beside each other of words that share most of a line, in ems of the smaller one."""
+    boxes = np.array([outline.bounds for outline in layout.outlines])
+    left, top, right, bottom = boxes.T
+    ems = EM_PX * layout.poses.scale
+    found = []
+    for k in range(len(boxes)):
+        shared = np.minimum(bottom, bottom[k]) - np.maximum(top, top[k])
+        is_line = shared > 0.7 * np.maximum(bottom - top, bottom[k] - top[k])
+        gap = (left - right[k])[is_line]
+        found.append((gap / np.minimum(ems, ems[k])[is_line])[gap > 0])
+    return np.concatenate(found)
+
+
+def test_words_of_a_line_stand_apart_whatever_their_size() -> None:
+    layout = pw.words("circle", WORDS, sizes="shared", effort="draft")
+    assert layout.manifest["certified"]
+    assert layout.manifest["start"] == "first-fit"
+    assert _gaps(layout).min() > 0.9 * BESIDE
+    sizes = layout.poses.scale / layout.poses.scale[0]
+    np.testing.assert_allclose(sizes, list(WORDS.values()), rtol=1e-6)
+
+
+@pytest.mark.parametrize("padding", ["0", "2"])
+def test_a_padding_that_is_asked_for_is_kept(padding: str) -> None:
+    layout = pw.words("circle", WORDS, sizes="shared", padding=padding, effort="draft")
+    assert layout.manifest["certified"]
+    assert layout.metrics["exact"]["min_gap"] >= float(padding)
+    assert (_gaps(layout).min() > BESIDE) == (padding != "0")
+
+
+def test_a_film_shows_such_words_come_in() -> None:
+    layout = pw.words("circle", WORDS, sizes="shared", record=True)
+    assert layout.track is not None
+    assert 0 < (layout.track.at(0.3).scale > 0).sum() < len(WORDS)
+
+
+def test_words_grow_until_they_touch_and_keep_the_room_beside(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fitted() -> pw.Layout:
+        return pw.words("heart", WORDS, sizes="shared", effort="draft")
+
+    grown = fitted()
+    monkeypatch.setattr("packwork.uses.words.grown.MOST_GROWN", 0)
+    left = fitted()
+    assert grown.manifest["certified"]
+    assert grown.poses.scale[0] > 1.003 * left.poses.scale[0]
+    assert _gaps(grown).min() > 0.8 * BESIDE
+
+
+def test_bars_reach_half_of_the_room_and_not_beyond_the_edge() -> None:
+    box = Outline.box(-10.0, -5.0, 10.0, 5.0)
+    wall = Container("", "", Outline.box(0.0, 0.0, 60.0, 20.0), 60.0, 20.0)
+    poses = Poses(np.array([10.5, 34.5]), np.full(2, 10.0), np.zeros(2), np.ones(2))
+    first, second = barred([box, box], poses, 6.0, 0.0, wall)
+    # Four units lie between them; left of the first is the edge, right of the second there is room.
+    assert first.bounds == pytest.approx((-10, -5, 12, 5))
+    assert second.bounds == pytest.approx((-12, -5, 13, 5))
