@@ -150,14 +150,43 @@ def test_words_that_are_none_are_refused(cloud: pw.Layout) -> None:
         session.words({"bear": 1}, colour="red")
 
 
-def test_forces_pull_what_flows(icons: pw.Layout) -> None:
+def test_what_forces_pull_at_falls_to_rest_at_its_size(icons: pw.Layout) -> None:
     session = icons.edit()
     session.cover(0.3)
-    session.set(force="down")
-    before = session.document.poses.y.mean()
-    session.flow(epochs=60)
+    session.hold("star#1")
     assert session.settle().certified
-    assert session.document.poses.y.mean() > before + 5
+    before = session.document
+    session.set(force="down")
+    assert session.finish().certified
+    after = session.document.poses
+    assert np.array_equal(after.scale, before.poses.scale)
+    assert after.y.mean() > before.poses.y.mean() + 5
+    (held,) = session.find("star#1")
+    assert after.y[held] == before.poses.y[held]
+    # At rest: a gesture elsewhere finds it there.
+    session.rename("star#1", "still")
+    session.finish()
+    assert np.abs(session.document.poses.y - after.y).max() < 1
+    lifted = session.find("heart#1")[0]
+    session.move(lifted, "50%", "25%")
+    assert session.finish().certified
+    assert session.unmet == ()
+    assert session.document.poses.scale.max() <= before.poses.scale.max()
+    session.undo()
+    session.set(force=())
+    session.cover(0.5)
+    assert session.finish().certified
+
+
+def test_a_force_leaves_a_full_container_as_it_is(icons: pw.Layout) -> None:
+    session = icons.edit()
+    session.set(force="down")
+    assert session.finish().certified
+    assert np.array_equal(session.document.poses.scale, icons.poses.scale)
+
+
+def test_no_force_of_a_session_reads_a_file(icons: pw.Layout) -> None:
+    session = icons.edit()
     with pytest.raises(RecipeError, match="takes no file in a session"):
         session.set(force="towards curve.svg")
 

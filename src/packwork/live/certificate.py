@@ -142,7 +142,8 @@ class Requests:
     def unmet(self, document: Document) -> tuple[str, ...]:
         """Sentences about what items of a document have not got."""
         poses, sentences = document.poses, []
-        for number, (x, y) in self._places.items():
+        # What forces pull at does not stay where it is put.
+        for number, (x, y) in () if document.options.force else self._places.items():
             k = document.index(number)
             if k is None or math.dist((x, y), (poses.x[k], poses.y[k])) <= (
                 NEAR * document.container.side

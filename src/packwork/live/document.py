@@ -153,7 +153,8 @@ class Document:
         """The same with other options, and sizes that vary as these say.
 
         Free sizes are between those of the typical item, which is as large as the mean, over and
-        times the ratio; an item that is outside them already may stay as it is.
+        times the ratio; an item that is outside them already may stay as it is. Where forces pull,
+        nothing becomes larger than it is.
         """
         scale = self.poses.scale
         smallest = largest = scale
@@ -161,7 +162,8 @@ class Document:
             areas = self.own_areas
             typical = np.sqrt(np.mean(areas * scale**2) / areas)
             smallest = np.minimum(typical / options.size_ratio, scale)
-            largest = np.maximum(typical * options.size_ratio, scale)
+            widest = np.maximum(typical * options.size_ratio, scale)
+            largest = scale if options.force else widest
         return replace(self, options=options, smallest=smallest, largest=largest)
 
     def scaled(self, rows: int | Sequence[int], factor: float | FloatArray) -> Document:
@@ -219,11 +221,10 @@ class Change:
     @classmethod
     def between(cls, before: Document, after: Document) -> Change:
         """Difference of two documents."""
-        is_pulled = any(
-            getattr(after.options, name) != getattr(before.options, name)
-            for name in ("force", "evenness")
+        is_tighter = (
+            after.options.evenness != before.options.evenness
+            or after.options.padding > before.options.padding
         )
-        is_tighter = is_pulled or after.options.padding > before.options.padding
         if before.container is not after.container or is_tighter:
             return cls(Invalidation.EVERYTHING, np.union1d(before.ids, after.ids))
         if not np.array_equal(before.ids, after.ids):

@@ -13,6 +13,7 @@ from packwork.live.document import PROPERTIES, Change, Document, Invalidation, d
 from packwork.live.history import Frames, Marks, SessionState
 from packwork.live.neighbourhood.caches import LevelCache, ShapeCache
 from packwork.live.neighbourhood.contacts import RINGS
+from packwork.live.neighbourhood.fall import fallen
 from packwork.live.neighbourhood.flow import LINGER, Flow
 from packwork.live.neighbourhood.places import brought_inside
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
@@ -177,6 +178,8 @@ class LocalSolver:
             self._flow.begin()
             self.news = ()
             self._finish_touched(near, len(wrong), stop)
+        if self.document.options.force and self.document is not self.base and not stop():
+            self._turn_to(fallen(self.document, self.shapes, stop))
         moved = differing(before.poses, self.document.poses)
         self.marks.unpolished |= set(self.document.ids[moved].tolist())
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
@@ -212,7 +215,8 @@ class LocalSolver:
     def polish(self, trials: int, stop: Stop) -> int | None:
         """Try turns of what was touched; how many items have moved, None where none was tried."""
         marks, before = self.marks, self.document
-        if trials < 1 or self.grabbed or marks.touched or not marks.unpolished:
+        is_over = not marks.unpolished or before.options.force
+        if trials < 1 or self.grabbed or marks.touched or is_over:
             return None
         # What was put somewhere last stays there; what was before keeps its angle.
         rows = self._rows(marks.unpolished - marks.recent)

@@ -39,7 +39,7 @@ class LiveOptions(Options):
     """Weight of even gaps against filling, while items flow."""
 
     force: ForceTexts = None
-    """What pulls items about, as in recipes; none that reads a file."""
+    """What items fall to at their sizes, as in recipes; none that reads a file."""
 
     @field_validator("force")
     @classmethod

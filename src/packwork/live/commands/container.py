@@ -123,10 +123,8 @@ class SetOption(Command):
         if document.is_nest and options.sizes != "fixed":
             raise RecipeError("sizes", "parts of a nest keep their true size")
         check_padding(document.container, options.padding, len(document))
-        if (options.sizes, options.size_ratio) == (
-            document.options.sizes,
-            document.options.size_ratio,
-        ):
+        ranging = ("sizes", "size_ratio", "force")
+        if all(getattr(options, one) == getattr(document.options, one) for one in ranging):
             # Sizes that were given by hand stay what they are.
             return _turned(replace(document, options=options), document.options)
         return _within(document.with_ranges(options), document.options)

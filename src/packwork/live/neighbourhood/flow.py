@@ -290,7 +290,7 @@ class Flow:
         some, side = document.poses.subset(active), document.container.side
         level = Level(
             document.container, self._seen_of(active, resolution), resolution,
-            forces=document.forces(active), free_space=self._room(active, resolution),
+            free_space=self._room(active, resolution),
         )  # fmt: skip
         motion = Motion(some, some.scale, side, self._options(), self._limits(active))
         motion.pace = FADE ** self._ring[active].astype(np.float64)

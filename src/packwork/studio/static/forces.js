@@ -48,7 +48,7 @@ export class Forces {
     this.element.dataset.shows = key;
     this.element.replaceChildren(h("strong", {}, "Forces"), h("ul", { class: "items" }, ...rows),
       h("div", { class: "row" }, ready, h("button", { type: "button", onclick: () => this.begin() }, "Draw an arrow")),
-      h("p", { class: "hint" }, "They pull while items move. An arrow pulls its way, a longer one more; those chosen alone, if any are."));
+      h("p", { class: "hint" }, "Items fall the way of an arrow, at their sizes, as far as there is room; a longer one counts for more; those chosen alone, if any are."));
   }
 
   /** Have the next drag draw one. */
