@@ -12,6 +12,7 @@ from packwork.errors import RecipeError
 from packwork.live.commands.items import Duplicate
 from packwork.live.commands.placing import Move
 from packwork.live.commands.together import COMMANDS, Together
+from packwork.live.face.offers import counted
 
 QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
 
@@ -128,6 +129,17 @@ def test_other_words_with_other_weights(cloud: pw.Layout) -> None:
     assert scale["fox"] == pytest.approx(3 * scale["bear"], rel=1e-6)
     session.undo()
     assert sorted(item.name for item in session.document.items) == sorted(numbers)
+
+
+def test_words_tell_how_often_they_were_counted_last(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    colours = {item.name: item.art for item in session.document.items}
+    session.words({"bear": 4, "fox": 3, "owl": 5, "ant": 1.5, "wren": 2})
+    found = {item.name: counted(item) for item in session.document.items}
+    assert found == {"bear": 4, "fox": 3, "owl": 5, "ant": 1.5, "wren": 2}
+    assert all(colours.get(item.name, item.art) is item.art for item in session.document.items)
+    session.rename("fox", "vixen")
+    assert counted(next(item for item in session.document.items if item.name == "vixen")) is None
 
 
 def test_in_shares_all_become_smaller_where_one_finds_no_room(cloud: pw.Layout) -> None:

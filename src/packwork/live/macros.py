@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -139,11 +140,20 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
     asked = sum(now[name] for name in rows) or sum(now.values())
     unit = float(document.weights[kept].sum()) / asked if kept and asked else 1.0
     letters = {item.name: item for item in read.items} if is_lettered else {}
+    replaced = set[str]()
     for name, k in rows.items():
         if name in letters and _is_set_otherwise(document.items[k], letters[name]):
             item, colour = letters[name], one_colour(document.items[k].art)
             item = item if colour is None else recoloured(item, hex_colour(colour))
             asset = named_item(session.library, item)
+            replaced.add(name)
+            yield made(Replace, item=int(document.ids[k]), asset=asset)
+    titles = {item.name: item.label.title for item in read.items}
+    for name, k in rows.items():
+        item = document.items[k]
+        if name not in replaced and item.label.title != titles[name]:
+            told = replace(item, label=replace(item.label, title=titles[name]))
+            asset = named_item(session.library, told)
             yield made(Replace, item=int(document.ids[k]), asset=asset)
     for name, k in rows.items():
         weight = unit * now[name]

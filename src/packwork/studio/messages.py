@@ -223,6 +223,8 @@ class Fill(PageRequest):
     """Of words, as of a container."""
     palette: Annotated[str, Field(max_length=200)] | None = None
     """Of words."""
+    without: Annotated[tuple[Name, ...], Field(max_length=500)] = ()
+    """Words of a text that are left out."""
 
     def act(self, tab: Tab) -> None:
         """Have a run of what is read."""
@@ -234,6 +236,7 @@ class Fill(PageRequest):
         if self.use == "words":
             source = importer.file(self.source) if self.source.startswith(FILES) else source
             options |= {"font": importer.font(self.font), "palette": self.palette}
+            options["stopwords"] = self.without or None
         tab.workspace.fill(self.use, source, options)
 
 

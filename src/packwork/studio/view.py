@@ -10,7 +10,7 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
+from packwork.live.face.offers import INK_FINENESS, Drawing, counted, drawing_of, path_of
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -157,6 +157,7 @@ class Scenes:
             name=item.name,
             weight=float(view.weights[k]),
             stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
+            count=counted(item),
             is_word=item.text is not None,
             held=(place, angle, size),
         )

@@ -51,6 +51,8 @@ class Thing(Message):
     shape: str
     name: str
     weight: float
+    count: float | None
+    """How often a word was counted, where that is known."""
     stretch: float
     is_word: bool
     held: tuple[bool, bool, bool]

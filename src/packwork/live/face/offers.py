@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cache
@@ -140,6 +141,25 @@ def only_file(folder: Path) -> Path:
     if len(files) != 1:
         raise ReadError("container", f"is one file, not {len(files)}; drop one")
     return files[0]
+
+
+def counted(item: Item) -> float | None:
+    """Weight that a word's tooltip tells; None of what is no word, or was renamed.
+
+    Examples
+    --------
+    >>> from packwork.readers.builtin import builtin_item
+    >>> counted(builtin_item("star")) is None
+    True
+    """
+    name, sign, weight = item.label.title.rpartition(": ")
+    if item.text is None or not sign or name != item.name:
+        return None
+    try:
+        found = float(weight)
+    except ValueError:
+        return None
+    return found if 0 < found < math.inf else None
 
 
 FINENESS = 1e-3

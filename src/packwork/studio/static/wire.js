@@ -18,7 +18,7 @@
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
  * @typedef {{kind: "exchange", first: number, second: number}} Exchange
- * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null)}} Fill
+ * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null), without?: string[]}} Fill
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", n: number, to: ("undo" | "redo")}} LeapMessage
@@ -49,7 +49,7 @@
  * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
- * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
+ * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption | Entitle)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn

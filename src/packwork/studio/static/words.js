@@ -4,6 +4,7 @@
 import { h } from "./dom.js";
 import { FontField } from "./fonts.js";
 import { tell } from "./toasts.js";
+import { WordTable } from "./wordtable.js";
 
 const EXAMPLE = "Paste a text here, or a table: a word and its weight on each line, as\nhope, 12\njoy, 7";
 const ROW = /^\s*(.*\S)\s*[,;\t]\s*([0-9]*\.?[0-9]+)\s*$/;
@@ -17,6 +18,7 @@ export class Words {
     this.font = new FontField(studio, "Font");
     this.palette = h("select", {});
     this.update = h("button", { type: "button", onclick: () => this.change() }, "Change these, keep their places");
+    this.list = new WordTable(this);
     this.form = h("form", { class: "stack", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
       this.text, h("label", { class: "row" }, "Words at most", this.count), this.font.element,
       h("label", { class: "row" }, "Colours", this.palette), h("button", { type: "submit", class: "primary" }, "Fill with words"), this.update);
@@ -24,7 +26,9 @@ export class Words {
 
   /** @param {HTMLElement} body */
   async fill(body) {
-    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), this.form);
+    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), this.list.element,
+      h("details", { open: true }, h("summary", {}, "A text or another table"), this.form));
+    this.list.listed = "";
     if (!this.text.value.trim()) this.text.value = this.table();
     this.refresh();
     const choices = await this.studio.panels.load();
@@ -35,17 +39,14 @@ export class Words {
   }
 
   refresh() {
+    this.list.refresh();
     this.update.hidden = !this.studio.collage.items.some((item) => item.is_word);
   }
 
-  /** Words that are there, heaviest first, as a table with weights up to 100. */
+  /** Words that are there, heaviest first, as a table. */
   table() {
-    /** @type {Map<string, number>} */
-    const weights = new Map();
-    for (const item of this.studio.collage.items) if (item.is_word) weights.set(item.name, item.weight);
-    const most = Math.max(...weights.values());
-    const rows = [...weights].sort(([, a], [, b]) => b - a);
-    return rows.map(([word, weight]) => `${word}, ${Number(((100 * weight) / most).toPrecision(3))}`).join("\n");
+    const { things } = this.list;
+    return things.map(({ name }) => `${name}, ${this.list.countOf(name, things)}`).join("\n");
   }
 
   /** Words and weights, if each line has both. @returns {[string, number][] | null} */
@@ -79,7 +80,7 @@ export class Words {
   /** @param {string} batch of a text or a table */
   fillFrom(batch) {
     this.studio.connection.send({
-      type: "fill", use: "words", source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null });
+      type: "fill", use: "words", source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null, without: [...this.list.without.keys()] });
   }
 
   /**
