@@ -179,6 +179,7 @@ def test_the_keyboard_alone_chooses_moves_holds_and_exports(open_desk: Callable[
 def test_exports_are_files(open_desk: Callable[..., Desk], kind: str) -> None:
     desk = open_desk()
     desk.page.keyboard.press("Control+e")
+    desk.page.locator("dialog.export summary").click()
     desk.page.locator(f"dialog.export input[value={kind}]").check()
     desk.picture("export")
     with desk.page.expect_download() as waiting:
@@ -193,6 +194,32 @@ def test_exports_are_files(open_desk: Callable[..., Desk], kind: str) -> None:
     }
     assert data.startswith(begins[kind])
     assert waiting.value.suggested_filename.endswith(f".{kind}")
+
+
+def test_an_export_is_shown_as_it_will_be(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.settled()
+    desk.page.keyboard.press("Control+e")
+    corner = """(() => {
+        const image = studio.exporting.preview, made = document.createElement("canvas");
+        if (!image.complete || !image.naturalWidth) return null;
+        [made.width, made.height] = [image.naturalWidth, image.naturalHeight];
+        const drawn = made.getContext("2d");
+        drawn.drawImage(image, 0, 0);
+        return [...drawn.getImageData(2, made.height - 3, 1, 1).data].join(" ");
+    })()"""
+    desk.until(f"{corner} === '255 255 255 255'")
+    desk.page.locator("dialog.export input[value=png]").check()
+    desk.page.get_by_label("Black").click()
+    desk.until(f"{corner} === '23 23 23 255'")
+    desk.page.get_by_label("Transparent").click()
+    desk.until(f"{corner} === '0 0 0 0'")
+    desk.page.get_by_label("Size by name").select_option("A3, 300 dpi")
+    with desk.page.expect_download() as waiting:
+        desk.page.locator("dialog.export button[type=submit]").click()
+    with Image.open(waiting.value.path()) as made:
+        assert max(made.size) == 4961
+        assert made.getpixel((2, made.height - 3))[3] == 0
 
 
 def test_files_are_brought_and_what_fails_is_a_line(

@@ -14,17 +14,32 @@ const FORMATS = /** @type {const} */ ([
   ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "show_container", "text", "flatten"]],
   ["pdf", "PDF", "for printing", ["background", "show_container", "bleed"]],
   ["png", "PNG", "a picture", ["pixels", "background", "show_container"]],
+  ["packwork", "Session", "all of it, with all that undo leads to", []],
   ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "show_container"]],
   ["webp", "WebP", "a small picture for the web", ["pixels", "background", "show_container"]],
   ["tif", "TIFF", "a picture for printers", ["pixels", "background", "show_container"]],
   ["dxf", "DXF", "for cutters and CAD, in mm", []],
   ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
-  ["packwork", "Session", "all of it, with all that undo leads to", []],
   ["recipe", "Recipe", "a folder to run again, from the command line or Python", ["lines"]],
   ["film.gif", "Film, GIF", "how all came where it is", FILMED],
   ["film.mp4", "Film, MP4", "the same, for players and posts", FILMED],
   ["film.svg", "Film, SVG", "the same, sharp at any size", FILMED],
 ]);
+
+/** How many of them stand first; the others are a press away. */
+const FIRST = 4;
+
+/** Sizes of pictures by what they are for: longer side in pixels. */
+const SIZES = /** @type {const} */ ([
+  ["for the screen", 2400], ["Instagram, square", 1080], ["Story, 9 : 16", 1920], ["4K", 3840],
+  ["A5, 300 dpi", 2480], ["A4, 300 dpi", 3508], ["A3, 300 dpi", 4961],
+]);
+
+/** Backgrounds that are a press away. */
+const GROUNDS = /** @type {const} */ ([["none", "Transparent"], ["white", "White"], ["#faf7f0", "Paper"], ["#171717", "Black"]]);
+
+/** Longer side of the preview, in pixels; how long the form has to be still for a new one. */
+const PREVIEW = 900, STILL_MS = 350;
 
 export class Exporting {
   /**
@@ -37,16 +52,19 @@ export class Exporting {
     this.offers = offers;
     this.collage = collage;
     this.kind = "svg";
-    this.formats = h("div", { class: "formats", role: "radiogroup", "aria-label": "Format" });
-    this.fields = h("div", { class: "fields" });
+    this.asked = this.timer = 0;
+    const [first, others] = [FORMATS.slice(0, FIRST), FORMATS.slice(FIRST)].map((some) => h("div", { class: "formats" }, ...some.map((format) => this.choiceOf(format))));
+    this.more = h("details", {}, h("summary", {}, "More formats"), others);
+    this.formats = h("div", { role: "radiogroup", "aria-label": "Format" }, first, this.more);
+    this.fields = h("div", { class: "fields", oninput: () => this.changed() });
+    this.preview = h("img", { alt: "The picture that is exported" });
     this.note = h("p", { class: "note", role: "status" });
     this.go = h("button", { type: "submit", class: "primary" }, "Export");
     const form = h("form", { method: "dialog", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
-      h("h2", {}, "Export"), this.formats, this.fields, this.note,
+      h("h2", {}, "Export"), h("div", { class: "shown" }, this.preview), h("div", { class: "asked" }, this.formats, this.fields, this.note),
       h("div", { class: "row end" }, h("button", { type: "button", onclick: () => this.dialog.close() }, "Cancel"), this.go));
     this.dialog = h("dialog", { class: "export", "aria-label": "Export" }, form);
     document.body.append(this.dialog);
-    for (const format of FORMATS) this.formats.append(this.choiceOf(format));
   }
 
   /** @param {typeof FORMATS[number]} format */
@@ -60,13 +78,46 @@ export class Exporting {
     this.kind = kind;
     const options = FORMATS.find(([ending]) => ending === kind)?.[3] ?? [];
     this.fields.replaceChildren(...options.map((name) => FIELDS[name]()));
+    this.changed();
+  }
+
+  /** Show what is exported, once the form has been still for a moment. */
+  changed() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.show(), this.preview.src ? STILL_MS : 0);
+  }
+
+  async show() {
+    const asked = ++this.asked;
+    const { background = null, show_container = null } = /** @type {Record<string, any>} */ (this.options);
+    const options = Object.fromEntries(Object.entries({ background, show_container, pixels: PREVIEW }).filter(([, value]) => value !== null));
+    this.dialog.setAttribute("aria-busy", "true");
+    const made = await this.make("png", options).catch(() => null);
+    if (asked !== this.asked) return;
+    this.dialog.removeAttribute("aria-busy");
+    // What is wrong with the form is said when it is sent.
+    if (!made || !this.dialog.open) return;
+    URL.revokeObjectURL(this.preview.src);
+    this.preview.src = URL.createObjectURL(made);
+  }
+
+  get options() {
+    const fields = /** @type {NodeListOf<HTMLInputElement>} */ (this.fields.querySelectorAll("[name]"));
+    return Object.fromEntries([...fields].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
+  }
+
+  /** @param {string} kind @param {Record<string, any>} options */
+  async make(kind, options) {
+    const body = JSON.stringify({ format: kind, options });
+    return (await this.connection.ask("/export", { method: "POST", body, headers: { "content-type": "application/json" } })).blob();
   }
 
   open() {
-    this.choose(this.kind);
     this.note.textContent = this.worth;
     this.note.dataset.is = this.collage.state?.certified ? "good" : "bad";
     this.dialog.showModal();
+    /** @type {HTMLElement | null} */ (this.formats.querySelector(":checked"))?.focus();
+    this.choose(this.kind);
     this.offers().then((offered) => Object.entries(offered?.missing ?? {}).forEach(([kind, reason]) => this.leaveOut(kind, reason)));
   }
 
@@ -89,10 +140,9 @@ export class Exporting {
   /** @param {Event} event */
   async submitted(event) {
     event.preventDefault();
-    const options = Object.fromEntries([.../** @type {NodeListOf<HTMLInputElement>} */ (this.fields.querySelectorAll("input, select"))].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
     this.go.disabled = true;
     [this.note.textContent, this.note.dataset.is] = ["Making the file …", "good"];
-    const done = await this.download(this.kind, options);
+    const done = await this.download(this.kind, this.options);
     this.go.disabled = false;
     if (done) this.dialog.close();
   }
@@ -104,9 +154,7 @@ export class Exporting {
    */
   async download(kind, options) {
     try {
-      const body = JSON.stringify({ format: kind, options });
-      const answer = await this.connection.ask("/export", { method: "POST", body, headers: { "content-type": "application/json" } });
-      save(await answer.blob(), `${this.collage.scene?.title || "collage"}.${endingOf(kind)}`);
+      save(await this.make(kind, options), `${this.collage.scene?.title || "collage"}.${endingOf(kind)}`);
       tell(`${FORMATS.find(([ending]) => ending === kind)?.[1] ?? kind} exported`);
       return true;
     } catch (error) {
@@ -131,12 +179,28 @@ const FIELDS = {
   seconds: () => h("label", {}, "Seconds", h("input", { type: "number", name: "seconds", value: "5", min: "1", max: "60", step: "1" })),
   film_pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "film_pixels", value: "800", min: "16", max: "4096", step: "2" })),
   lines: () => h("p", { class: "note" }, "In the folder: ", h("code", {}, "packwork run recipe.toml -o collage.svg"), ", or in Python: ", h("code", {}, 'packwork.run("recipe.toml").save("collage.svg")')),
-  pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "pixels", value: "2400", min: "16", max: "12000", step: "1" })),
-  background: () => h("label", {}, "Background", h("input", { type: "text", name: "background", placeholder: "none, white, #faf7f0 …", spellcheck: "false" })),
+  pixels: sizes,
+  background: grounds,
   show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),
   flatten: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "flatten" }), "Repeat drawings in place, for tools that choke on <use>"),
   bleed: () => h("label", {}, "Bleed", h("input", { type: "text", name: "bleed", placeholder: "3mm" })),
 };
+
+/** Longer side in pixels, by name or by number. */
+function sizes() {
+  const field = h("input", { type: "number", name: "pixels", value: String(SIZES[0][1]), min: "16", max: "12000", step: "1", "aria-label": "Longer side, px" });
+  const named = h("select", { "aria-label": "Size by name", onchange: () => { if (named.value) field.value = named.value; } },
+    ...SIZES.map(([name, pixels]) => h("option", { value: String(pixels) }, name)), h("option", { value: "" }, "another"));
+  field.addEventListener("input", () => { named.value = SIZES.some(([, pixels]) => String(pixels) === field.value) ? field.value : ""; });
+  return h("div", { class: "row" }, h("span", {}, "Longer side, px"), named, field);
+}
+
+function grounds() {
+  const field = h("input", { type: "text", name: "background", placeholder: "or any colour", spellcheck: "false", "aria-label": "Background" });
+  const press = (/** @type {string} */ colour) => { field.value = colour; field.dispatchEvent(new Event("input", { bubbles: true })); };
+  return h("div", { class: "row" }, h("span", {}, "Background"),
+    ...GROUNDS.map(([colour, name]) => h("button", { type: "button", class: "ground", "data-ground": colour, title: name, "aria-label": name, onclick: () => press(colour) })), field);
+}
 
 /** @param {HTMLInputElement} field */
 function valueOf(field) {
