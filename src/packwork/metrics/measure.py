@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypedDict
 
 import numpy as np
@@ -140,7 +140,8 @@ def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
 def _area_inside(item: Item) -> float | None:
     if item.ink is item.outline:
         return item.outline.area
-    ink, outline = item.ink.region, item.outline.region
+    # Of copies: what regions take does not stay in memory.
+    ink, outline = replace(item.ink).region, replace(item.outline).region
     if not (ink.is_valid and outline.is_valid):
         return None
     is_inside = _is_ink_with_filled_holes(item) or outline.covers(ink)

@@ -7,12 +7,15 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.geometry.outline import Outline
 
 NEAR = 0.5
 """Gap between two items that lie side by side at most, in radii of a disc as large as the
 typical item. Larger counts pairs that another item could nearly pass between. Chosen."""
+
+_PORTION = 3_000
+"""Pairs that are looked at together: what is prepared takes much memory. Chosen."""
 
 
 def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
@@ -72,6 +75,10 @@ def side_by_side(outlines: Sequence[Outline], x: FloatArray, y: FloatArray) -> I
         return pairs
     radius = float(np.sqrt(np.median([outline.area for outline in outlines]) / np.pi))
     regions = np.array([outline.region for outline in outlines])
-    shapely.prepare(regions)
-    near = shapely.dwithin(regions[pairs[:, 0]], regions[pairs[:, 1]], NEAR * radius)
-    return np.asarray(pairs[near])
+    near = list[BoolArray]()
+    for part in np.array_split(pairs, -(-len(pairs) // _PORTION)):
+        first = regions[np.unique(part[:, 0])]
+        shapely.prepare(first)
+        near.append(shapely.dwithin(regions[part[:, 0]], regions[part[:, 1]], NEAR * radius))
+        shapely.destroy_prepared(first)
+    return np.asarray(pairs[np.concatenate(near)])

@@ -66,7 +66,7 @@ ColourOf: TypeAlias = Callable[[Word], str | None]
 """Any CSS colour of a word, by its ``text``, ``weight`` and ``columns``; None leaves the
 palette's first."""
 
-MOST_WORDS = 5_000
+MOST_WORDS = 10_000
 """Words in one cloud; more could not be read on any sheet. Chosen."""
 
 

@@ -23,7 +23,7 @@ from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.first_fit import URGENCY
+from packwork.start.first_fit.first_fit import MOST_SIZES, URGENCY
 from packwork.start.first_fit.greedy_board import GRAZED
 from packwork.start.first_fit.occupancy import NOISE, Occupancy, Stencil, covered, stencil_of
 from packwork.start.first_poses import container_image
@@ -39,41 +39,38 @@ TILE_WORDS, TILE_PX = 8, 128
 """Width of a tile, in words of 64 pixels, and its height. Larger takes longer, smaller packs less,
 and narrow ones take longer, too. Tried."""
 
-COMPARED, OF_FEW = 3, 1_500
-"""Tiles with a place of which the best is taken, and the same times the number of items where that
-is more. More take longer. Tried."""
+FEW, OF_FEW = 250, 1_500
+"""Items up to which all sizes are tried with care: tiles with a place of which the best is taken,
+times items. More take longer. Tried."""
 
-PUT = 250
-"""Items that are put for one size, all attempts together, or all items once. More take longer.
-Tried."""
+COMPARED = 5
+"""Such tiles of more items at the last size; sizes before are sought with the first tile that has a
+place, in a third of the time. More take longer. Tried."""
 
 LOT = 0.5
 """How much of the order of tiles, those with most room first, is by lot. Larger looks at more tiles
 without a place, smaller lays items of a size side by side. Tried."""
 
-RETRIED = 0.9
-"""Area of an item over that of the smallest that found no place in a tile, above which it is not
-tried there until nothing else is left. Larger takes longer, smaller packs less. Tried."""
-
 REACH, MOST_FRINGE = 4, 100
 """Width of the fringe in which taken pixels are counted, and how many of them. Tried."""
 
-FIRST_SHARE = 0.5
-"""Share of the container that the first try's items cover. Any other takes more tries."""
+FIRST_SHARE, STEEPER = 0.4, 0.052
+"""Share of the container that the first try's items cover, and how much more for each e times that
+the largest is larger than the smallest. Any others take more tries. Measured."""
 
-STRIDE, WIDEST, CLOSE = 1.02, 1.12, 1.006
+STRIDE, WIDEST, CLOSE = 1.02, 1.04, 1.006
 """Factor between the first two sizes tried, squared while all fit up to the widest, and that
 between one that fits and one that does not at which the search ends. Smaller finds more. Chosen."""
 
-SHORT = 1.3
+SHORT = 2.5
 """By how much less all must cover, over the share that found no place. Smaller takes more tries,
 larger begins from below. Measured."""
 
+BETTER = (1.01, 1.004)
+"""Larger sizes that are tried in turn then. Larger ones mostly find no place. Measured."""
+
 MISSING = 0.03
 """Share of all areas without a place from which a size is given up. Chosen."""
-
-MOST_SIZES = 12
-"""Sizes tried at most. Chosen."""
 
 
 class Tile(NamedTuple):
@@ -85,7 +82,7 @@ class Tile(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Tried:
-    """What a size has come to: poses, or what share of all areas found no place."""
+    """Outcome of one size: poses, and the share of all areas that found no place."""
 
     factor: float
     missing: float
@@ -127,7 +124,24 @@ def tiled_fit(
     own = np.array([outline.area for outline in outlines])
     share = float((own * scales**2).sum()) / container.outline.area
     search = _Search(container, outlines, scales, angles, own, rng, apart, margin_cu, attempts)
-    factor, stride = math.sqrt(FIRST_SHARE / share), STRIDE
+    first = FIRST_SHARE + STEEPER * math.log(float(scales.max() / scales.min()))
+    best = _largest(search, math.sqrt(first / share), tell, stop)
+    if best is not None and len(outlines) > FEW:
+        # Sizes were sought in haste.
+        search.compared = COMPARED
+        for times in BETTER:
+            finer = search.best_at(times * best.factor, stop)
+            if finer is not None and not finer.missing:
+                tell(finer.poses)
+                return finer.poses
+    return None if best is None else best.poses
+
+
+def _largest(
+    search: _Search, factor: float, tell: Callable[[Poses], None], stop: Stop
+) -> Tried | None:
+    """The largest size found at which nothing is missing, beginning with one."""
+    stride = STRIDE
     best: Tried | None = None
     lost: Tried | None = None
     for _ in range(MOST_SIZES):
@@ -150,11 +164,11 @@ def tiled_fit(
             if factor <= best.factor:
                 factor = math.sqrt(best.factor * lost.factor)
             factor = min(max(factor, best.factor * CLOSE), lost.factor / math.sqrt(CLOSE))
-    return None if best is None else best.poses
+    return best
 
 
 class _Search:
-    """What is the same for all sizes."""
+    """Items, their room and the image, the same for all sizes."""
 
     def __init__(
         self,
@@ -179,7 +193,8 @@ class _Search:
         self._areas, self._rng, self._apart = own * scales**2, rng, apart
         self._margin_px = margin_cu / 2 * self._px_per_cu + GRAZED
         self._urgency = self._areas.copy()
-        self._attempts = max(1, min(attempts, PUT // len(outlines)))
+        self.compared = OF_FEW // len(outlines) if len(outlines) <= FEW else 1
+        self._attempts = max(1, min(attempts, FEW // len(outlines)))
 
     def best_at(self, factor: float, stop: Stop) -> Tried | None:
         """The best of some attempts at one size, in which what had no place comes earlier."""
@@ -194,9 +209,9 @@ class _Search:
         return best
 
     def _put_all(self, factor: float, stop: Stop) -> Tried | None:
-        """What becomes of one size; None if stopped."""
+        """Items put one after another at one size; None if stopped."""
         scales = self._scales * factor
-        board = _Board(self._edge, self._levels, self._inside, len(scales), self._rng)
+        board = _Board(self._edge, self._levels, self._inside, self.compared, self._rng)
         x, y = np.zeros((2, len(scales)))
         missing, all_areas = 0.0, float(self._areas.sum())
         for k in np.argsort(-self._urgency, kind="stable"):
@@ -237,7 +252,7 @@ class _Board:
         edge: Occupancy,
         levels: int,
         inside: BoolArray,
-        count: int,
+        compared: int,
         rng: np.random.Generator,
     ) -> None:
         height, width = inside.shape
@@ -257,12 +272,12 @@ class _Board:
         self._free = np.empty((TILE_PX, TILE_WORDS), dtype=np.uint64)
         self._noise = NOISE * rng.random((TILE_PX, 64 * TILE_WORDS))
         # Smallest item that found no place in each: larger ones are not tried there.
-        self._compared = max(COMPARED, OF_FEW // count)
+        self._compared = compared
         self._failed = np.full(len(self._tiles), np.inf)
 
     @staticmethod
     def _part(image: BoolArray, top: int, word: int) -> BoolArray:
-        """What a tile shows of an image."""
+        """Part of an image that a tile shows."""
         return image[top : top + TILE_PX, 64 * word : 64 * (word + TILE_WORDS)]
 
     def put(self, stencil: Stencil, down: int, across: int, area: float) -> tuple[int, int] | None:
@@ -274,7 +289,7 @@ class _Board:
         fringe = (wide.fringe - wide.origin)[:: -(-len(wide.fringe) // MOST_FRINGE)]
         steps = fringe[:, 0] * self._taken.shape[1] + fringe[:, 1]
         order = np.argsort(-self._left * (1 + LOT * self._rng.random(len(self._left))))
-        for tiles in (order[RETRIED * self._failed[order] > area], order):
+        for tiles in (order[self._failed[order] > area], order):
             found = list[tuple[float, int, int]]()
             for t in tiles.tolist():
                 place = self._best_in(self._tiles[t], stencil, boxes, lowest, steps)
