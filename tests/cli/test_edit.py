@@ -78,6 +78,8 @@ def test_what_cannot_be_certified_is_named_and_written_all_the_same(
         (("--move", "star#1"), "--move: must be ITEM=X,Y such as owl=50%,120, not 'star#1'"),
         (("--move", "star#1=5"), "must be ITEM=X,Y such as owl=50%,120, not '5'"),
         (("--move", "star#1=a,b"), "--move: use a length"),
+        (("--move", "star#1=500%,1"), "--move: 500% is off the canvas, which is 600 px wide"),
+        (("--move", "star#1=1,-3"), "--move: -3 is off the canvas, which is 600 px high"),
         (("--turn", "star#1=nan"), "turn: must be a number, not 'nan'"),
         (("--remove", "star#1=heart"), "remove: must be ITEM, not 'star#1=heart'"),
         (("--hold", "star#1="), "hold: must be ITEM or ITEM=place"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import fnmatch
 import re
 from collections.abc import Sequence
@@ -64,14 +63,19 @@ def called(document: Document, k: int) -> str:
 
 
 def length_of(document: Document, key: str, value: Coordinate) -> float:
-    """Canvas units of a coordinate, ``x`` or ``y``."""
+    """Canvas units of a coordinate, ``x`` or ``y``; one that is written lies on the canvas."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
-    with contextlib.suppress(ValueError):
-        return float(str(value))
-    container = document.container
+    container, text = document.container, str(value).strip()
     side = container.width if key == "x" else container.height
-    return length_asked(key, str(value).strip(), container.unit, side)
+    try:
+        found = float(text)
+    except ValueError:
+        found = length_asked(key, text, container.unit, side)
+    if not 0 <= found <= side:
+        extent = f"{side:.6g} {container.unit} {'wide' if key == 'x' else 'high'}"
+        raise RecipeError(key, f"{text[:40]} is off the canvas, which is {extent}")
+    return found
 
 
 def _some(names: list[str]) -> str:

@@ -171,11 +171,12 @@ class Flow:
 
     def make_way(self, items: IntArray) -> None:
         """Have items ``(m,)`` stay where the document has them by now: the others make room."""
-        self._given, poses = items, self.document.poses
+        is_known, poses = np.array_equal(items, self._given), self.document.poses
+        self._given = items
         self.moved[items] = True
         self.contacts.follow(items, poses)
         _, mine, theirs = np.intersect1d(items, self._active, return_indices=True)
-        if self._working is not None and len(mine) == len(items):
+        if is_known and self._working is not None and len(mine) == len(items):
             self._working[1].put(theirs, poses.subset(items[mine]))
         else:
             self._since = REVIEW
@@ -208,8 +209,11 @@ class Flow:
 
     def set_rules(self, document: Document, held: BoolArray) -> None:
         """Go on with other rules, names or colours, of the same outlines; ``held`` as above."""
+        now, ruling = self.document, ("smallest", "largest", "options")
+        are_same = all(getattr(document, name) is getattr(now, name) for name in ruling)
+        if not are_same or not np.array_equal(held, self._strict):
+            self._since = REVIEW
         self.document, self._strict = document, held
-        self._since = REVIEW
 
     def review(self) -> None:
         """Bring the neighbours up to date."""
