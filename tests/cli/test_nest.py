@@ -97,7 +97,7 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest squares.json bracket.svg", "an instance holds its parts"),
         ("nest none.json", "no such file"),
         ("nest 300mm bracket.svg*0", "there is nothing to nest"),
-        ("nest 300mm bracket.svg*2001", "2,001 parts are more than 2,000"),
+        ("nest square bracket.svg*2001", "2,001 parts are more than 2,000"),
         ("nest 300mm nowhere.svg*3", "no such file"),
         ("nest 300mm bracket.svg --rotate round", "rotate"),
         ("nest 300mm bracket.svg --kerf wide", "wide"),

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from packwork.separation.ground import ground_of, tiles
 from packwork.separation.shapes import Part
 from packwork.separation.strip import WorkBound
-from packwork.separation.windows import FreeSheet, LaidSheet, lay_on_sheets
+from packwork.separation.windows import FreeSheet, LaidSheet, lay_on_sheets, lay_on_strip
 
 pytestmark = pytest.mark.compiled
 
@@ -183,3 +183,19 @@ def test_parts_that_go_together_lie_on_one_sheet(counts: list[int], loose: int, 
     placed = Counter(kind for one in laid for kind in one.kinds)
     assert all(placed[k] + left[k] == part.count for k, part in enumerate(parts))
     assert max((overlap(regions(parts, one)) for one in laid), default=0.0) < 1e-9
+
+
+def test_many_parts_on_a_strip_lie_on_pieces_of_it() -> None:
+    parts = [Part(region=SQUARE, count=500), Part(region=TRIANGLE, count=300, turns=(0.0, 3.0))]
+    laid = lay_on_strip(
+        parts, 20.0, seed=3, workers=1, work=WorkBound(passes=9), stop=lambda: False
+    )
+    assert Counter(laid.kinds) == {0: 500, 1: 300}
+    found = regions(parts, laid)
+    left, top, _, bottom = shapely.total_bounds(found)
+    assert left >= -1e-9
+    assert top >= -1e-9
+    assert bottom <= 20.0 + 1e-9
+    first, second = shapely.STRtree(found).query(found)
+    assert all(found[a].intersection(found[b]).area < 1e-9
+               for a, b in zip(first, second, strict=True) if a < b)  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -9,10 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.geometry.polygon import Region
-from packwork.separation.ground import ground_of
+from packwork.separation.ground import Ground, ground_of
 from packwork.separation.shapes import Floats, Part, placed
 from packwork.separation.sheets import SheetSearch
-from packwork.separation.strip import WorkBound
+from packwork.separation.strip import StripSearch, WorkBound
 
 FILLED = 0.75
 """Share of sheets that the parts of a window may cover: less takes more windows, more leaves some
@@ -21,8 +22,11 @@ out, which then come again."""
 WINDOW = 3
 """Sheets of a window. All but the last stay; its parts come again in the next one."""
 
-MOST_IN_WINDOW = 800
+MOST_IN_WINDOW = 300
 """Parts of a window: prices of pairs grow with its square."""
+
+PIECE = 300
+"""Parts of a piece of a strip: more take longer to come apart, fewer leave more seams. Tried."""
 
 EMPTIEST = 0.3
 """Share of sheets that parts cover at least."""
@@ -88,6 +92,35 @@ def lay_on_sheets(
         work.done += first.done
         missing += laying.fill(optional, work) if not missing else Counter(optional)
     return sorted(laying.laid.values(), key=lambda one: one.sheet), missing
+
+
+def lay_on_strip(
+    parts: Sequence[Part], height: float, *, seed: int, workers: int, work: WorkBound,
+    stop: Callable[[], bool],
+) -> LaidSheet:  # fmt: skip
+    """Lay many parts on a strip: on pieces of it that lie end to end.
+
+    Whatever happens, all are laid.
+    """
+    every = np.repeat(np.arange(len(parts)), [part.count for part in parts])
+    random = np.random.default_rng(seed)
+    many = math.ceil(len(every) / PIECE)
+    kinds, found, length = list[int](), list[Floats](), 0.0
+    work.start()
+    for n, chosen in enumerate(np.array_split(random.permutation(every), many)):
+        counts, bound = Counter(chosen.tolist()), work.part(1.0 / (many - n))
+        own = sorted(counts)
+        search = StripSearch(
+            [replace(parts[kind], count=counts[kind]) for kind in own], Ground(height),
+            seed=int(random.integers(2**31)), workers=workers, work=bound, stop=stop,
+        )  # fmt: skip
+        strip = search.run()
+        work.done += bound.done
+        kinds += np.repeat(own, [counts[kind] for kind in own]).tolist()
+        found.append(strip.poses + np.array([length, 0.0, 0.0, 0.0]))
+        length += strip.length
+        work.best_so_far = f"{len(kinds):,} of {len(every):,} parts"
+    return LaidSheet(0, tuple(kinds), np.vstack(found))
 
 
 class _Laying:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -18,15 +19,25 @@ from packwork.separation.ground import Ground
 from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
 from packwork.separation.square import SquareGround, SquareSearch
 from packwork.separation.strip import StripSearch, WorkBound
-from packwork.separation.windows import EMPTIEST, FreeSheet, LaidSheet, lay_on_sheets
+from packwork.separation.windows import (
+    EMPTIEST,
+    FreeSheet,
+    LaidSheet,
+    lay_on_sheets,
+    lay_on_strip,
+)
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
 from packwork.uses.tool_reach import tell_unreached
 
-MOST_ON_STRIP = 2_000
-"""Parts on a strip: prices of pairs take 64 bytes each, a pass over them a second."""
+FEW = 400
+"""Parts up to which a strip is searched as a whole: of 600, pieces are 2 to 5 points denser within
+a minute. Tried."""
+
+MOST_AT_ONCE = 2_000
+"""Parts of one search: prices of pairs take 64 bytes each, a pass over them a second."""
 
 MOST_PARTS = 100_000
-"""Parts on sheets, which are laid a few sheets after the other."""
+"""Parts on sheets or a strip, which are laid a few sheets, or a piece, after the other."""
 
 MOST_TURNS = 20_000
 """Angles of all kinds of parts: each is drawn once, in a millisecond."""
@@ -84,13 +95,12 @@ def nest(
     if sheets[0].is_strip:
         height = sheets[0].height - 2.0 * inset
         _check_fit(parts, kept, [(math.inf, height)], sheets, 2.0 * inset)
-        search, ground = StripSearch, Ground(height)
-        if sheets[0].is_square:
-            search, ground = SquareSearch, SquareGround()
-        strip = search(kept, ground, seed=seed, workers=workers, work=work, stop=stop)
+        lay = lay_on_strip
+        if sheets[0].is_square or sum(part.count for part in kept) <= FEW:
+            lay = _lay_at_once
+        on_it = lay(kept, height, seed=seed, workers=workers, work=work, stop=stop)
         kinds, missing = [0], Counter[int]()
-        poses = strip.run().poses + np.array([inset, inset, 0.0, 0.0])
-        laid = [LaidSheet(0, tuple(strip.problem.shape_of.tolist()), poses)]
+        laid = [replace(on_it, poses=on_it.poses + np.array([inset, inset, 0.0, 0.0]))]
     else:
         usable = [_usable(sheet, inset) for sheet in sheets]
         bounds = [one.bounds for one in usable]
@@ -122,6 +132,19 @@ def nest(
     return NestedSheets(tuple(found), unplaced, optional, about)
 
 
+def _lay_at_once(
+    parts: Sequence[Part], height: float, *, seed: int, workers: int, work: WorkBound,
+    stop: Callable[[], bool],
+) -> LaidSheet:  # fmt: skip
+    """Lay parts on a strip, or on a square where its height is infinite, in one search."""
+    search, ground = StripSearch, Ground(height)
+    if math.isinf(height):
+        search, ground = SquareSearch, SquareGround()
+    strip = search(parts, ground, seed=seed, workers=workers, work=work, stop=stop)
+    poses = strip.run().poses
+    return LaidSheet(0, tuple(strip.problem.shape_of.tolist()), poses)
+
+
 def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     for one in parts:
         if one.count < 0:
@@ -131,7 +154,7 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     count = sum(one.count for one in parts)
     if not count:
         raise RecipeError("items", "there is nothing to nest; name parts")
-    most = MOST_ON_STRIP if sheets[0].is_strip else MOST_PARTS
+    most = MOST_AT_ONCE if sheets[0].is_square else MOST_PARTS
     if count > most:
         raise RecipeError("items", f"{count:,} parts are more than {most:,}; nest fewer")
     turns = sum(FREE_TURNS if one.angles is None else len(one.angles) for one in parts)
@@ -144,8 +167,8 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     sets = Counter[str]()
     for one in parts:
         sets[one.together] += one.count if one.together else 0
-    if sets and max(sets.values()) > MOST_ON_STRIP:
-        raise RecipeError("together", f"more than {MOST_ON_STRIP:,} parts go together; nest fewer")
+    if sets and max(sets.values()) > MOST_AT_ONCE:
+        raise RecipeError("together", f"more than {MOST_AT_ONCE:,} parts go together; nest fewer")
     if len(sheets) > 1 and any(sheet.is_strip for sheet in sheets):
         raise RecipeError("sheet", "a strip of open length has no end after which others come")
 
