@@ -33,6 +33,7 @@ def test_parts_are_moved_turned_and_cut_in_true_size(
 ) -> None:
     desk = open_desk()
     desk.picture("nest")
+    assert desk.page.get_by_role("button", name="Nest anew").count() == 1
     first = desk.look("studio.collage.items.find(item => item.name === 'part').id")
     scale = desk.look(f"studio.collage.pose({first}).scale")
     desk.page.mouse.click(*desk.place(first))

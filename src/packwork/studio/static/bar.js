@@ -51,6 +51,18 @@ export class Bar {
   }
 
   /**
+   * Have a button say something else.
+   * @param {string} id
+   * @param {string} label
+   */
+  rename(id, label) {
+    for (const one of this.buttons.get(id) ?? []) {
+      one.setAttribute("aria-label", label);
+      one.querySelector(".label")?.replaceChildren(label);
+    }
+  }
+
+  /**
    * @param {string} title
    * @param {string} chosen
    * @param {boolean} isSaved

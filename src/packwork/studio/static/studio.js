@@ -204,6 +204,7 @@ export class Studio {
     const [id] = this.choice.ids;
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
     this.bar.show(this.collage.scene?.title ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
+    this.bar.rename("pour", this.collage.scene?.is_nest ? "Nest anew" : "Pour anew");
     byId("empty").hidden = this.collage.hasPoses;
     byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
