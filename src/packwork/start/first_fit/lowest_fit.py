@@ -59,7 +59,7 @@ def lowest_fit(
     container: Container, falling: Falling, rng: np.random.Generator, stop: Stop
 ) -> tuple[Poses, IntArray]:
     """Poses at which nothing overlaps, and the items ``(m,)`` that found a place, as they came."""
-    board = _Board(container, falling, rng)
+    board = _LowestFit(container, falling, rng)
     found = list[int]()
     for item in falling.order:
         if stop():
@@ -69,7 +69,7 @@ def lowest_fit(
     return board.poses, np.array(found, dtype=np.int64)
 
 
-class _Board:
+class _LowestFit:
     """The container as pixels, and the poses of what lies on it."""
 
     def __init__(self, container: Container, falling: Falling, rng: np.random.Generator) -> None:

@@ -194,7 +194,7 @@ def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[J
 
 
 def falls(arrival: Arrival, forces: Forces) -> bool:
-    """Whether nothing but fields says where items come to lie."""
+    """True where nothing but fields says where items come to lie."""
     is_told = arrival.source is not None or len(arrival.known) > 0
     return not (is_told or forces.bonds or arrival.centre(forces) is not None)
 
