@@ -52,6 +52,28 @@ def test_items_of_a_row_keep_room_by_the_smaller_one_but_not_from_the_edge() -> 
     assert from_edge.min() < 1.5 * poses.scale.min() / 2
 
 
+def test_small_items_spread_where_large_ones_bound_the_size(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scales = np.array([20.0] * 2 + [1.0] * 60)
+
+    def farthest() -> float:
+        """From a point inside to the nearest item's middle."""
+        found = tiled_fit(
+            DISC, [BAR] * 62, scales, np.zeros(62), np.random.default_rng(0), margin_cu=0.1
+        )
+        assert found is not None
+        x, y = np.meshgrid(np.arange(100.0), np.arange(100.0))
+        is_in = np.hypot(x - 50, y - 50) < 48
+        away = np.hypot(x[is_in][:, None] - found.x, y[is_in][:, None] - found.y)
+        large = np.abs(y[is_in][:, None] - found.y[:2]) < found.scale[0]
+        return float(away[~large.any(axis=1)].min(axis=1).max())
+
+    even = farthest()
+    monkeypatch.setattr("packwork.start.first_fit.tiled.MOST_LOOSE", 0)
+    assert even < 0.6 * farthest()
+
+
 def test_room_takes_ink() -> None:
     assert _fitted((1.5, 0.0)).scale[0] < _fitted().scale[0]
 

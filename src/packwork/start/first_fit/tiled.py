@@ -11,11 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
@@ -25,7 +27,14 @@ from packwork.scene.pose import Poses
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.first_fit import MOST_SIZES, URGENCY
 from packwork.start.first_fit.greedy_board import GRAZED
-from packwork.start.first_fit.occupancy import NOISE, Occupancy, Stencil, covered, stencil_of
+from packwork.start.first_fit.occupancy import (
+    NOISE,
+    NearestTaken,
+    Occupancy,
+    Stencil,
+    covered,
+    stencil_of,
+)
 from packwork.start.first_poses import container_image
 
 PIXELS_EACH = 42
@@ -71,6 +80,15 @@ BETTER = (1.01, 1.004)
 
 MISSING = 0.03
 """Share of all areas without a place from which a size is given up. Chosen."""
+
+
+LOOSE = (0.9, 0.75, 0.5, 0.3, 0.2, 0.1)
+"""Shares of the items, the smallest, that go where there is most room, tried in turn. Chosen."""
+
+MOST_LOOSE = 2_000
+"""Items of which the smallest do so at most: of more, tiles are small beside the whole. Chosen."""
+
+Pixel = TypeVar("Pixel", bound=np.generic)
 
 
 class Tile(NamedTuple):
@@ -132,9 +150,10 @@ def tiled_fit(
         for times in BETTER:
             finer = search.best_at(times * best.factor, stop)
             if finer is not None and not finer.missing:
-                tell(finer.poses)
-                return finer.poses
-    return None if best is None else best.poses
+                best = finer
+                tell(best.poses)
+                break
+    return None if best is None else search.loosened(best, stop).poses
 
 
 def _largest(
@@ -208,15 +227,31 @@ class _Search:
                 break
         return best
 
-    def _put_all(self, factor: float, stop: Stop) -> Tried | None:
-        """Items put one after another at one size; None if stopped."""
+    def loosened(self, tight: Tried, stop: Stop) -> Tried:
+        """The same size with the smallest items where there is most room, as many as can be so.
+
+        Where large items alone bound the size, small ones would lie in a heap.
+        """
+        for share in LOOSE if len(self._scales) <= MOST_LOOSE else ():
+            found = self._put_all(tight.factor, stop, round(share * len(self._scales)))
+            if found is None or not found.missing:
+                return found or tight
+        return tight
+
+    def _put_all(self, factor: float, stop: Stop, loose: int = 0) -> Tried | None:
+        """Items put one after another at one size; None if stopped.
+
+        The last of them, ``loose`` many, go where there is most room.
+        """
         scales = self._scales * factor
         board = _Board(self._edge, self._levels, self._inside, self.compared, self._rng)
         x, y = np.zeros((2, len(scales)))
         missing, all_areas = 0.0, float(self._areas.sum())
-        for k in np.argsort(-self._urgency, kind="stable"):
+        for left, k in enumerate(np.argsort(-self._urgency, kind="stable"), loose - len(scales)):
             if stop():
                 return None
+            if left == 0:
+                board.loosen()
             place = self._put(board, int(k), float(scales[k]))
             if place is None:
                 self._urgency[k] *= URGENCY
@@ -274,9 +309,16 @@ class _Board:
         # Smallest item that found no place in each: larger ones are not tried there.
         self._compared = compared
         self._failed = np.full(len(self._tiles), np.inf)
+        self._clearance: NearestTaken | None = None
+
+    def loosen(self) -> None:
+        """Put all that comes from now on where there is most room."""
+        m = REACH + self._pad
+        self._clearance = NearestTaken(distance_inside(self._taken[m:-m, m:-m] == 0))
+        self._compared = 1
 
     @staticmethod
-    def _part(image: BoolArray, top: int, word: int) -> BoolArray:
+    def _part(image: NDArray[Pixel], top: int, word: int) -> NDArray[Pixel]:
         """Part of an image that a tile shows."""
         return image[top : top + TILE_PX, 64 * word : 64 * (word + TILE_WORDS)]
 
@@ -288,7 +330,11 @@ class _Board:
         lowest = self._pad - down + len(wide.mask)
         fringe = (wide.fringe - wide.origin)[:: -(-len(wide.fringe) // MOST_FRINGE)]
         steps = fringe[:, 0] * self._taken.shape[1] + fringe[:, 1]
-        order = np.argsort(-self._left * (1 + LOT * self._rng.random(len(self._left))))
+        if self._clearance is None:
+            order = np.argsort(-self._left * (1 + LOT * self._rng.random(len(self._left))))
+        else:
+            clear = self._clearance.distances
+            order = np.argsort([-self._part(clear, *tile).max() for tile in self._tiles])
         for tiles in (order[self._failed[order] > area], order):
             found = list[tuple[float, int, int]]()
             for t in tiles.tolist():
@@ -304,6 +350,8 @@ class _Board:
                 self._items.take(stencil.mask, row + self._pad, column + self._pad)
                 top, left = row + self._pad + REACH, column + self._pad + REACH
                 height, width = stencil.mask.shape
+                if self._clearance is not None:
+                    self._clearance.add(stencil.mask, row, column)
                 self._taken[top : top + height, left : left + width] |= stencil.mask
                 middle = (row + height // 2) // TILE_PX, (column + width // 2) // (64 * TILE_WORDS)
                 self._left[self._across * middle[0] + middle[1]] -= stencil.mask.sum()
@@ -323,7 +371,12 @@ class _Board:
             return None
         m, width = REACH + self._pad, self._taken.shape[1]
         begin, corner = (tile.top + m) * width + 64 * tile.word + m, np.zeros(2, dtype=np.int64)
+        field, pull = self._noise, 0.0
+        if self._clearance is not None:
+            field, pull, corner = np.zeros_like(self._noise), 1.0, np.array(stencil.origin)
+            part = self._part(self._clearance.distances, *tile)
+            field[: part.shape[0], : part.shape[1]] = part
         score, row, column = _kernels.best_touching(
-            free, self._taken, begin, steps, self._noise, self._noise, 0.0, corner, False
+            free, self._taken, begin, steps, self._noise, field, pull, corner, pull > 0.0
         )
         return float(score), tile.top + int(row), 64 * tile.word + int(column)
