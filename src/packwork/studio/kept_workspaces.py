@@ -57,7 +57,7 @@ class KeptWorkspace:
 
     @property
     def inputs(self) -> str:
-        """What a command line opens it with."""
+        """Arguments by which a command line opens it."""
         is_ours = self.file.parent == private_folder("studio")
         return "--again" if is_ours else shlex.quote(str(self.file))
 

@@ -141,7 +141,7 @@ def tiled_fit(
     """
     own = np.array([outline.area for outline in outlines])
     share = float((own * scales**2).sum()) / container.outline.area
-    search = _Search(container, outlines, scales, angles, own, rng, apart, margin_cu, attempts)
+    search = _TiledSearch(container, outlines, scales, angles, own, rng, apart, margin_cu, attempts)
     first = FIRST_SHARE + STEEPER * math.log(float(scales.max() / scales.min()))
     best = _largest(search, math.sqrt(first / share), tell, stop)
     if best is not None and len(outlines) > FEW:
@@ -157,7 +157,7 @@ def tiled_fit(
 
 
 def _largest(
-    search: _Search, factor: float, tell: Callable[[Poses], None], stop: Stop
+    search: _TiledSearch, factor: float, tell: Callable[[Poses], None], stop: Stop
 ) -> Tried | None:
     """The largest size found at which nothing is missing, beginning with one."""
     stride = STRIDE
@@ -186,7 +186,7 @@ def _largest(
     return best
 
 
-class _Search:
+class _TiledSearch:
     """Items, their room and the image, the same for all sizes."""
 
     def __init__(
