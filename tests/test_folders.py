@@ -71,6 +71,19 @@ def test_another_variable_is_heeded_after_ours(
     assert private_folder("k", "NUMBA_CACHE_DIR") == tmp_path / "ours" / "packwork" / "k"
 
 
+@POSIX
+def test_what_a_person_made_is_no_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(folders.VARIABLE, raising=False)
+    for name in ("cache", "data"):
+        (tmp_path / name).mkdir(mode=0o700)
+        monkeypatch.setenv(f"XDG_{name.upper()}_HOME", str(tmp_path / name))
+    if sys.platform != "darwin":
+        assert private_folder("k") == tmp_path / "cache/packwork/k"
+        assert private_folder("k", kind="data") == tmp_path / "data/packwork/k"
+    monkeypatch.setenv(folders.VARIABLE, folders.OFF)
+    assert private_folder("k", kind="data") is None
+
+
 def test_a_relative_folder_is_passed_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv(folders.VARIABLE, "here")

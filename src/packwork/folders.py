@@ -1,4 +1,4 @@
-"""Folders of our own for what may be lost: private, bounded, never the current one.
+"""Folders of our own: private, bounded, never the current one.
 
 What lies in them is trusted when it is read, so no other user may have written it: a folder that
 other users can write to, or could replace by theirs because they or their group may write to one
@@ -17,9 +17,9 @@ import stat
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import final
+from typing import Literal, TypeAlias, final
 
 from packwork.temporary import TemporaryFolder
 
@@ -29,6 +29,15 @@ VARIABLE = "PACKWORK_CACHE_DIR"
 OFF = "off"
 
 NAME = "packwork"
+
+Kind: TypeAlias = Literal["cache", "data"]
+
+_PLACES: Mapping[Kind, tuple[str, str, str]] = {
+    "cache": ("XDG_CACHE_HOME", ".cache", "Library/Caches"),
+    "data": ("XDG_DATA_HOME", ".local/share", "Library/Application Support"),
+}
+"""Of each kind the environment variable that names its place, and the usual places in a home: of
+Linux, of macOS. Windows has one for both."""
 
 DIGEST_BYTES = 32
 """Length of a SHA-256, which stands before each entry."""
@@ -132,16 +141,18 @@ class Store:
             total -= size
 
 
-def private_folder(name: str, variable: str | None = None) -> Path | None:
+def private_folder(name: str, variable: str | None = None, *, kind: Kind = "cache") -> Path | None:
     """Folder that only this user may write to; made if it is missing.
 
     It lies where ``PACKWORK_CACHE_DIR`` says, else where ``variable`` does, else where the
-    system keeps caches, else, for a user without a home, in a temporary folder.
+    system keeps things of that kind, else, for a user without a home, in a temporary folder.
 
     Parameters
     ----------
     variable
         Another environment variable that may name the folder in which ours lies.
+    kind
+        What may be lost is ``cache``, what a person made ``data``.
 
     Returns
     -------
@@ -149,17 +160,17 @@ def private_folder(name: str, variable: str | None = None) -> Path | None:
         None where nothing may be kept: ``PACKWORK_CACHE_DIR=off``, or no place is private.
     """
     asked = (os.environ.get(VARIABLE), os.environ.get(variable) if variable else None)
-    system = tuple(os.environ.get(key) for key in ("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"))
-    return _private_folder(name, asked, system)
+    system = tuple(os.environ.get(key) for key in (_PLACES[kind][0], "LOCALAPPDATA", "HOME"))
+    return _private_folder(name, asked, system, kind)
 
 
 @functools.lru_cache(maxsize=32)
 def _private_folder(
-    name: str, asked: tuple[str | None, ...], system: tuple[str | None, ...]
+    name: str, asked: tuple[str | None, ...], system: tuple[str | None, ...], kind: Kind
 ) -> Path | None:
     if asked[0] == OFF:
         return None
-    for parent in _candidates(asked):
+    for parent in _candidates(asked, kind):
         folder = parent / name
         with contextlib.suppress(OSError):
             for made in (*reversed(folder.parents), folder):
@@ -170,30 +181,31 @@ def _private_folder(
     return _temporary(name)
 
 
-def _candidates(asked: tuple[str | None, ...]) -> Iterator[Path]:
+def _candidates(asked: tuple[str | None, ...], kind: Kind) -> Iterator[Path]:
     """Folders to try, none of them relative: that would depend on the current folder."""
     for place in asked:
         if place and Path(place).is_absolute():
             yield Path(place) / NAME
-    cache = _system_cache()
-    if cache is not None and cache.is_absolute():
-        yield cache / NAME
+    system = _system_folder(kind)
+    if system is not None and system.is_absolute():
+        yield system / NAME
     # Without a usable temporary folder Python takes the current one.
     temporary = Path(tempfile.gettempdir())
     if temporary.is_absolute() and temporary != Path.cwd():
         yield temporary / f"{NAME}-{os.getuid() if hasattr(os, 'getuid') else 'cache'}"
 
 
-def _system_cache() -> Path | None:
+def _system_folder(kind: Kind) -> Path | None:
+    variable, usual, of_macos = _PLACES[kind]
     if sys.platform == "win32":
         local = os.environ.get("LOCALAPPDATA")
         return Path(local) if local else None
-    if sys.platform != "darwin" and (chosen := os.environ.get("XDG_CACHE_HOME")):
+    if sys.platform != "darwin" and (chosen := os.environ.get(variable)):
         return Path(chosen)
     home = home_folder()
     if home is None:
         return None
-    return home / ("Library/Caches" if sys.platform == "darwin" else ".cache")
+    return home / (of_macos if sys.platform == "darwin" else usual)
 
 
 def home_folder() -> Path | None:

@@ -11,6 +11,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -37,6 +38,9 @@ in_browser = [
 """Marks of modules whose tests drive a browser."""
 
 
+_DOCUMENTS = TemporaryDirectory()
+
+
 class Server:
     """``packwork studio`` in a process.
 
@@ -53,7 +57,9 @@ class Server:
 
     def start(self) -> Server:
         line = [sys.executable, "-m", "packwork", "studio", "--no-browser", *self.inputs]
-        self.process = subprocess.Popen(line, stdout=subprocess.PIPE, text=True, env=os.environ)
+        # What the developer has in the studio stays out of it, and is not written over.
+        env = {"XDG_DATA_HOME": _DOCUMENTS.name, **os.environ}
+        self.process = subprocess.Popen(line, stdout=subprocess.PIPE, text=True, env=env)
         assert self.process.stdout is not None
         self.address = re.search(r"http://\S+", self.process.stdout.readline())[0]
         return self

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import socket
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +12,6 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from packwork import compiled
 from studio.browsing import PHONE, WIDE, Desk, Server, in_browser
 
 pytestmark = in_browser
@@ -478,11 +476,7 @@ def test_a_page_goes_on_by_itself_after_a_crash(
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = tuple(str(probe.getsockname()[1]) if one == "free" else one for one in port)
-    kernels = compiled.STORE.folder
-    if "PACKWORK_CACHE_DIR" not in os.environ and kernels is not None:
-        # Desks in a folder of their own, kernels where they are.
-        monkeypatch.setenv("NUMBA_CACHE_DIR", str(kernels.parent.parent))
-        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
     first = Server("circle", "star", "-n", "6", *port).start()
     context = browser.new_context(viewport=WIDE)
     second = Server("--again", *port)

@@ -15,7 +15,6 @@ from typing import Any
 
 import pytest
 
-from packwork import compiled
 from packwork.live.face.opening import Opening
 from packwork.studio import serving
 from packwork.studio.kept_workspaces import KeptWorkspace
@@ -134,11 +133,8 @@ def impostor(port: int) -> Iterator[list[str]]:
 
 @pytest.fixture
 def own_desks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Desks in a folder of their own, kernels where they are."""
-    kernels = compiled.STORE.folder
-    if "PACKWORK_CACHE_DIR" not in os.environ and kernels is not None:
-        monkeypatch.setenv("NUMBA_CACHE_DIR", str(kernels.parent.parent))
-        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    """Desks in a folder of their own."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
 
 
 def answered(host: str, token: str) -> int:

@@ -24,8 +24,11 @@ from packwork.folders import private_folder
 from packwork.live.face.exporting import layout_bytes
 from packwork.live.face.opening import lock_of, read_once
 
-MOST_WORKSPACES = 8
+MOST_WORKSPACES = 50
 """Workspaces that are kept; then the one left alone for longest is written over. Chosen."""
+
+MOST_RECENT = 6
+"""Workspaces of which a page is told: each is read and drawn. As many as it shows."""
 
 ENDING = ".packwork"
 
@@ -58,7 +61,7 @@ class KeptWorkspace:
     @property
     def inputs(self) -> str:
         """Arguments by which a command line opens it."""
-        is_ours = self.file.parent == private_folder("studio")
+        is_ours = self.file.parent == _folder()
         return "--again" if is_ours else shlex.quote(str(self.file))
 
     def remember(self, port: int, key: str) -> None:
@@ -71,9 +74,14 @@ class KeptWorkspace:
                     json.dump({"port": port, "key": key}, out)
 
 
+def _folder() -> Path | None:
+    """The folder of workspaces; None if nothing may be kept."""
+    return private_folder("studio", kind="data")
+
+
 def of_file(file: Path) -> KeptWorkspace:
     """Workspace of a session file that somebody has named."""
-    folder = private_folder("studio")
+    folder = _folder()
     name = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:16]
     return KeptWorkspace(file, None if folder is None else folder / f"{name}.json")
 
@@ -83,7 +91,7 @@ def new() -> KeptWorkspace | None:
 
     None that somebody works at, however long it was left alone.
     """
-    folder = private_folder("studio")
+    folder = _folder()
     if folder is None:
         return None
     files = [folder / f"desk-{number}{ENDING}" for number in range(1, MOST_WORKSPACES + 1)]
@@ -117,9 +125,11 @@ class Shelf:
         return self._remembered(KeptWorkspace(found, found.with_suffix(".json")))
 
     def recent(self) -> list[Recent]:
-        """Workspaces that nobody works at, the newest first; what cannot be read is left out."""
-        found = []
+        """Newest workspaces that nobody works at; what cannot be read is left out."""
+        found = list[Recent]()
         for file in sorted(_known(), key=_last_used, reverse=True):
+            if len(found) == MOST_RECENT:
+                break
             key = file, _last_used(file)
             with contextlib.suppress(Timeout, OSError, PackworkError):
                 with FileLock(lock_of(file), blocking=False):
@@ -166,7 +176,7 @@ def last() -> KeptWorkspace:
 
 
 def _known() -> Iterator[Path]:
-    folder = private_folder("studio")
+    folder = _folder()
     if folder is not None:
         yield from folder.glob(f"desk-*{ENDING}")
 
