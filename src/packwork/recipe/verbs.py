@@ -94,7 +94,7 @@ def options_of(verb: Verbs) -> tuple[Offered, ...]:
     >>> [option.name for option in options_of(Verbs.PILE)][:8]
     ['pixels', 'dpi', 'background', 'halo', 'show_container', 'flatten', 'cut', 'kiss_cut']
     >>> [o.name for o in options_of(Verbs.WORDS) if o.offer.group is Group.PLACED][:3]
-    ['count', 'min_count', 'language']
+    ['count', 'label_by', 'size_by']
     """
     written = [option for model in WRITTEN for option in offered(model) if verb in option.verbs]
     return in_groups((*run_options(verb), *written))

@@ -14,7 +14,8 @@ from packwork.arrays import FloatArray
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import Region
+from packwork.geometry.overlay import intersection, union
+from packwork.geometry.polygon import Region
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.progress import until_over
@@ -92,7 +93,7 @@ def barred(
             x = (own - poses.x[k]) / poses.scale[k]
             y = (np.array([high[k], low[k]]) - poses.y[k]) / poses.scale[k]
             found[k].append(shapely.box(x.min(), y.min(), x.max(), y.max()))
-    return [Outline.from_region(shapely.union_all(parts)) for parts in found]
+    return [Outline.from_region(union(parts)) for parts in found]
 
 
 def _free(
@@ -108,7 +109,7 @@ def _free(
     first, second = shapely.STRtree(regions).query(bars, predicate="intersects")
     is_other = first != second
     first, second = first[is_other], second[is_other]
-    near = shapely.bounds(shapely.intersection(bars[first], regions[second]))
+    near = shapely.bounds(intersection(bars[first], regions[second]))
     off = np.abs(near[:, 0 if side > 0 else 2] - end[first])
     np.minimum.at(room, first, off)
     return room
