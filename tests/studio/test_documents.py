@@ -22,7 +22,7 @@ NAMES = ["icons", "letters", "words", "photos", "mosaic", "nest"]
 
 @pytest.fixture
 def private(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(kept_workspaces, "private_folder", lambda _: tmp_path)
+    monkeypatch.setattr(kept_workspaces, "_folder", lambda: tmp_path)
     return tmp_path
 
 
