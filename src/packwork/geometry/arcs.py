@@ -166,7 +166,9 @@ def with_longest_arcs(line: ArcLine, tolerance: float) -> ArcLine:
     """
     points, sides = line.points, line.sides
     ends, bulges = line.ends, line.bulges[:sides]
-    middles = _middles(points[:sides], ends, bulges)
+    chords = ends - points[:sides]
+    across = np.column_stack([chords[:, 1], -chords[:, 0]])
+    middles = (points[:sides] + ends + bulges[:, None] * across) / 2.0
     first, kept = 0, list[tuple[FloatArray, float]]()
     while first < sides:
         last, bulge = first, float(bulges[first])
@@ -202,13 +204,6 @@ def _circle_through(points: FloatArray, tolerance: float) -> ArcLine | None:
     radius = float(far.max() + far.min()) / 2.0
     is_one = far.max() - radius <= tolerance
     return circle((float(origin[0] + x), float(origin[1] + y)), radius) if is_one else None
-
-
-def _middles(starts: FloatArray, ends: FloatArray, bulges: FloatArray) -> FloatArray:
-    """Middles of arcs."""
-    chord = ends - starts
-    across = np.column_stack([chord[:, 1], -chord[:, 0]])
-    return np.asarray((starts + ends + bulges[:, None] * across) / 2.0)
 
 
 def joined_lines(lines: list[ArcLine], *, is_closed: bool) -> ArcLine:

@@ -55,7 +55,7 @@ class WorkBound:
     seconds: float = math.inf
     begun: float = math.nan
     done: int = 0
-    best_so_far: str = ""
+    best_so_far: str = "searching"
     """For people who wait."""
 
     @classmethod
@@ -270,7 +270,8 @@ class StripSearch:
     def compress(self, best: Strip, until: float = 1.0) -> Strip:
         """Shorten a strip by ever less, and take back what does not succeed."""
         begun = self.work.share
-        best = self.compacted(best, FINEST)
+        if not self.is_over(until):
+            best = self.compacted(best, FINEST)
         while not self.is_over(until):
             done = (self.work.share - begun) / max(until - begun, 1e-9)
             share = CLOSEST * (FINEST / CLOSEST) ** min(done, 1.0)

@@ -28,7 +28,7 @@ MOST_WORKSPACES = 50
 """Workspaces that are kept; then the one left alone for longest is written over. Chosen."""
 
 MOST_RECENT = 6
-"""Workspaces of which a page is told: each is read and drawn. As many as it shows."""
+"""Workspaces of which a page is told, which shows all: each is read and drawn."""
 
 ENDING = ".packwork"
 

@@ -57,11 +57,10 @@ def test_small_items_spread_where_large_ones_bound_the_size(
 ) -> None:
     scales = np.array([20.0] * 2 + [1.0] * 60)
 
-    def farthest() -> float:
+    def farthest(seed: int) -> float:
         """From a point inside to the nearest item's middle."""
-        found = tiled_fit(
-            DISC, [BAR] * 62, scales, np.zeros(62), np.random.default_rng(0), margin_cu=0.1
-        )
+        rng = np.random.default_rng(seed)
+        found = tiled_fit(DISC, [BAR] * 62, scales, np.zeros(62), rng, margin_cu=0.1)
         assert found is not None
         x, y = np.meshgrid(np.arange(100.0), np.arange(100.0))
         is_in = np.hypot(x - 50, y - 50) < 48
@@ -69,9 +68,9 @@ def test_small_items_spread_where_large_ones_bound_the_size(
         large = np.abs(y[is_in][:, None] - found.y[:2]) < found.scale[0]
         return float(away[~large.any(axis=1)].min(axis=1).max())
 
-    even = farthest()
+    even = [farthest(seed) for seed in range(3)]
     monkeypatch.setattr("packwork.start.first_fit.tiled.MOST_LOOSE", 0)
-    assert even < 0.6 * farthest()
+    assert np.median(even) < 0.6 * np.median([farthest(seed) for seed in range(3)])
 
 
 def test_room_takes_ink() -> None:

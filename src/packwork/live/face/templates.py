@@ -59,10 +59,6 @@ def _words() -> Opening:
     return Opening(recipe=recipe)
 
 
-def _photos(folder: Path) -> Opening:
-    return Opening(recipe=uses.photos_recipe("heart", [str(folder)], effort="draft"))
-
-
 def _mosaic(folder: Path) -> Opening:
     picture = str(next(folder.iterdir()))
     recipe = make_recipe(
@@ -76,7 +72,12 @@ _OWN: Mapping[str, Callable[[], Opening]] = {
     "icons": lambda: opening_of([]), "letters": _letters, "words": _words, "nest": _cut
 }  # fmt: skip
 
-_OF_FILES: Mapping[str, Callable[[Path], Opening]] = {"photos": _photos, "mosaic": _mosaic}
+_OF_FILES: Mapping[str, Callable[[Path], Opening]] = {
+    "photos": lambda folder: Opening(
+        recipe=uses.photos_recipe("heart", [str(folder)], effort="draft")
+    ),
+    "mosaic": _mosaic,
+}
 
 TEMPLATES = (*_OWN, *_OF_FILES)
 """Names of all templates."""

@@ -11,8 +11,6 @@ const TEMPLATES = /** @type {const} */ ([
   ["icons", "Icons in a heart", ""], ["letters", "A word of icons", ""], ["words", "A word cloud", ""],
   ["photos", "Your photographs", "image/*"], ["mosaic", "A picture of icons", "image/*"], ["nest", "Parts on a sheet", ""],
 ]);
-/** Kept documents that are shown, the newest. */
-const MOST = 6;
 const UNITS = /** @type {const} */ ([["day", 86400], ["hour", 3600], ["minute", 60]]);
 
 export class Start {
@@ -52,7 +50,7 @@ export class Start {
     for (const one of this.pictures) URL.revokeObjectURL(one);
     this.pictures = found.map(({ png }) => URL.createObjectURL(new Blob([Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0))], { type: "image/png" })));
     this.kept.hidden = !found.length;
-    this.recent.replaceChildren(...found.slice(0, MOST).map(({ name, title, count, changed }, k) =>
+    this.recent.replaceChildren(...found.map(({ name, title, count, changed }, k) =>
       this.card(this.pictures[k], title, `${count} items, ${ago(changed)}`, () => this.send({ kept: name }))));
   }
 
