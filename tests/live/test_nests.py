@@ -16,6 +16,8 @@ import shapely
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
 from packwork.live import edits
+from packwork.live.commands.gestures import Drop, Grab
+from packwork.live.commands.placing import Move
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.exporting import kept_bytes, layout_bytes
 from packwork.live.file.session_file import packed, read_session, unpacked
@@ -76,6 +78,22 @@ def test_what_is_brought_has_the_size_of_its_drawing(tmp_path: Path) -> None:
 
 def _items(file: Path) -> Any:
     return read_items([file]).items
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_part_that_is_dragged_over_others_to_free_ground_moves_none_of_them(seed: int) -> None:
+    layout = pw.nest("400x100mm*1", [(TILE, 3), (HOOK, 4)], kerf=2, passes=60, seed=seed).layouts[0]
+    session = session_of(layout)
+    before = session.document.poses
+    first = int(np.argmin(before.x))
+    session.apply(Grab(items=(first,)))
+    for x in np.linspace(before.x[first], 350.0, 9):
+        session.apply(Move(item=first, x=float(x), y=50.0))
+        session.flow(2)
+    session.apply(Drop())
+    assert session.settle().certified
+    off = np.hypot(session.document.poses.x - before.x, session.document.poses.y - before.y)
+    assert np.flatnonzero(off > 1e-9).tolist() == [first]
 
 
 def test_the_margin_is_the_ground_and_is_taken_off_once() -> None:

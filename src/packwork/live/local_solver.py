@@ -282,17 +282,28 @@ class LocalSolver:
             self._turn_to(back.document)
 
     def _separate(self, stop: Stop) -> bool:
-        """Take apart parts of true size: first from where all others lay before they gave way.
+        """Take apart parts of true size: from where all others lay before they gave way.
 
-        Those that the hand has put somewhere stay there if they can.
+        Those that the hand has put somewhere stay there if they can, and so do others that
+        nothing overlaps then.
         """
         now, base, marks = self.document, self.base, self.marks
         by_hand = marks.placed_by_user | marks.by_hand
         _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
         back = ~np.isin(now.ids[rows], list(by_hand))
         poses = now.poses.with_some(rows[back], base.poses.subset(theirs[back]))
+        wrong = self._certificate.violations(now.with_poses(poses))
+        if not wrong:
+            self._turn_to(now.with_poses(poses))
+            return True
         placed = np.isin(now.ids, list(by_hand))
-        for start, still in ((poses, placed), (now.poses, placed), (poses, placed & False)):
+        clear = ~np.isin(
+            now.ids, [k for one in wrong for k in (one.item, one.other) if k is not None]
+        )
+        none = np.zeros_like(placed)
+        for start, still in (
+            (poses, placed | clear), (poses, placed), (now.poses, placed), (poses, none)
+        ):  # fmt: skip
             found = separated(now.with_poses(start), still, stop)
             if found is not None and not self._certificate.in_the_way(now.with_poses(found)):
                 self._turn_to(now.with_poses(found))
