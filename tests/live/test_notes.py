@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
+from packwork.errors import RecipeError
 from packwork.live.face.opening import opening_of
 from packwork.writers import svg_text
 
@@ -46,6 +47,17 @@ def test_a_label_goes_with_the_item_that_is_taken_away(chart: pw.Layout) -> None
     assert len([note for note in session.layout.notes if note.is_on_item]) == len(labels) - 1
     assert session.undo()
     assert len([note for note in session.layout.notes if note.is_on_item]) == len(labels)
+
+
+def test_marks_stay_in_proportion_to_their_numbers(chart: pw.Layout) -> None:
+    session = chart.edit()
+    for edit in (
+        lambda: session.scale("fig", 2.0),
+        lambda: session.weigh("fig", 2.0),
+        lambda: session.set(sizes="free"),
+    ):
+        with pytest.raises(RecipeError, match="as large as their numbers say"):
+            edit()
 
 
 def test_an_svg_of_ours_is_opened_as_a_layout_and_no_other(tmp_path: Path) -> None:

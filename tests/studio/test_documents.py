@@ -33,7 +33,7 @@ def test_each_template_has_a_picture_and_begins() -> None:
     nested = template("nest").document
     assert nested is not None
     assert Session(nested).is_certified
-    assert nested.is_nest
+    assert nested.kind.has_parts
 
 
 def test_a_title_is_in_the_file_and_no_step_of_the_history(play: Callable) -> None:

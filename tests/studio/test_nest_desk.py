@@ -34,10 +34,15 @@ def test_parts_are_moved_turned_and_cut_in_true_size(
     desk = open_desk()
     desk.picture("nest")
     assert desk.page.get_by_role("button", name="Nest anew").count() == 1
+    panel = desk.page.locator("#panel")
+    for name in ("Show a picture by their colours", "Like beside like", "Put them in an order"):
+        assert panel.get_by_text(name).is_hidden()
     first = desk.look("studio.collage.items.find(item => item.name === 'part').id")
     scale = desk.look(f"studio.collage.pose({first}).scale")
     desk.page.mouse.click(*desk.place(first))
     assert desk.look("studio.stage.handles().map(handle => handle.kind)") == ["turn"]
+    assert desk.page.locator(".editor label:has-text('Name')").is_visible()
+    assert desk.page.locator(".editor label:has-text('Weight')").is_hidden()
     desk.page.keyboard.press("+")
     middle = desk.look("(p => [p.x, p.y + 49])(studio.view.toScreen(150, 100))")
     desk.drag(desk.place(first), middle)

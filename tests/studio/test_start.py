@@ -28,7 +28,7 @@ def test_a_desk_without_inputs_offers_templates(open_desk: Callable[..., Desk]) 
     desk.until("[...document.querySelectorAll('dialog.start img')].every(one => one.naturalWidth)")
     desk.picture("start")
     dialog.get_by_role("button", name="Parts on a sheet").click()
-    desk.until("studio.collage.scene?.is_nest")
+    desk.until("studio.collage.scene?.kind === 'nest'")
     desk.settled()
     desk.picture("template-nest")
     # It is kept apart: what was there before can be gone on with.

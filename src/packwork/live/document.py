@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
+from functools import cached_property
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.forces.forces import NO_FORCES, Forces
+from packwork.live.kinds import Kind, kind_of
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.live.options import LiveOptions
-from packwork.live.true_sizes import NestRules
 from packwork.pipeline.plan.forces import forces_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -84,15 +85,12 @@ class Document:
         """
         count = len(layout.items)
         options = LiveOptions.from_manifest(layout.manifest)
-        container, manifest = layout.container, layout.manifest
+        kind = kind_of(layout.manifest)
         held = np.zeros((count, len(PROPERTIES)), dtype=bool)
-        if (rules := NestRules.of(manifest)) is not None:
-            container = rules.ground(container, options.padding)
-            manifest = {**manifest, "nest": {**manifest["nest"], "margin": options.padding}}
-            own = np.isin(np.arange(count) + 1, list(rules.own_angles))
-            held[own, PROPERTIES.index("angle")] = True
+        own = np.isin(np.arange(count) + 1, list(kind.own_angles))
+        held[own, PROPERTIES.index("angle")] = True
         document = cls(
-            container=container,
+            container=kind.ground(layout.container, options.padding),
             items=layout.items,
             ids=np.arange(count),
             poses=layout.poses,
@@ -102,7 +100,7 @@ class Document:
             held=held,
             options=options,
             next_id=count,
-            manifest=manifest,
+            manifest=kind.begun(layout.manifest, options.padding),
             notes=attached(layout),
         )
         return document.with_ranges(options)
@@ -114,9 +112,7 @@ class Document:
     def layout(self) -> Layout:
         """The layout as it is now; of its manifest what does not depend on places."""
         ground = ground_in(self.manifest)
-        manifest = self.manifest
-        if (nest := NestRules.of(manifest)) is not None:
-            manifest = {**manifest, "nest": {**manifest["nest"], **nest.rows(self.ids)}}
+        manifest = self.kind.stated(self.manifest, self.ids)
         made = Layout(self.container, self.items, self.poses, self.weights, manifest, ground=ground)
         rows = {number: row for row, number in enumerate(self.ids.tolist())}
         return replace(made, notes=tuple(notes_on(made, rows, self.notes)))
@@ -127,10 +123,11 @@ class Document:
         given = self.manifest.get("title")
         return given if isinstance(given, str) and given else self.container.name
 
-    @property
-    def is_nest(self) -> bool:
-        """Whether its items are parts of true size."""
-        return NestRules.of(self.manifest) is not None
+    @cached_property
+    def kind(self) -> Kind:
+        """Kind of document that this is: what of it may change."""
+        has_numbers = bool(self.notes) or any(item.datum is not None for item in self.items)
+        return kind_of(self.manifest, has_numbers=has_numbers)
 
     @property
     def own_areas(self) -> FloatArray:

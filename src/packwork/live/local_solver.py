@@ -264,7 +264,7 @@ class LocalSolver:
         A gesture that would ruin the rest is taken back.
         """
         self._bring_inside()
-        if self.document.is_nest and self._separate(stop):
+        if self.document.kind.has_parts and self._separate(stop):
             return
         asked = self.document
         if not (is_other_cloud(self.base, asked) and self._refill(asked, stop)):

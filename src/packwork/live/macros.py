@@ -54,7 +54,7 @@ def weighed(session: Session, pairs: Iterable[tuple[Item, float]]) -> Iterator[A
     places = widest_places(document, session.shapes)
     for (item, weight), (x, y, radius) in zip(pairs, places, strict=False):
         area = first_area(document, radius, weight)
-        if document.is_nest:
+        if document.kind.has_parts:
             area = item.outline.area * true_scale(document, item) ** 2
         asset = named_item(session.library, item)
         yield made(Add, asset=asset, x=x, y=y, area=area, weight=weight)

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field, ValidationError, field_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, checked_forces, parse_force
-from packwork.live.true_sizes import NestRules
+from packwork.live.kinds import kind_of
 from packwork.metrics.certificate import Promise
 from packwork.options import Options, SizeMode
 from packwork.recipe.rules import Rotation, known_rotation
@@ -64,8 +64,7 @@ class LiveOptions(Options):
         found["force"] = _without_files(options.get("force"))
         sizes = MODES.get(str(options.get("sizes")), "free")
         found["sizes"] = "shared" if promise.areas_in_shares else sizes
-        if (rules := NestRules.of(manifest)) is not None:
-            found |= {"sizes": "fixed", "rotate": rules.rotate}
+        found |= kind_of(manifest).options
         edited = manifest.get("edited")
         if isinstance(edited, Mapping):
             found = {**found, **edited}

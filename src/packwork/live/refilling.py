@@ -9,7 +9,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.certificate import Certificate, promise_of
-from packwork.live.commands.command import Library, is_chart
+from packwork.live.commands.command import Library
 from packwork.live.document import Document
 from packwork.live.macros import is_word
 from packwork.live.relayout import job_again, poured_again
@@ -71,7 +71,7 @@ def refilled(
         or _has_other_outlines(before, asked)
         or not np.array_equal(asked.weights, before.weights)
     )
-    if asked.options.sizes != "shared" or is_chart(asked) or not (len(by_hand) or is_other):
+    if asked.options.sizes != "shared" or asked.kind.refusal or not (len(by_hand) or is_other):
         return None
     was_wrong = bool(Certificate().violations(settled))
     is_fuller = covered(settled) >= covered(before) - MOST_LOST and not was_wrong
@@ -115,7 +115,7 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
     if _has_other_outlines(before, now) or not np.array_equal(before.ids, now.ids):
         return None
     share = [100 * covered(one) for one in (before, now)]
-    least = 1 - ROUNDING if is_chart(now) else (share[0] - 100 * MOST_RUINED) / share[0]
+    least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
     if share[1] >= share[0] * least:
         return None
     columns = {name: getattr(before, name) for name in ("poses", "weights", "smallest", "largest")}
@@ -127,7 +127,7 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
 
 def advice_of(document: Document) -> tuple[str, ...]:
     """Advice on a layout as it stands: what is poor and what would do, as after a run."""
-    if len(document) == 0 or document.is_nest:
+    if len(document) == 0 or not document.kind.shows_shape:
         return ()
     layout = document.layout
     seen = shape_metrics(layout.outlines, document.container)

@@ -55,7 +55,7 @@ def poured_again(
     ``asked``: where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
     ``anchors``.
     """
-    if document.is_nest:
+    if document.kind.has_parts:
         return _nested(document, seed, shown, stop, asked)
     is_by_text = asked.get("embeddings") == BY_TEXT
     job = job_again(document, seed, {} if is_by_text else asked)

@@ -118,9 +118,9 @@ class Count(PageRequest):
         tab.workspace.change(lambda session: edits.count(session, self.count), "Changing the count")
 
 
-def _is_nest(tab: Tab) -> bool:
+def _has_parts(tab: Tab) -> bool:
     shown = tab.workspace.shown
-    return shown is not None and shown.view.is_nest
+    return shown is not None and shown.view.kind.has_parts
 
 
 class Bring(PageRequest):
@@ -143,7 +143,7 @@ class Bring(PageRequest):
                 workspace.open_another(opening)
                 return
         sources = [importer.source(one) for one in self.sources]
-        found = items_of(sources, is_nest=_is_nest(tab))
+        found = items_of(sources, has_parts=_has_parts(tab))
         for left_out in found.skipped:
             workspace.say(f"left out: {importer.without_folder(str(left_out))}", is_error=False)
         items, at = found.items, (self.x, self.y)
@@ -168,7 +168,7 @@ class Swap(PageRequest):
 
     def _swap(self, tab: Tab) -> None:
         source = tab.importer.source(self.source)
-        (item, *_) = items_of([source], is_nest=_is_nest(tab)).items
+        (item, *_) = items_of([source], has_parts=_has_parts(tab)).items
 
         def put(session: Session) -> None:
             asset = named_item(session.library, item)

@@ -11,6 +11,7 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.offers import INK_FINENESS, Drawing, counted, drawing_of, path_of
+from packwork.live.kinds import COLLAGE, Kind
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -31,7 +32,6 @@ class View:
 
     ``poses``: as many as items; None before they have a place.
     ``angles``: the only ones allowed, radians; None for any.
-    ``is_nest``: whether items are parts of true size.
     """
 
     container: Container
@@ -41,7 +41,7 @@ class View:
     held: BoolArray
     options: Mapping[str, Any] = field(default_factory=dict)
     angles: tuple[float, ...] | None = None
-    is_nest: bool = False
+    kind: Kind = COLLAGE
     title: str = ""
     poses: Poses | None
 
@@ -56,7 +56,7 @@ class View:
             held=document.held,
             options=document.options.model_dump(),
             angles=document.options.rotation.choices,
-            is_nest=document.is_nest,
+            kind=document.kind,
             title=document.title,
             poses=poses or document.poses,
         )
@@ -90,7 +90,7 @@ class View:
         return (
             self.container is other.container
             and self.options == other.options
-            and (self.is_nest, self.title) == (other.is_nest, other.title)
+            and (self.kind, self.title) == (other.kind, other.title)
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
             and _same(self.held, other.held)
@@ -142,7 +142,7 @@ class Scenes:
             items=tuple(self._thing(view, k) for k in range(len(view.items))),
             options=dict(view.options),
             angles=view.angles,
-            is_nest=view.is_nest,
+            kind=view.kind.name,
             title=view.title or container.name,
         )
         self._last = (view, scene)

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 
 from packwork.live.commands.placing import Arrange
+from packwork.live.kinds import KindName
 
 HEAD = struct.Struct("<4I")
 """Of a frame: its number, the version of the scene it is of, the newest command of this page that
@@ -73,8 +74,8 @@ class Scene(Message):
     options: dict[str, Any]
     angles: tuple[float, ...] | None = None
     """The only ones allowed, radians; None for any."""
-    is_nest: bool = False
-    """Whether items are parts of true size."""
+    kind: KindName = "collage"
+    """Kind of document, by which the page shows what has meaning."""
     title: str = ""
     """That a person has given, or the container's name."""
 

@@ -105,17 +105,10 @@ def true_scale(document: Document, item: Item) -> float:
     return convert(1.0, "px", document.container.unit)
 
 
-def is_chart(document: Document) -> bool:
-    """Whether sizes of items stand for numbers, as keys beside them say."""
-    return bool(document.notes) or any(item.datum is not None for item in document.items)
-
-
 def check_may_size(document: Document, what: str) -> None:
-    """Refuse to size marks of a chart, and parts of true size."""
-    if document.is_nest:
-        raise RecipeError(what, "parts of a nest keep their true size")
-    if is_chart(document):
-        raise RecipeError(what, "marks of a chart are as large as their numbers say; change those")
+    """Refuse to size what keeps its size, as marks of a chart and parts of true size."""
+    if document.kind.refusal:
+        raise RecipeError(what, document.kind.refusal)
 
 
 def _numbers(document: Document) -> str:

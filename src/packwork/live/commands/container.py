@@ -120,8 +120,8 @@ class SetOption(Command):
             raise RecipeError(self.name[:40], f"is no option of a session; use one of {choices}")
         values: dict[str, Any] = {**dict(document.options), self.name: self.value}
         options = validated(LiveOptions, values)
-        if document.is_nest and options.sizes != "fixed":
-            raise RecipeError("sizes", "parts of a nest keep their true size")
+        if document.kind.sizes not in {None, options.sizes}:
+            raise RecipeError("sizes", document.kind.refusal)
         check_padding(document.container, options.padding, len(document))
         ranging = ("sizes", "size_ratio", "force")
         if all(getattr(options, one) == getattr(document.options, one) for one in ranging):

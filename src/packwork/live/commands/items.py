@@ -112,7 +112,7 @@ class Replace(Command):
         k = index_of(document, self.item, "replace")
         new = cast(Item, known(library.items, self.asset, "replace"))
         factor = math.sqrt(document.items[k].outline.area / new.outline.area)
-        if document.is_nest:
+        if document.kind.has_parts:
             factor = true_scale(document, new) / float(document.poses.scale[k])
         return sized(_with_item(document.scaled(k, factor), k, new), "replace")
 

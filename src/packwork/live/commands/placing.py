@@ -62,7 +62,7 @@ class Turn(Command):
         """The document with the item turned."""
         k = index_of(document, self.item, "turn")
         angle = math.radians(math.fmod(self.angle, 360.0))
-        if document.is_nest and document.held[k, PROPERTIES.index("angle")]:
+        if document.kind.has_parts and document.held[k, PROPERTIES.index("angle")]:
             return document
         if (allowed := document.options.rotation.choices) is not None:
             angle = float(nearest_allowed(np.array([angle]), None, allowed)[0])

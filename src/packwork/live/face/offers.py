@@ -114,9 +114,9 @@ def _container(name: str) -> dict[str, Any]:
     return {"name": name, "path": path_of(outline, FINENESS), "box": outline.bounds}
 
 
-def items_of(sources: Sequence[str], *, is_nest: bool = False) -> ItemsRead:
+def items_of(sources: Sequence[str], *, has_parts: bool = False) -> ItemsRead:
     """Items of bundled names and of folders of files; of a nest they are drawings for a machine."""
-    return read_items(sources, holes="keep" if is_nest else "fill", by_lines=is_nest)
+    return read_items(sources, holes="keep" if has_parts else "fill", by_lines=has_parts)
 
 
 def offered_fonts() -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 // @ts-check
 /** All that can be asked for by button, key, menu and palette: each stands here once. */
 
+import { kindOf } from "./kinds.js";
 import { PANELS } from "./panels.js";
 
 /** @typedef {import("./dom.js").IconName} IconName */
@@ -58,17 +59,19 @@ function items(studio) {
   const { choice } = studio;
   const when = () => choice.ids.size > 0;
   const turns = () => when() || studio.room.isOn;
-  const sizes = () => (when() && !studio.collage.scene?.is_nest) || studio.room.isOn;
+  const orders = () => studio.collage.hasPoses && kindOf(studio.collage).orders;
+  const grows = () => when() && kindOf(studio.collage).grows;
+  const sizes = () => (when() && kindOf(studio.collage).sizes) || studio.room.isOn;
   return [
     { id: "edit-room", group: "Items", label: "Edit the container, or leave off", keys: ["C"], icon: "shape", when: () => studio.collage.hasPoses, run: () => studio.editRoom() },
     { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
     { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
-    { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when, run: () => studio.duplicate() },
+    { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when: grows, run: () => studio.duplicate() },
     { id: "middle", group: "Items", label: "Put it in the middle", keys: ["M"], when: () => choice.ids.size === 1, run: () => studio.toMiddle() },
     { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
-    { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: () => studio.collage.hasPoses, run: () => studio.dropping.choosePicture() },
-    { id: "order", group: "Items", label: "Put them in an order …", keys: ["O"], when: () => studio.collage.hasPoses, run: () => studio.ordering.open() },
-    { id: "like", group: "Items", label: "Like beside like, by a table of vectors …", keys: ["L"], when: () => studio.collage.hasPoses, run: () => studio.ordering.chooseVectors() },
+    { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: orders, run: () => studio.dropping.choosePicture() },
+    { id: "order", group: "Items", label: "Put them in an order …", keys: ["O"], when: orders, run: () => studio.ordering.open() },
+    { id: "like", group: "Items", label: "Like beside like, by a table of vectors …", keys: ["L"], when: orders, run: () => studio.ordering.chooseVectors() },
     { id: "like-by-text", group: "Items", label: "Words that stand together in the text beside each other", keys: ["Shift+L"], when: () => studio.collage.items.some((item) => item.is_word), run: () => studio.ordering.byText() },
     { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },

@@ -1,6 +1,8 @@
 // @ts-check
 /** What there is to be seen: items, how they look, where they are, and where they are shown. */
 
+import { kindOf } from "./kinds.js";
+
 /** @typedef {import("./wire.js").Scene} Scene */
 /** @typedef {import("./wire.js").Shape} Shape */
 /** @typedef {import("./wire.js").Thing} Thing */
@@ -151,7 +153,7 @@ export class Collage {
    * @param {number} angle
    */
   allowed(id, angle) {
-    if (this.scene?.is_nest && this.item(id)?.held[1]) return this.pose(id)?.angle ?? angle;
+    if (!kindOf(this).turns && this.item(id)?.held[1]) return this.pose(id)?.angle ?? angle;
     const angles = this.scene?.angles;
     if (!angles?.length) return angle;
     const off = angles.map((one) => shortest(one - angle));

@@ -3,6 +3,7 @@
 
 import { h } from "./dom.js";
 import { together } from "./hand.js";
+import { kindOf } from "./kinds.js";
 
 /** @typedef {import("./wire.js").Thing} Thing */
 
@@ -14,10 +15,11 @@ export class ItemEditor {
     this.items = [];
     this.name = h("input", { type: "text", maxlength: "200", onchange: () => this.rename() });
     this.weight = h("input", { type: "number", min: "0.01", step: "any", onchange: () => this.weigh() });
+    this.weighs = h("label", {}, "Weight", this.weight);
     this.colour = h("input", { type: "color", value: "#1f6f78", onchange: () => studio.recolour(this.colour.value) });
     const replace = h("button", { type: "button", onclick: () => studio.replacing.open() }, "Replace …");
     this.element = h("div", { class: "editor", role: "group", "aria-label": "Change what is chosen" },
-      h("label", {}, "Name", this.name), h("label", {}, "Weight", this.weight), h("label", {}, "Colour", this.colour), replace);
+      h("label", {}, "Name", this.name), this.weighs, h("label", {}, "Colour", this.colour), replace);
   }
 
   get ids() {
@@ -27,6 +29,7 @@ export class ItemEditor {
   /** @param {Thing[]} items at least one */
   show(items) {
     this.items = items;
+    this.weighs.hidden = !kindOf(this.studio.collage).sizes;
     const [first] = items;
     const own = this.studio.collage.colour(first.id);
     const colour = own ?? this.colour.value;

@@ -3,6 +3,7 @@
 
 import { button, h, icon } from "./dom.js";
 import { ItemEditor } from "./itemeditor.js";
+import { kindOf } from "./kinds.js";
 import { thumbOf } from "./thumbs.js";
 
 /** @typedef {import("./studio.js").Studio} Studio */
@@ -20,21 +21,22 @@ export class ItemList {
     this.list = h("ul", { class: "items", "aria-label": "Items of the collage" });
     this.counter = h("input", { type: "number", id: "count", min: "1", max: "10000",
       onchange: () => studio.connection.send({ type: "count", count: Number(this.counter.value) || 1 }) });
+    this.orders = h("div", { class: "orders stack" },
+      h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => studio.dropping.choosePicture() }, "Show a picture by their colours"),
+      h("button", { type: "button", class: "wide", title: "By a table of vectors, such as a model of pictures gives: a row an item, or a first column of names", onclick: () => studio.ordering.chooseVectors() }, "Like beside like, by a table"),
+      studio.ordering.element);
     this.listed = "";
   }
 
   /** @param {HTMLElement} body */
   fill(body) {
-    const { connection, ordering, panels } = this.studio;
+    const { connection, panels } = this.studio;
     const grid = h("div", { class: "grid small" });
     panels.load().then((choices) => grid.replaceChildren(...(choices?.items ?? []).map((/** @type {any} */ one) =>
       h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)))));
-    body.replaceChildren(this.incoming(),
-      h("details", {}, h("summary", {}, "Add bundled ones"), grid),
-      h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => this.studio.dropping.choosePicture() }, "Show a picture by their colours"),
-      h("button", { type: "button", class: "wide", title: "By a table of vectors, such as a model of pictures gives: a row an item, or a first column of names", onclick: () => ordering.chooseVectors() }, "Like beside like, by a table"),
-      ordering.element,
-      h("label", { class: "row" }, "Items in all", this.counter), this.list);
+    body.replaceChildren(
+      h("div", { class: "grows" }, this.incoming(), h("details", {}, h("summary", {}, "Add bundled ones"), grid)), this.orders,
+      h("label", { class: "row grows" }, "Items in all", this.counter), this.list);
     this.listed = "";
     this.refresh();
   }
@@ -54,6 +56,9 @@ export class ItemList {
   refresh() {
     if (!this.list.isConnected) return;
     const { collage, choice } = this.studio;
+    const { orders, grows } = kindOf(collage);
+    this.orders.hidden = !orders;
+    for (const one of this.list.parentElement?.querySelectorAll(".grows") ?? []) /** @type {HTMLElement} */ (one).hidden = !grows;
     const groups = [...grouped(collage.items).values()];
     const key = JSON.stringify(groups.map((group) => [group[0].shape, group[0].name, group.map((one) => [one.id, one.held])]));
     if (key !== this.listed) this.rewrite(groups);
@@ -94,6 +99,7 @@ export class ItemList {
     const { connection, choice, collage } = this.studio;
     const [first] = group;
     const ids = group.map((one) => one.id);
+    const { grows } = kindOf(collage);
     const less = button("minus", `One ${first.name} less`, () => connection.do({ kind: "remove", items: [ids[ids.length - 1]] }));
     const more = button("plus", `One ${first.name} more`, () => connection.do({ kind: "duplicate", item: first.id }));
     less.disabled = collage.items.length < 2;
@@ -101,7 +107,7 @@ export class ItemList {
     return h("li", {},
       h("button", { type: "button", class: "item", "data-ids": ids.join(" "), "aria-pressed": "false", onclick: () => choice.set(ids) },
         thumbOf(collage.look(first)), h("span", { class: "name" }, first.name), held && icon("pin")),
-      h("span", { class: "stepper", role: "group", "aria-label": `${group.length} ${first.name}` }, less, h("span", {}, String(group.length)), more));
+      grows && h("span", { class: "stepper", role: "group", "aria-label": `${group.length} ${first.name}` }, less, h("span", {}, String(group.length)), more));
   }
 }
 

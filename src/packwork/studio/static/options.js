@@ -2,13 +2,12 @@
 /** The panel of numbers for all items, drawn from the fields that the studio tells of. */
 
 import { h } from "./dom.js";
+import { kindOf } from "./kinds.js";
 
 /** @typedef {{name: string, help: string, choices: string[], range: number[], default: any}} Question */
 
 /** Characters of an explanation that is shown without being asked for. */
 const SHORT = 90;
-/** Settings that parts of true size have. */
-const OF_NESTS = new Set(["padding", "rotate"]);
 const LABELS = /** @type {Record<string, string>} */ ({ padding: "Gap", sizes: "Sizes", size_ratio: "Size ratio", rotate: "Turns", evenness: "Evenness" });
 
 /**
@@ -19,7 +18,8 @@ const LABELS = /** @type {Record<string, string>} */ ({ padding: "Gap", sizes: "
 export function fillOptions(body, studio, questions) {
   const now = studio.collage.scene?.options ?? {};
   const set = (/** @type {string} */ name, /** @type {any} */ value) => studio.connection.send({ type: "set", options: { [name]: value } });
-  const asked = questions.filter((one) => !studio.collage.scene?.is_nest || OF_NESTS.has(one.name));
+  const { settings } = kindOf(studio.collage);
+  const asked = questions.filter((one) => !settings || settings.has(one.name));
   body.replaceChildren(...asked.map((one) => (one.choices.length ? choiceOf(one, now, set) : sliderOf(one, now, set, studio))),
     studio.forces.element, h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
   studio.forces.refresh();

@@ -4,6 +4,7 @@
 import { Backdrop } from "./backdrop.js";
 import { matrixOf } from "./collage.js";
 import { coloursOf } from "./colours.js";
+import { kindOf } from "./kinds.js";
 
 /** @typedef {import("./collage.js").Collage} Collage */
 /** @typedef {import("./view.js").View} View */
@@ -265,7 +266,7 @@ export class Stage {
     const [a, b, c, d] = frame;
     const [ux, uy] = unit(d, a);
     const top = [(a[0] + b[0]) / 2 + TURN_AWAY * ux, (a[1] + b[1]) / 2 + TURN_AWAY * uy];
-    const corners = this.collage.scene?.is_nest ? [] : [a, b, c, d];
+    const corners = kindOf(this.collage).sizes ? [a, b, c, d] : [];
     return [
       ...corners.map((at, corner) => ({ at, kind: /** @type {const} */ ("scale"), corner })),
       { at: /** @type {[number, number]} */ (top), kind: "turn", corner: -1 },

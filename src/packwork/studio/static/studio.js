@@ -15,6 +15,7 @@ import { Gestures } from "./gestures.js";
 import { Hand, together } from "./hand.js";
 import { Incoming } from "./incoming.js";
 import { listenToKeys } from "./keys.js";
+import { kindOf } from "./kinds.js";
 import { Menu } from "./menu.js";
 import { Ordering } from "./ordering.js";
 import { Outage } from "./outage.js";
@@ -204,7 +205,7 @@ export class Studio {
     const [id] = this.choice.ids;
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
     this.bar.show(this.collage.scene?.title ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
-    this.bar.rename("pour", this.collage.scene?.is_nest ? "Nest anew" : "Pour anew");
+    this.bar.rename("pour", kindOf(this.collage).again);
     byId("empty").hidden = this.collage.hasPoses;
     byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";

@@ -40,7 +40,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), is_nest?: boolean, title?: string}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), title?: string}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption

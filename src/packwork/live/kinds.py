@@ -1,0 +1,177 @@
+"""Kinds of documents: what of them may change, and what each does in its own way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal, TypeAlias, final
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.errors import RecipeError, ShapeError
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered
+from packwork.options import SizeMode
+from packwork.recipe.rules import Rotation
+from packwork.scene.container import Container
+
+KindName: TypeAlias = Literal["collage", "nest", "chart", "pile"]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A collage, which changes in any way; other kinds say in what they differ.
+
+    ``own_angles``: numbers, from 1, of items that keep the angles they have.
+    """
+
+    name: ClassVar[KindName] = "collage"
+    sizes: ClassVar[SizeMode | None] = None
+    """The only way in which sizes vary; None for any."""
+    refusal: ClassVar[str] = ""
+    """Sentence about sizes that are not for the hand; empty where they are."""
+    shows_shape: ClassVar[bool] = True
+    """Whether items are to tell the container's shape."""
+    has_parts: ClassVar[bool] = False
+    """Whether items are parts of true size, which separation takes apart."""
+
+    own_angles: frozenset[int] = frozenset()
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Options that a document of this kind has whatever its run had."""
+        return {} if self.sizes is None else {"sizes": self.sizes}
+
+    def ground(self, container: Container, gap: float) -> Container:
+        """Container in which items lie at that gap."""
+        del gap
+        return container
+
+    def begun(self, manifest: Mapping[str, Any], gap: float) -> Mapping[str, Any]:
+        """Manifest that a document of a layout begins with."""
+        del gap
+        return manifest
+
+    def stated(self, manifest: Mapping[str, Any], ids: IntArray) -> Mapping[str, Any]:
+        """Manifest of a layout in which items of these numbers are left."""
+        del ids
+        return manifest
+
+
+@final
+@dataclass(frozen=True)
+class NestKind(Kind):
+    """Parts of true size, at allowed angles, off the sheet's edge.
+
+    ``rotate``: angles of most parts, as options say them.
+    ``mirrored``: numbers, from 1, of parts that are turned over.
+    ``margin``: least distance from the sheet's edge, canvas units.
+    """
+
+    name = "nest"
+    sizes = "fixed"
+    refusal = "parts of a nest keep their true size"
+    shows_shape = False
+    has_parts = True
+
+    rotate: str = "none"
+    mirrored: frozenset[int] = frozenset()
+    margin: float = 0.0
+
+    @classmethod
+    def stated_in(cls, said: Mapping[str, Any]) -> NestKind:
+        """Rules that a manifest, which may hold anything, states.
+
+        Examples
+        --------
+        >>> NestKind.stated_in({"rotate": "0,180", "mirrored": [2, "x"]})
+        NestKind(own_angles=frozenset(), rotate='0,180', mirrored=frozenset({2}), margin=0.0)
+        >>> NestKind.stated_in({"rotate": "up", "margin": -1}) == NestKind()
+        True
+        """
+        rotate, margin = said.get("rotate"), said.get("margin")
+        try:
+            Rotation.parse(str(rotate))
+        except (RecipeError, ValueError):
+            rotate = "none"
+        is_length = isinstance(margin, int | float) and 0 < margin < math.inf
+        own, mirrored = (_numbers(said.get(name)) for name in ("own_angles", "mirrored"))
+        margin = float(str(margin)) if is_length else 0.0
+        return cls(own_angles=own, rotate=str(rotate), mirrored=mirrored, margin=margin)
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """True sizes, and the angles of most parts."""
+        return {**super().options, "rotate": self.rotate}
+
+    def ground(self, container: Container, gap: float) -> Container:
+        """The container less what the margin keeps free beyond the gap."""
+        if self.margin <= gap:
+            return container
+        region = buffered(container.outline.region, gap - self.margin, join_style="mitre")
+        try:
+            return replace(container, outline=Outline.from_region(region))
+        except ShapeError:
+            return container
+
+    def begun(self, manifest: Mapping[str, Any], gap: float) -> Mapping[str, Any]:
+        """With the margin that the container's ground has from then on."""
+        return {**manifest, "nest": {**manifest["nest"], "margin": gap}}
+
+    def stated(self, manifest: Mapping[str, Any], ids: IntArray) -> Mapping[str, Any]:
+        """With the parts' numbers as rows, from 1."""
+        known = {"own_angles": self.own_angles, "mirrored": self.mirrored}
+        rows = {
+            name: (np.flatnonzero(np.isin(ids + 1, list(one))) + 1).tolist()
+            for name, one in known.items()
+        }
+        return {**manifest, "nest": {**manifest["nest"], **rows}}
+
+
+@final
+@dataclass(frozen=True)
+class ChartKind(Kind):
+    """Marks that are as large as their numbers say, with keys beside them."""
+
+    name = "chart"
+    sizes = "shared"
+    refusal = "marks of a chart are as large as their numbers say; change those"
+
+
+@final
+@dataclass(frozen=True)
+class PileKind(Kind):
+    """Items of given sizes that forces have heaped up."""
+
+    name = "pile"
+    shows_shape = False
+
+
+COLLAGE = Kind()
+
+
+def kind_of(manifest: Mapping[str, Any], *, has_numbers: bool = False) -> Kind:
+    """Kind of the document that a manifest, which may hold anything, is of.
+
+    ``has_numbers``: whether its items stand for numbers, as keys beside them say.
+
+    Examples
+    --------
+    >>> kind_of({"nest": {}}).name, kind_of({}, has_numbers=True).name, kind_of({}).name
+    ('nest', 'chart', 'collage')
+    """
+    recipe = manifest.get("recipe")
+    if isinstance(said := manifest.get("nest"), Mapping):
+        return NestKind.stated_in(said)
+    if has_numbers:
+        return ChartKind()
+    if isinstance(recipe, Mapping) and isinstance(recipe.get("pile"), Mapping):
+        return PileKind()
+    return COLLAGE
+
+
+def _numbers(said: object) -> frozenset[int]:
+    found = said if isinstance(said, list | tuple) else ()
+    return frozenset(one for one in found if isinstance(one, int))
