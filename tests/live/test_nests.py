@@ -199,3 +199,14 @@ def test_no_two_parts_of_a_moved_nest_are_nearer_than_the_tool() -> None:
     regions = [outline.region for outline in session.layout.outlines]
     near = [shapely.distance(a, b) for k, a in enumerate(regions) for b in regions[:k]]
     assert min(near) > 2 - 1e-9
+
+
+def test_a_part_that_is_turned_over_is_named_as_such() -> None:
+    session = session_of(nested(rotate="0,180"))
+    hook = session.document.items[6]
+    edits.flip(session, [6])
+    assert session.layout.manifest["nest"]["mirrored"] == [7]
+    assert session.document.items[6].outline.area == pytest.approx(hook.outline.area)
+    assert session.settle().certified
+    edits.flip(session, [6])
+    assert session.layout.manifest["nest"]["mirrored"] == []

@@ -6,9 +6,12 @@ import io
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
+import shapely
+from PIL import Image
 
 import packwork as pw
 from packwork.errors import RecipeError
@@ -17,6 +20,9 @@ from packwork.live.commands.placing import Move, Turn
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.metrics.violations import violations
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photos
+from packwork.scene.item import PhotoArt, mirrored
 
 Same = Callable[[pw.Poses, pw.Poses], bool]
 
@@ -498,3 +504,37 @@ def test_a_session_is_saved_under_its_own_ending(tmp_path: Path, session: pw.Ses
     with pytest.raises(pw.WriteError, match=r"end it in \.packwork"):
         session.save(tmp_path / "a.svg")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("direction", ["horizontal", "vertical"])
+def test_what_is_flipped_is_seen_mirrored_where_it_is(
+    session: pw.Session, direction: Literal["horizontal", "vertical"]
+) -> None:
+    before = session.document.layout
+    session.flip(0, direction)
+    session.settle()
+    after = session.document
+    sign = np.array([-1.0, 1.0] if direction == "horizontal" else [1.0, -1.0])
+    was, now = (
+        layout.items[0].outline.mapped(layout.poses.matrix(0)) for layout in (before, after)
+    )
+    scale = after.poses.scale[0] / before.poses.scale[0]
+    mirrored = shapely.transform(
+        was.region, lambda points: (points - was.centroid) * sign * scale + now.centroid
+    )
+    assert mirrored.symmetric_difference(now.region).area < 1e-6 * now.area
+    assert session.is_certified
+    session.undo()
+    assert session.document.items[0] is before.items[0]
+
+
+def test_a_flipped_photograph_is_printed_as_it_is_shown(tmp_path: Path) -> None:
+    Image.new("RGB", (40, 20), "teal").save(tmp_path / "teal.png")
+    (photo,) = read_photos(PhotoOptions(sources=(str(tmp_path / "teal.png"),))).items
+    was, now = photo.art, mirrored(photo).art
+    assert isinstance(was, PhotoArt)
+    assert isinstance(now, PhotoArt)
+    for before, after in (
+        (was.preview, now.preview), (was.original.printed(1.0), now.original.printed(1.0))
+    ):  # fmt: skip
+        assert after.matrix.tolist() == [(-before.matrix[0]).tolist(), before.matrix[1].tolist()]

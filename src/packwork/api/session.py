@@ -143,6 +143,7 @@ class Session(LiveSession):
     move = edits.move
     turn = edits.turn
     scale = edits.scale
+    flip = edits.flip
     exchange = edits.exchange
     hold = edits.hold
     release = edits.release

@@ -111,10 +111,11 @@ def _values(session: Session, edit: Edit, flag: Flag, text: str) -> list[Any]:
     item = session.find(which) if flag.of_many else session.one(which)
     if parameters and parameters[0].kind is inspect.Parameter.VAR_POSITIONAL:
         return [item, *(end.strip() for end in value.split(",") if end)]
-    texts = value.split(",", max(len(parameters) - 1, 0)) if parameters else []
-    if len(texts) != len(parameters):
+    texts = value.split(",", max(len(parameters) - 1, 0)) if value and parameters else []
+    least = sum(one.default is one.empty for one in parameters)
+    if not least <= len(texts) <= len(parameters):
         raise RecipeError(flag.name, f"must be {shown}, not {value[:40]!r}")
-    return [item, *(_of_text(session, *pair) for pair in zip(parameters, texts, strict=True))]
+    return [item, *(_of_text(session, *pair) for pair in zip(parameters, texts, strict=False))]
 
 
 def _of_text(session: Session, parameter: inspect.Parameter, text: Any) -> Any:

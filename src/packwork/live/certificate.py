@@ -114,14 +114,18 @@ ROUNDING = 1e-6
 
 
 class Requests:
-    """Notes of what was asked of items and not taken back since."""
+    """Notes of what was asked of items since the last settle and not taken back."""
 
     def __init__(self) -> None:
+        self.is_answered = False
+        """Whether all was settled since the last of them: what is asked then begins new notes."""
         self._places: dict[int, tuple[float, float]] = {}
         self._sizes: dict[int, tuple[float, float]] = {}
 
     def note(self, commands: Iterable[Command], before: Document, after: Document) -> None:
         """Note what commands ask for that have made one document of another."""
+        if self.is_answered and before is not after:
+            self.forget()
         for one in commands:
             if isinstance(one, Move):
                 self._places[one.item] = one.x, one.y
@@ -136,6 +140,7 @@ class Requests:
 
     def forget(self) -> None:
         """Take back all that was asked for."""
+        self.is_answered = False
         self._places.clear()
         self._sizes.clear()
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from numbers import Integral
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from packwork.errors import RecipeError
 
@@ -143,6 +143,14 @@ def exchange(session: Session, first: Which, second: Which) -> None:
 def turn(session: Session, which: Which, degrees: float) -> None:
     """Turn an item to an angle from upright, clockwise."""
     session.do("turn", item=session.one(which), angle=degrees)
+
+
+@_edit(Flag("--flip", "ITEM[=vertical]", "Turn items over, left to right.", of_many=True))
+def flip(
+    session: Session, which: Which, direction: Literal["horizontal", "vertical"] = "horizontal"
+) -> None:
+    """Turn items over where they are; vertically, what was above is below."""
+    session.do("flip", items=session.find(which), direction=direction)
 
 
 @_edit(Flag("--scale", "ITEM=FACTOR", "Make an item so many times as large."))

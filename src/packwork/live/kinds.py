@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal, TypeAlias, final
 
@@ -56,6 +56,11 @@ class Kind:
 
     def stated(self, manifest: Mapping[str, Any], ids: IntArray) -> Mapping[str, Any]:
         """Manifest of a layout in which items of these numbers are left."""
+        del ids
+        return manifest
+
+    def turned_over(self, manifest: Mapping[str, Any], ids: Sequence[int]) -> Mapping[str, Any]:
+        """Manifest once items of these numbers are turned over."""
         del ids
         return manifest
 
@@ -128,6 +133,11 @@ class NestKind(Kind):
             for name, one in known.items()
         }
         return {**manifest, "nest": {**manifest["nest"], **rows}}
+
+    def turned_over(self, manifest: Mapping[str, Any], ids: Sequence[int]) -> Mapping[str, Any]:
+        """With the parts noted that are seen from below."""
+        mirrored = sorted(self.mirrored ^ {number + 1 for number in ids})
+        return {**manifest, "nest": {**manifest["nest"], "mirrored": mirrored}}
 
 
 @final

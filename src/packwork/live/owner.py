@@ -95,6 +95,8 @@ class Frame:
         Numbers of the items that are in conflict, where ``in_the_way`` is known.
     advice
         What is poor, and what would do, where it is certified.
+    unmet
+        Places and sizes that the last gesture asked for and that were not had.
     """
 
     number: int
@@ -106,6 +108,7 @@ class Frame:
     can_undo: bool = False
     can_redo: bool = False
     advice: tuple[str, ...] = ()
+    unmet: tuple[str, ...] = ()
 
 
 class Owner:
@@ -328,6 +331,7 @@ class Owner:
             session.history.can_undo,
             session.history.can_redo,
             session.advice if in_the_way == () else (),
+            session.unmet if in_the_way == () else (),
         )
 
 

@@ -15,7 +15,6 @@ from packwork.errors import RecipeError
 from packwork.live.certificate import Requests, Settlement, promise_of
 from packwork.live.commands.command import Command, Library, made
 from packwork.live.commands.gestures import Cancel, Drop, Grab
-from packwork.live.commands.placing import Scale
 from packwork.live.commands.together import KINDS, Together
 from packwork.live.document import Change, Document, Invalidation
 from packwork.live.history import Marks, SessionState, UndoHistory
@@ -208,7 +207,7 @@ class Session:
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)
         self._requests.note(command.steps, before, documents[-1])
-        self._solver.keep_angles(step.item for step in command.steps if isinstance(step, Scale))
+        self._solver.keep_angles(one for step in command.steps for one in step.keeps_angles)
         for document in documents:
             self._solver.take(document)
         if isinstance(command, Grab):
@@ -371,6 +370,7 @@ class Session:
 
     def _settled(self) -> None:
         self._solver.settled()
+        self._requests.is_answered = True
         self.log.note("settle")
         self.log.flush()
 

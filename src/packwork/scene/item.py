@@ -232,6 +232,22 @@ class PhotoArt:
     original: Original
 
 
+@dataclass(frozen=True, eq=False)
+class MappedOriginal:
+    """A photograph on disk in other item units, opened anew each time it is printed.
+
+    ``matrix``: 2 x 3 map from the item units of ``original``.
+    """
+
+    original: Original
+    matrix: FloatArray
+
+    def printed(self, px_per_unit: float) -> VectorArt:
+        """The photograph with that many pixels per item unit before it was mapped."""
+        art = self.original.printed(px_per_unit)
+        return replace(art, matrix=affine.compose(self.matrix, art.matrix))
+
+
 Art: TypeAlias = FlatArt | VectorArt | PictureArt | PhotoArt
 
 _PLAIN, _UNLABELLED = FlatArt(), Label()
@@ -339,11 +355,20 @@ def mirrored(item: Item) -> Item:
             shapely.transform(outline.region, lambda points: affine.apply(turned, points))
         )
 
-    outline, art = over(item.outline), item.art
+    outline = over(item.outline)
     ink = outline if item.ink is item.outline else over(item.ink)
-    if isinstance(art, VectorArt | PictureArt):
-        art = replace(art, matrix=affine.compose(turned, art.matrix))
+    art = mapped_art(item.art, turned)
     return replace(item, outline=outline, ink=ink, art=art, text=None)
+
+
+def mapped_art(art: Art, matrix: FloatArray) -> Art:
+    """A drawing in other item units, by their 2 x 3 map; a colour as it is."""
+    if isinstance(art, FlatArt):
+        return art
+    if isinstance(art, PhotoArt):
+        preview = replace(art.preview, matrix=affine.compose(matrix, art.preview.matrix))
+        return PhotoArt(preview, MappedOriginal(art.original, matrix))
+    return replace(art, matrix=affine.compose(matrix, art.matrix))
 
 
 def _known_colour(text: str) -> str:

@@ -32,6 +32,8 @@ class Shape(Message):
 
     key: str
     outline: str
+    size: tuple[float, float]
+    """Width and height of the outline."""
     box: tuple[float, float, float, float]
     fill: str
     ink: str
@@ -100,6 +102,8 @@ class State(Message):
     """What the run that brought the items could not place."""
     advice: tuple[str, ...]
     """What is poor where it is certified, and what would do."""
+    unmet: tuple[str, ...]
+    """Places and sizes that the last gesture asked for and that were not had."""
     can_undo: bool
     can_redo: bool
     busy: str

@@ -172,6 +172,7 @@ class Workspace:
             entangled=() if frame is None or is_moving else frame.entangled,
             unplaced=self._left_out(view),
             advice=() if frame is None or is_moving else tuple(map(for_page, frame.advice)),
+            unmet=() if frame is None or is_moving else tuple(map(for_page, frame.unmet)),
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy or work,

@@ -13,11 +13,12 @@ from pydantic import Field
 
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.live.document import Document
+from packwork.live.document import PROPERTIES, Document
 from packwork.options import Options
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt
+from packwork.start.angles_and_sizes import nearest_allowed
 from packwork.units import convert
 
 FARTHEST = 1e3
@@ -69,6 +70,11 @@ class Command(Options):
         asset = getattr(self, "asset", None)
         return () if asset is None else (asset,)
 
+    @property
+    def keeps_angles(self) -> tuple[int, ...]:
+        """Numbers of items that keep the angles it leaves them while others make room."""
+        return ()
+
 
 def made(command: type[_Command], **values: object) -> _Command:
     """A command of plain values; RecipeError names the value that has no meaning."""
@@ -96,6 +102,15 @@ def index_of(document: Document, number: int, what: str) -> int:
     if found is None:
         raise RecipeError(what, f"there is no item {number}; {_numbers(document)}")
     return found
+
+
+def nearest_angle(document: Document, k: int, angle: float) -> float:
+    """Angle nearest to the one asked for that an item may have, radians."""
+    if document.kind.has_parts and document.held[k, PROPERTIES.index("angle")]:
+        return float(document.poses.angle[k])
+    if (allowed := document.options.rotation.choices) is None:
+        return angle
+    return float(nearest_allowed(np.array([angle]), None, allowed)[0])
 
 
 def true_scale(document: Document, item: Item) -> float:

@@ -22,6 +22,7 @@ from packwork.live.commands.command import (
     check_may_size,
     index_of,
     known,
+    nearest_angle,
     sized,
     true_scale,
 )
@@ -29,7 +30,7 @@ from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.colour import hex_colour, parse_colour
-from packwork.scene.item import MAX_LENGTH, Item, Label
+from packwork.scene.item import MAX_LENGTH, Item, Label, mirrored
 from packwork.scene.pose import Poses
 from packwork.scene.recolour import recoloured
 
@@ -169,6 +170,36 @@ class Recolour(Command):
                 made[item] = recoloured(item, colour)
             document = _with_item(document, k, made[item])
         return document
+
+
+class Flip(Command):
+    """Turn items over, each about its middle."""
+
+    kind: Literal["flip"] = "flip"
+    items: ItemIds
+    direction: Literal["horizontal", "vertical"] = "horizontal"
+    """Which way they are seen mirrored; horizontal changes left and right."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the items turned over, the parts of a nest noted as such."""
+        made: dict[Item, Item] = {}
+        half = 0.0 if self.direction == "horizontal" else math.pi
+        angle = document.poses.angle.copy()
+        for number in self.items:
+            k = index_of(document, number, "flip")
+            item = document.items[k]
+            if item not in made:
+                made[item] = mirrored(item)
+            angle[k] = nearest_angle(document, k, math.remainder(half - angle[k], math.tau))
+            document = _with_item(document, k, made[item])
+        manifest = document.kind.turned_over(document.manifest, self.items)
+        poses = replace(document.poses, angle=angle)
+        return replace(document, poses=poses, manifest=manifest)
+
+    @property
+    def keeps_angles(self) -> tuple[int, ...]:
+        """The items."""
+        return self.items
 
 
 _COLUMNS = ("ids", "weights", "smallest", "largest", "held")

@@ -19,11 +19,11 @@ from packwork.live.commands.command import (
     Number,
     check_may_size,
     index_of,
+    nearest_angle,
     sized,
 )
 from packwork.live.document import PROPERTIES, Document
 from packwork.scene.pose import Poses
-from packwork.start.angles_and_sizes import nearest_allowed
 
 NEARLY = 1.1
 """By how much an item that was given a size may be larger or smaller than that. Chosen."""
@@ -62,11 +62,7 @@ class Turn(Command):
         """The document with the item turned."""
         k = index_of(document, self.item, "turn")
         angle = math.radians(math.fmod(self.angle, 360.0))
-        if document.kind.has_parts and document.held[k, PROPERTIES.index("angle")]:
-            return document
-        if (allowed := document.options.rotation.choices) is not None:
-            angle = float(nearest_allowed(np.array([angle]), None, allowed)[0])
-        return _posed(document, k, angle=angle)
+        return _posed(document, k, angle=nearest_angle(document, k, angle))
 
 
 class Scale(Command):
@@ -91,6 +87,11 @@ class Scale(Command):
             weights[k] *= self.factor**2
         document = replace(document, smallest=smallest, largest=largest, weights=weights)
         return sized(_posed(document, k, scale=scale), "scale")
+
+    @property
+    def keeps_angles(self) -> tuple[int, ...]:
+        """The item."""
+        return (self.item,)
 
 
 class Cover(Command):

@@ -16,14 +16,23 @@ from packwork.live.commands.container import (
     SetOption,
 )
 from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
-from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
+from packwork.live.commands.items import (
+    Add,
+    Duplicate,
+    Flip,
+    Recolour,
+    Remove,
+    Rename,
+    Replace,
+    Weigh,
+)
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
 
 SingleCommand: TypeAlias = Annotated[
     Move | Turn | Scale | Exchange | Cover | Arrange
     | Hold | Release
-    | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour
+    | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
     | SetContainer | Reshape | PlaceContainer | SetOption | Entitle,
     Field(discriminator="kind"),
 ]  # fmt: skip

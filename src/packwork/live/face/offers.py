@@ -183,6 +183,8 @@ class Drawing:
         The same for all that look so.
     outline
         Its silhouette, as path data.
+    size
+        Width and height of the silhouette.
     box
         Left, top, right and bottom of the drawing.
     fill
@@ -195,6 +197,7 @@ class Drawing:
 
     key: str
     outline: str
+    size: tuple[float, float]
     box: tuple[float, float, float, float]
     fill: str
     ink: str
@@ -223,7 +226,9 @@ def drawing_of(item: Item) -> Drawing:
         svg = _document(f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g>', box)
     parts = "\0".join((outline, fill, ink, svg)).encode()
     key = hashlib.sha256(parts).hexdigest()[:24]
-    return Drawing(key=key, outline=outline, box=box, fill=fill, ink=ink, svg=svg)
+    x0, y0, x1, y1 = item.outline.bounds
+    size = (x1 - x0, y1 - y0)
+    return Drawing(key=key, outline=outline, size=size, box=box, fill=fill, ink=ink, svg=svg)
 
 
 def path_of(outline: Outline, fineness: float) -> str:

@@ -148,6 +148,18 @@ export class Collage {
   }
 
   /**
+   * Where an item is, or where the hand has it.
+   * @param {number} id
+   * @returns {Pose | null}
+   */
+  target(id) {
+    const k = this.rows.get(id);
+    if (k === undefined) return null;
+    const [x, y, angle, scale] = this.poses.subarray(4 * k, 4 * k + 4);
+    return this.hand.get(id)?.pose ?? { x, y, angle, scale };
+  }
+
+  /**
    * The nearest angle that an item may have, radians.
    * @param {number} id
    * @param {number} angle

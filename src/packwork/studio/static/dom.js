@@ -18,6 +18,8 @@ const ICONS = {
   replace: "M4 4h8v8H4zM20 12v8h-8M20 4l-5 5M15 5v4h4",
   layers: "M4 9a5 5 0 1 0 10 0 5 5 0 1 0-10 0M10 15a5 5 0 1 0 10 0 5 5 0 1 0-10 0",
   shape: "M12 4 20 10l-3 10H7L4 10z",
+  flip: "M12 3v18M9 7v10H3zM15 7v10h6z",
+  flipDown: "M3 12h18M7 9h10V3zM7 15h10v6z",
   items: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",
   words: "M5 6V4h14v2M12 4v16M9 20h6",
   options: "M4 7h9M17 7h3M4 17h3M11 17h9M15 5v4M9 15v4",

@@ -2,7 +2,7 @@
 /** The panel of items: what comes in, and a list of what is there, to be changed in place. */
 
 import { button, h, icon } from "./dom.js";
-import { ItemEditor } from "./itemeditor.js";
+import { Inspector } from "./inspector.js";
 import { kindOf } from "./kinds.js";
 import { thumbOf } from "./thumbs.js";
 
@@ -17,7 +17,8 @@ export class ItemList {
   /** @param {Studio} studio */
   constructor(studio) {
     this.studio = studio;
-    this.editor = new ItemEditor(studio);
+    this.inspector = new Inspector(studio);
+    this.marked = "";
     this.list = h("ul", { class: "items", "aria-label": "Items of the collage" });
     this.counter = h("input", { type: "number", id: "count", min: "1", max: "10000",
       onchange: () => studio.connection.send({ type: "count", count: Number(this.counter.value) || 1 }) });
@@ -37,7 +38,8 @@ export class ItemList {
     body.replaceChildren(
       h("div", { class: "grows" }, this.incoming(), h("details", {}, h("summary", {}, "Add bundled ones"), grid)), this.orders,
       h("label", { class: "row grows" }, "Items in all", this.counter), this.list);
-    this.listed = "";
+    body.after(this.inspector.element);
+    this.listed = this.marked = "";
     this.refresh();
   }
 
@@ -65,7 +67,7 @@ export class ItemList {
     this.listed = key;
     if (document.activeElement !== this.counter) this.counter.value = String(collage.items.length);
     for (const row of this.list.querySelectorAll("button.item")) row.setAttribute("aria-pressed", String(idsOf(row).some((id) => choice.has(id))));
-    this.edit(groups);
+    this.showChosen();
   }
 
   /** @param {Thing[][]} groups */
@@ -74,24 +76,15 @@ export class ItemList {
     if (groups.length > MOST) this.list.append(h("li", { class: "hint" }, `and ${groups.length - MOST} more`));
   }
 
-  /**
-   * Show what can be changed under the row of what is chosen.
-   * @param {Thing[][]} groups
-   */
-  edit(groups) {
-    const { choice, collage } = this.studio;
-    const chosen = groups.filter((group) => group.some((one) => choice.has(one.id)));
+  /** Have what is chosen in the inspector, and its row in view. */
+  showChosen() {
+    const { choice, collage, gestures } = this.studio;
+    this.inspector.show(collage.items.filter((one) => choice.has(one.id)));
+    const marked = [...choice.ids].join(" ");
     // Nothing scrolls away under a hand that is at work on the canvas.
-    if (this.studio.gestures.pointers.size) return;
-    const row = chosen.length === 1 ? this.list.querySelector('button.item[aria-pressed="true"]')?.closest("li") : null;
-    if (!row) return this.editor.element.remove();
-    if (this.editor.element.parentNode !== row) {
-      const focus = document.activeElement;
-      row.append(this.editor.element);
-      row.scrollIntoView({ block: "nearest" });
-      if (focus instanceof HTMLElement && this.editor.element.contains(focus)) focus.focus();
-    }
-    this.editor.show(collage.items.filter((one) => choice.has(one.id)));
+    if (marked === this.marked || gestures.pointers.size) return;
+    this.marked = marked;
+    this.list.querySelector('button.item[aria-pressed="true"]')?.closest("li")?.scrollIntoView({ block: "nearest" });
   }
 
   /** @param {Thing[]} group */

@@ -144,6 +144,7 @@ export class Studio {
     if (state.fresh && !this.wasOffered) this.start.open();
     this.wasOffered = true;
     this.badge.show(state);
+    for (const line of state.unmet) if (!before?.unmet.includes(line)) tell(line);
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
   }
@@ -230,6 +231,7 @@ export class Studio {
     const lacks = this.sprites.begin();
     const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving);
     const isLast = this.stage.draw(isMoving);
+    this.panels.items.inspector.follow();
     if (moves || glides || lacks || this.sprites.left < 0 || !(isLast || isMoving)) this.redraw();
   }
 
@@ -328,6 +330,17 @@ export class Studio {
 
   duplicate() {
     this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "duplicate", item }))));
+  }
+
+  /** @param {"horizontal" | "vertical"} direction */
+  flip(direction) {
+    this.connection.do({ kind: "flip", items: [...this.choice.ids], direction });
+  }
+
+  /** Have the numbers of what is chosen under the cursor. */
+  async inspect() {
+    if (this.panels.current !== "items") await this.panels.toggle("items");
+    this.panels.items.inspector.focus();
   }
 
   exchange() {

@@ -13,12 +13,13 @@
  * @typedef {{kind: "cancel"}} Cancel
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
  * @typedef {{kind: "exchange", first: number, second: number}} Exchange
  * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null), without?: string[]}} Fill
+ * @typedef {{kind: "flip", items: number[], direction?: ("horizontal" | "vertical")}} Flip
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", n: number, to: ("undo" | "redo")}} LeapMessage
@@ -44,13 +45,13 @@
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
- * @typedef {{key: string, outline: string, box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
+ * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
- * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, fresh?: boolean}} State
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption | Entitle)[]}} Together
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant

@@ -1,0 +1,108 @@
+"""The inspector: numbers of what is chosen are typed and dragged; what cannot be had is said."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+import pytest
+
+from studio.browsing import Desk, in_browser
+
+pytestmark = in_browser
+
+
+def chosen(desk: Desk, item: int) -> None:
+    desk.page.mouse.click(*desk.place(item))
+    assert desk.look("[...studio.choice.ids]") == [item]
+
+
+def asked(desk: Desk, name: str, value: float) -> None:
+    field = desk.page.locator(f"[data-number={name}]")
+    field.fill(str(value))
+    field.press("Enter")
+
+
+def shown(desk: Desk, name: str) -> float:
+    return float(desk.page.locator(f"[data-number={name}]").input_value())
+
+
+def test_numbers_are_typed_each_one_step_back(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    before = desk.rested()
+    chosen(desk, 0)
+    desk.page.locator("#canvas").focus()
+    desk.page.keyboard.press("i")
+    assert desk.look("document.activeElement.dataset.number") == "x"
+    asked(desk, "x", 310)
+    desk.until("Math.abs(studio.collage.pose(0).x - 310) < 0.01")
+    desk.settled()
+    asked(desk, "angle", 30)
+    desk.until("Math.abs(studio.collage.pose(0).angle * 180 / Math.PI - 30) < 0.01")
+    desk.settled()
+    desk.picture("inspector")
+    assert shown(desk, "angle") == 30
+    width = shown(desk, "width")
+    asked(desk, "width", 0.8 * width)
+    # Free sizes are had to within a tenth.
+    field = "Number(document.querySelector('[data-number=width]').value)"
+    desk.until(f"{field} > {0.7 * width} && {field} < {0.89 * width}")
+    desk.settled()
+    assert shown(desk, "height") / shown(desk, "width") == pytest.approx(
+        desk.look("(([w, h]) => h / w)(studio.collage.look(studio.collage.item(0)).size)"), rel=0.01
+    )
+    desk.page.locator("#canvas").focus()
+    for _ in range(3):
+        desk.page.keyboard.press("Control+z")
+    desk.until(f"JSON.stringify([...studio.collage.poses]) === {json.dumps(before)}")
+    desk.settled()
+
+
+def test_a_label_is_dragged_as_an_item_is(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    before = desk.rested()
+    chosen(desk, 2)
+    x, zoom = desk.look("[studio.collage.pose(2).x, studio.view.zoom]")
+    box = desk.page.locator(".number", has=desk.page.locator("[data-number=x]")).bounding_box()
+    start = (box["x"] + 10, box["y"] + 10)
+    desk.page.mouse.move(*start)
+    desk.page.mouse.down()
+    desk.page.mouse.move(start[0] + 12, start[1], steps=4)
+    assert desk.look("studio.collage.hand.get(2).pose.x") == pytest.approx(x + 12 / zoom, abs=0.1)
+    desk.page.mouse.up()
+    desk.settled()
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"JSON.stringify([...studio.collage.poses]) === {json.dumps(before)}")
+    desk.settled()
+
+
+def test_a_place_that_cannot_be_had_is_said(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    chosen(desk, 1)
+    asked(desk, "x", 0)
+    toast = desk.page.locator(".toast", has_text="there is no room for it")
+    toast.wait_for()
+    assert "not at 0, " in toast.inner_text()
+    desk.page.keyboard.press("Control+z")
+    desk.settled()
+
+
+def test_what_is_chosen_is_flipped_by_a_key(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.rested()
+    chosen(desk, 2)
+    outline = "studio.collage.look(studio.collage.item(2)).outline"
+    before = desk.look(outline)
+    angle = desk.look("studio.collage.pose(2).angle")
+    desk.page.keyboard.press("Shift+F")
+    desk.until(f"{outline} !== {json.dumps(before)}")
+    desk.settled()
+    assert desk.look(f"Math.sin(studio.collage.pose(2).angle + {angle})") == pytest.approx(
+        0, abs=1e-5
+    )
+    desk.page.keyboard.press("Shift+F")
+    desk.settled()
+    for _ in range(2):
+        desk.page.keyboard.press("Control+z")
+    desk.until(f"{outline} === {json.dumps(before)}")
+    desk.settled()
