@@ -262,3 +262,12 @@ def test_less_covered_than_asked_for_is_told(saved: Path, tmp_path: Path) -> Non
     code, said = run(saved, "--cover", "99.9%", "-o", tmp_path / "new.svg")
     assert code == 1
     assert "is covered, not 99.9 %" in said
+
+
+def test_a_palette_and_a_background_are_put_on_a_file(saved: Path, tmp_path: Path) -> None:
+    made = tmp_path / "new.svg"
+    line = (saved, "--items", "star", "--items", "heart", "--palette", "#aa3377,#228833")
+    code, _ = run(*line, "--background", "ivory", "-o", made)
+    assert code == 0
+    text = made.read_text(encoding="utf-8")
+    assert all(colour in text for colour in ("#aa3377", "#228833", "#fffff0"))

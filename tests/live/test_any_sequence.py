@@ -15,6 +15,7 @@ from packwork.live.commands.command import Library
 from packwork.live.commands.container import PlaceContainer, Reshape, SetOption
 from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
+from packwork.live.commands.look import Background, Paint
 from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
 from packwork.live.commands.together import COMMANDS, AnyCommand, Together
 from packwork.live.document import PROPERTIES, Document
@@ -63,6 +64,8 @@ commands = st.one_of(
     st.builds(Cover, share=st.floats(0.05, 0.95)),
     st.builds(Add, asset=st.just("hexagon"), x=places, y=places, area=st.floats(10, 20_000)),
     st.builds(Replace, item=items, asset=st.just("hexagon")),
+    st.builds(Paint, palette=st.sampled_from([(), ("teal", "#f00")])),
+    st.builds(Background, colour=st.sampled_from(["", "ivory"])),
     st.builds(
         Together,
         commands=st.tuples(

@@ -47,7 +47,7 @@ def test_no_panel_or_dialog_has_a_serious_fault(
     desk = open_desk(size, color_scheme=scheme)
     desk.page.keyboard.press("n")
     found = faults(desk)
-    for panel in ("room", "items", "words", "options", "more"):
+    for panel in ("room", "items", "words", "options", "more", "look"):
         if desk.look(f"document.getElementById('tab-{panel}').ariaPressed") != "true":
             desk.page.locator(f"#tab-{panel}").click()
         desk.page.wait_for_timeout(100)

@@ -152,6 +152,8 @@ class Session(LiveSession):
     weigh = edits.weigh
     rename = edits.rename
     recolor = edits.recolor
+    palette = edits.palette
+    background = edits.background
     reshape = edits.reshape
     place_container = edits.place_container
     set = edits.set

@@ -17,6 +17,7 @@ from packwork.errors import RecipeError
 from packwork.live.edits import EDITS, Edit, Flag
 from packwork.options import offered
 from packwork.recipe import Recipe
+from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
     from packwork.live.session import Session
@@ -56,7 +57,8 @@ def _parameter(edit: Edit, flag: Flag) -> inspect.Parameter:
 
 
 def _help_of(name: str) -> str:
-    return next(option.help for option in offered(Recipe) if option.name == name)
+    known = (*offered(Recipe), *offered(DrawingOptions))
+    return next(option.help for option in known if option.name == name)
 
 
 def planned(session: Session, asked: Mapping[str, Any]) -> list[Callable[[], object]]:

@@ -18,7 +18,7 @@ from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.forces import forces_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.scene.layout import Layout, ground_in
+from packwork.scene.layout import Layout, ground_in, is_hex
 from packwork.scene.pose import Poses
 
 Property: TypeAlias = Literal["place", "angle", "size"]
@@ -130,6 +130,13 @@ class Document:
         return kind_of(self.manifest, has_numbers=has_numbers)
 
     @property
+    def palette(self) -> tuple[str, ...]:
+        """Colours that were put on all items last; none where each has its own."""
+        found = self.manifest.get("painted")
+        listed = found if isinstance(found, list | tuple) else []
+        return tuple(one for one in listed if isinstance(one, str) and is_hex(one))
+
+    @property
     def own_areas(self) -> FloatArray:
         """``(n,)`` areas of the outlines, squared item units."""
         return np.array([item.outline.area for item in self.items])
@@ -194,7 +201,7 @@ class Invalidation(IntEnum):
 
     NOTHING = 0
     DRAWING = 1
-    """Names, colours, art: what is looked at, not what is in the way."""
+    """Names, colours, art, background: what is looked at, not what is in the way."""
     RULES = 2
     """What is held, ranges of sizes, options that all keep already."""
     POSES = 3
@@ -239,7 +246,9 @@ class Change:
             return cls(Invalidation.RULES, after.ids[ruled])
         drawn = [a is not b for a, b in zip(before.items, after.items, strict=True)]
         drawn_or_weighed = np.array(drawn, dtype=bool) | (before.weights != after.weights)
-        stale = Invalidation.DRAWING if drawn_or_weighed.any() else Invalidation.NOTHING
+        is_told = before.manifest is not after.manifest
+        is_seen = is_told or drawn_or_weighed.any()
+        stale = Invalidation.DRAWING if is_seen else Invalidation.NOTHING
         return cls(stale, after.ids[drawn_or_weighed])
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from packwork.live.document import Property
     from packwork.live.names import Coordinate, Which
     from packwork.live.session import Session
+    from packwork.recipe.pictures import Shades
     from packwork.scene.container import Container
     from packwork.scene.item import Item
 
@@ -131,6 +132,28 @@ def replace(session: Session, which: Which, item: Item) -> None:
 def recolor(session: Session, which: Which, color: str) -> None:
     """Give items one colour, any CSS colour."""
     session.do("recolour", items=session.find(which), colour=color)
+
+
+@_edit(Flag("--palette"))
+def palette(session: Session, palette: str | Sequence[str] | None, shades: Shades = "tint") -> None:
+    """Put the colours of a palette on all items, neighbours unlike ones; None: each its own again.
+
+    Parameters
+    ----------
+    palette, shades
+        As for :func:`fill`. Photographs keep theirs.
+    """
+    from packwork.recipe.pictures import check_no_names, known_palette
+    from packwork.scene.palette import palette_colours
+
+    check_no_names(known_palette(palette))
+    session.do("paint", palette=palette_colours(palette) if palette else (), shades=shades)
+
+
+@_edit(Flag("--background"))
+def background(session: Session, color: str) -> None:
+    """Have a colour behind all, also in files that are written; ``none`` for none."""
+    session.do("background", colour=color)
 
 
 @_edit(Flag("--exchange", "ITEM=ITEM", "Let two items change places."))

@@ -288,6 +288,8 @@ class Item:
         Share of area it asks for, where nothing else says one.
     row
         Which row of a data frame it came from, in memory only; None of all else.
+    own_art
+        How it was drawn before another colour was put on it; None if none was.
 
     Raises
     ------
@@ -312,6 +314,7 @@ class Item:
     datum: Datum | None
     weight: float = 1.0  # of those kept on disk, too
     row: RowLabel | None = None
+    own_art: Art | None = None
 
     def __init__(
         self,
@@ -326,6 +329,7 @@ class Item:
         datum: Datum | None = None,
         weight: float = 1.0,
         row: RowLabel | None = None,
+        own_art: Art | None = None,
     ) -> None:
         if outline is None:
             raise ShapeError(f"the item {name!r} needs an outline, such as a Shapely polygon")
@@ -336,7 +340,9 @@ class Item:
             raise ShapeError(
                 f"the art of the item {name!r} must be a colour or an art, not {str(art)[:40]}"
             )
-        values = (name, source, solid, drawn, made, label, text, halo, datum, weight, row)
+        values = (
+            name, source, solid, drawn, made, label, text, halo, datum, weight, row, own_art
+        )  # fmt: skip
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
 
@@ -357,8 +363,9 @@ def mirrored(item: Item) -> Item:
 
     outline = over(item.outline)
     ink = outline if item.ink is item.outline else over(item.ink)
-    art = mapped_art(item.art, turned)
-    return replace(item, outline=outline, ink=ink, art=art, text=None)
+    art, own = mapped_art(item.art, turned), item.own_art
+    own = None if own is None else mapped_art(own, turned)
+    return replace(item, outline=outline, ink=ink, art=art, text=None, own_art=own)
 
 
 def mapped_art(art: Art, matrix: FloatArray) -> Art:

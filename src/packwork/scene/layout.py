@@ -111,7 +111,12 @@ def ground_in(manifest: Mapping[str, Any]) -> str:
     ('#102030', '', '')
     """
     named = manifest.get("ground")
-    return named if isinstance(named, str) and _HEX.fullmatch(named) else ""
+    return named if isinstance(named, str) and is_hex(named) else ""
+
+
+def is_hex(text: str) -> bool:
+    """Whether a text is ``#rrggbb`` or ``#rrggbbaa``, in small letters."""
+    return _HEX.fullmatch(text) is not None
 
 
 def sheet(name: str, width: float, height: float, unit: Unit = "px") -> Container:

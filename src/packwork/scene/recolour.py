@@ -160,6 +160,16 @@ def _is_flat_picture(art: PictureArt) -> bool:
     return len(solid) > 0 and bool((np.ptp(solid.astype(np.int64), axis=0) <= _SAME).all())
 
 
+def with_own_art(item: Item, before: Item) -> Item:
+    """An item in other colours, which knows how it was drawn before any was put on it."""
+    return replace(item, own_art=before.own_art or before.art)
+
+
+def in_own_colours(item: Item) -> Item:
+    """An item as it was drawn before any colour was put on it."""
+    return item if item.own_art is None else replace(item, art=item.own_art, own_art=None)
+
+
 @dataclass(frozen=True, eq=False)
 class TintedOriginal:
     """A photograph on disk under a coat of colour, opened anew each time it is printed.

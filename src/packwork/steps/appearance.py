@@ -68,7 +68,7 @@ def as_asked(job: Job, layout: Layout) -> Layout:
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
     is_mixed = not sees_colours(job.plan.losses)
-    colours = _colours(palettes, layout, is_mixed, job.plan.seed) if coloured is None else coloured
+    colours = given_out(palettes, layout, is_mixed, job.plan.seed) if coloured is None else coloured
     known: dict[tuple[Item, str | None, Label | None, bool], Item] = {}
     arts: _Arts = {}
     items = []
@@ -153,7 +153,7 @@ def _is_tinted(job: Job, item: Item) -> bool:
     return is_asked and not isinstance(item.art, PhotoArt)
 
 
-def _colours(
+def given_out(
     palettes: list[tuple[str, ...]], layout: Layout, is_mixed: bool, seed: int
 ) -> list[str | None]:
     """One colour of each copy's palette, unlike its neighbours' where it is mixed."""

@@ -15,6 +15,7 @@ from packwork.live.kinds import COLLAGE, Kind
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.layout import ground_in
 from packwork.scene.pose import Poses
 from packwork.studio.wire import LeftOut, Scene, Shape, Thing
 from packwork.studio.wording import for_page
@@ -32,6 +33,7 @@ class View:
 
     ``poses``: as many as items; None before they have a place.
     ``angles``: the only ones allowed, radians; None for any.
+    ``palette``: colours put on all items; ``ground``: colour behind them.
     """
 
     container: Container
@@ -43,6 +45,8 @@ class View:
     angles: tuple[float, ...] | None = None
     kind: Kind = COLLAGE
     title: str = ""
+    palette: tuple[str, ...] = ()
+    ground: str = ""
     poses: Poses | None
 
     @classmethod
@@ -58,6 +62,8 @@ class View:
             angles=document.options.rotation.choices,
             kind=document.kind,
             title=document.title,
+            palette=document.palette,
+            ground=ground_in(document.manifest),
             poses=poses or document.poses,
         )
 
@@ -91,6 +97,7 @@ class View:
             self.container is other.container
             and self.options == other.options
             and (self.kind, self.title) == (other.kind, other.title)
+            and (self.palette, self.ground) == (other.palette, other.ground)
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
             and _same(self.held, other.held)
@@ -144,6 +151,8 @@ class Scenes:
             angles=view.angles,
             kind=view.kind.name,
             title=view.title or container.name,
+            palette=view.palette,
+            ground=view.ground,
         )
         self._last = (view, scene)
         return scene

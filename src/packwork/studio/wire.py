@@ -80,6 +80,10 @@ class Scene(Message):
     """Kind of document, by which the page shows what has meaning."""
     title: str = ""
     """That a person has given, or the container's name."""
+    palette: tuple[str, ...] = ()
+    """Colours put on all items; none where each has its own."""
+    ground: str = ""
+    """Colour behind all; empty for none."""
 
 
 class LeftOut(Message):

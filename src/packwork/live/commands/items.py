@@ -32,7 +32,7 @@ from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.item import MAX_LENGTH, Item, Label, mirrored
 from packwork.scene.pose import Poses
-from packwork.scene.recolour import recoloured
+from packwork.scene.recolour import recoloured, with_own_art
 
 OFFSET = 0.02
 """How far beside its original a copy is put, as a share of the canvas. Chosen."""
@@ -167,7 +167,7 @@ class Recolour(Command):
             k = index_of(document, number, "recolour")
             item = document.items[k]
             if item not in made:
-                made[item] = recoloured(item, colour)
+                made[item] = with_own_art(recoloured(item, colour), item)
             document = _with_item(document, k, made[item])
         return document
 

@@ -26,6 +26,7 @@ from packwork.live.commands.items import (
     Replace,
     Weigh,
 )
+from packwork.live.commands.look import Background, Paint
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
 
@@ -33,7 +34,8 @@ SingleCommand: TypeAlias = Annotated[
     Move | Turn | Scale | Exchange | Cover | Arrange
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
-    | SetContainer | Reshape | PlaceContainer | SetOption | Entitle,
+    | SetContainer | Reshape | PlaceContainer | SetOption | Entitle
+    | Paint | Background,
     Field(discriminator="kind"),
 ]  # fmt: skip
 """Any command that is one edit by itself."""

@@ -211,6 +211,8 @@ class ItemRecord(Options):
     halo: Text = ""
     datum: DatumRecord | None = None
     weight: Length = 1.0
+    own_art: ArtRecord | None = None
+    """How it was drawn before another colour was put on it."""
 
 
 class BackdropRecord(Options):

@@ -110,7 +110,7 @@ class Things:
 
 def item_record(item: Item, things: Things) -> ItemRecord:
     """An item as plain values; its fonts go to ``things``."""
-    label, datum = item.label, item.datum
+    label, datum, own = item.label, item.datum, item.own_art
     outline, ink = outline_record(item.outline), outline_record(item.ink)
     return ItemRecord(
         name=kept_text(item.name),
@@ -125,6 +125,7 @@ def item_record(item: Item, things: Things) -> ItemRecord:
         halo=item.halo,
         datum=None if datum is None else _datum_record(datum),
         weight=item.weight,
+        own_art=None if own is None else art_record(own, item.outline.extent),
     )
 
 
@@ -143,6 +144,7 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         colour_of(record.halo) if record.halo else "",
         None if datum is None else Datum(datum.row, datum.value, datum.category, datum.group),
         record.weight,
+        own_art=None if record.own_art is None else art_of(record.own_art, outline),
     )
 
 

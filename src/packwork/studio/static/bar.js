@@ -1,7 +1,7 @@
 // @ts-check
 /** The bar above, and the one of what is chosen. */
 
-import { button, byId, h } from "./dom.js";
+import { button, byId, h, picker } from "./dom.js";
 import { shownKey } from "./keys.js";
 
 /** @typedef {import("./actions.js").Action} Action */
@@ -37,8 +37,8 @@ export class Bar {
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );
     this.name = h("span", { class: "chosen-name" });
-    this.colour = h("input", { type: "color", value: "#1f6f78", title: "Give one colour", "aria-label": "Give one colour", onchange: () => recolour(this.colour.value) });
-    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)), this.colour);
+    this.colour = picker("Give one colour", recolour);
+    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)), this.colour.element);
   }
 
   /** @param {string} id */
@@ -69,8 +69,7 @@ export class Bar {
    * @param {string | null} colour of what is chosen, if it has one
    */
   show(title, chosen, isSaved, colour) {
-    if (colour && document.activeElement !== this.colour) this.colour.value = colour;
-    this.colour.classList.toggle("mixed", !colour);
+    this.colour.show(colour ?? "#1f6f78", !colour);
     if (document.activeElement !== this.title) this.title.value = title;
     this.title.size = Math.min(Math.max(title.length, 4), 24);
     this.saved.hidden = !isSaved;

@@ -31,6 +31,7 @@ const ICONS = {
   minus: "M5 12h14",
   check: "m5 12 5 5 9-10",
   file: "M6 3h8l4 4v14H6zM14 3v4h4",
+  pipette: "m14 6 4 4M19.500 8.500a2.500 2.500 0 0 0-3.500-4l-2 2-1.500-1.500-2 2 6 6 2-2L17 9.500M12 8.500l-7 7V19h3.500l7-7",
   colour: "M12 3c4 5 6 7.500 6 11a6 6 0 0 1-12 0c0-3.500 2-6 6-11Z",
   dots: "M6 12h.01M12 12h.01M18 12h.01",
   more: "M12 4v16M4 12h16M6.500 6.500l11 11M17.500 6.500l-11 11",
@@ -94,6 +95,24 @@ export function vector(box, path) {
  */
 export function button(name, label, act, given = {}) {
   return h("button", { type: "button", title: label, "aria-label": label, onclick: act, ...given }, icon(name));
+}
+
+/**
+ * A field of one colour, and where the browser can, a pipette that takes one from the screen.
+ * @param {string} label
+ * @param {(colour: string) => void} take
+ */
+export function picker(label, take) {
+  const field = h("input", { type: "color", title: label, "aria-label": label, onchange: () => take(field.value) });
+  const Pipette = /** @type {any} */ (globalThis).EyeDropper;
+  const pick = () => new Pipette().open().then((/** @type {any} */ found) => take(found.sRGBHex), () => {});
+  const pipette = Pipette && button("pipette", `${label}, from the screen`, pick);
+  /** @param {string} colour @param {boolean} isMixed whether it stands for none or for several */
+  const show = (colour, isMixed) => {
+    if (document.activeElement !== field) field.value = colour;
+    field.classList.toggle("mixed", isMixed);
+  };
+  return { element: h("span", { class: "picker" }, field, pipette), field, show };
 }
 
 /** @param {string} id */

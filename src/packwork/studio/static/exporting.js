@@ -2,6 +2,7 @@
 /** The dialog that makes files of the collage. */
 
 import { h } from "./dom.js";
+import { grounds } from "./look.js";
 import { tell } from "./toasts.js";
 
 /** @typedef {import("./connection.js").Connection} Connection */
@@ -34,9 +35,6 @@ const SIZES = /** @type {const} */ ([
   ["for the screen", 2400], ["Instagram, square", 1080], ["Story, 9 : 16", 1920], ["4K", 3840],
   ["A5, 300 dpi", 2480], ["A4, 300 dpi", 3508], ["A3, 300 dpi", 4961],
 ]);
-
-/** Backgrounds that are a press away. */
-const GROUNDS = /** @type {const} */ ([["none", "Transparent"], ["white", "White"], ["#faf7f0", "Paper"], ["#171717", "Black"]]);
 
 /** Longer side of the preview, in pixels; how long the form has to be still for a new one. */
 const PREVIEW = 900, STILL_MS = 350;
@@ -180,7 +178,7 @@ const FIELDS = {
   film_pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "film_pixels", value: "800", min: "16", max: "4096", step: "2" })),
   lines: () => h("p", { class: "note" }, "In the folder: ", h("code", {}, "packwork run recipe.toml -o collage.svg"), ", or in Python: ", h("code", {}, 'packwork.run("recipe.toml").save("collage.svg")')),
   pixels: sizes,
-  background: grounds,
+  background: ground,
   show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),
   flatten: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "flatten" }), "Repeat drawings in place, for tools that choke on <use>"),
   bleed: () => h("label", {}, "Bleed", h("input", { type: "text", name: "bleed", placeholder: "3mm" })),
@@ -195,11 +193,11 @@ function sizes() {
   return h("div", { class: "row" }, h("span", {}, "Longer side, px"), named, field);
 }
 
-function grounds() {
+function ground() {
   const field = h("input", { type: "text", name: "background", placeholder: "or any colour", spellcheck: "false", "aria-label": "Background" });
   const press = (/** @type {string} */ colour) => { field.value = colour; field.dispatchEvent(new Event("input", { bubbles: true })); };
   return h("div", { class: "row" }, h("span", {}, "Background"),
-    ...GROUNDS.map(([colour, name]) => h("button", { type: "button", class: "ground", "data-ground": colour, title: name, "aria-label": name, onclick: () => press(colour) })), field);
+    ...grounds(press), field);
 }
 
 /** @param {HTMLInputElement} field */

@@ -4,6 +4,7 @@
 import { byId, button, h, icon, vector } from "./dom.js";
 import { FontField } from "./fonts.js";
 import { ItemList } from "./items.js";
+import { Look } from "./look.js";
 import { fillOptions, refreshOptions } from "./options.js";
 import { tell } from "./toasts.js";
 import { Words } from "./words.js";
@@ -15,7 +16,7 @@ const OTHER = "other";
 /** @typedef {import("./studio.js").Studio} Studio */
 
 export const PANELS = /** @type {const} */ ([
-  ["room", "shape", "Container"], ["items", "items", "Items"], ["words", "words", "Words"], ["options", "options", "Options"], ["more", "more", "Variants"],
+  ["room", "shape", "Container"], ["items", "items", "Items"], ["words", "words", "Words"], ["options", "options", "Options"], ["more", "more", "Variants"], ["look", "colour", "Colours"],
 ]);
 
 export class Panels {
@@ -28,6 +29,7 @@ export class Panels {
     this.choices = null;
     this.items = new ItemList(studio);
     this.words = new Words(studio);
+    this.look = new Look(studio);
     this.roomFont = new FontField(studio, "Font");
     for (const [id, name, label] of PANELS) {
       byId("tabs").append(h("button", { type: "button", id: `tab-${id}`, "aria-pressed": "false", title: label, onclick: () => this.toggle(id) }, icon(name), h("span", {}, label)));
@@ -73,6 +75,7 @@ export class Panels {
     if (this.current === "words") this.words.fill(body);
     if (this.current === "options") fillOptions(body, this.studio, (await this.load())?.options ?? []);
     if (this.current === "more") this.studio.variants.fill(body);
+    if (this.current === "look") this.look.fill(body);
   }
 
   /** What is bundled, and what can be asked for; asked of the studio once. */
@@ -93,6 +96,7 @@ export class Panels {
     this.studio.forces.refresh();
     if (this.current === "options" && this.body) refreshOptions(this.body, this.studio);
     if (this.current === "words") this.words.refresh();
+    if (this.current === "look") this.look.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {
       const now = this.panel.querySelector('[aria-label=Sheet] option[value=""]');

@@ -119,8 +119,10 @@ export class Stage {
     const text = this.room?.path ?? scene.outline;
     if (this.outline.text !== text) this.outline = { text, path: new Path2D(text) };
     this.toCanvas();
-    pen.fillStyle = this.showsFaults ? colours.free : colours.paper;
-    pen.fill(this.outline.path, "evenodd");
+    pen.fillStyle = scene.ground || colours.paper;
+    if (scene.ground) pen.fillRect(0, 0, scene.width, scene.height);
+    if (this.showsFaults) pen.fillStyle = colours.free;
+    if (this.showsFaults || !scene.ground) pen.fill(this.outline.path, "evenodd");
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.25 / this.view.zoom;
     pen.stroke(this.outline.path);

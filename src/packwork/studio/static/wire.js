@@ -8,12 +8,13 @@
  * @typedef {{kind: "add", asset: string, x: number, y: number, area: number, angle?: number, weight?: (number | null)}} Add
  * @typedef {{type: "alike", source: string}} Alike
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
+ * @typedef {{kind: "background", colour: string}} Background
  * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{kind: "cancel"}} Cancel
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
@@ -29,6 +30,7 @@
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
  * @typedef {{type: "open", source: string}} Open
  * @typedef {{type: "order", way: ("right" | "left" | "down" | "up" | "outwards" | "inwards" | "around" | "along"), by: ("weight" | "hue" | "lightness" | "name")}} Order
+ * @typedef {{kind: "paint", palette: string[], shades?: ("tint" | "nearest" | "keep")}} Paint
  * @typedef {{type: "picture", source: string}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
@@ -41,7 +43,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), title?: string}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), title?: string, palette?: string[], ground?: string}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
@@ -51,7 +53,7 @@
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle)[]}} Together
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant

@@ -1,0 +1,77 @@
+"""Commands that change how all of a layout looks, and move nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from packwork.live.commands.command import Command, Library
+from packwork.live.document import Document
+from packwork.live.file.records import Text
+from packwork.recipe.pictures import Shades, known_palette
+from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.item import Item, PhotoArt
+from packwork.scene.palette import palette_colours
+from packwork.scene.recolour import has_one_colour, in_own_colours, with_own_art
+from packwork.steps.appearance import given_out
+from packwork.writers.recolour_drawings import in_palette, in_shades_of
+
+
+class Paint(Command):
+    """Give the colours of a palette to all items, neighbours unlike ones; photographs keep theirs.
+
+    Drawings are painted as they were before any colour was put on them.
+    """
+
+    kind: Literal["paint"] = "paint"
+    palette: Annotated[tuple[Text, ...], Field(max_length=100)]
+    """Any CSS colours; none for those in which each item was drawn."""
+    shades: Shades = "tint"
+    """What becomes of drawings of several colours, as in recipes."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document in these colours."""
+        known_palette(list(self.palette) or None)
+        palette = palette_colours(list(self.palette)) if self.palette else ()
+        items = tuple(in_own_colours(item) for item in document.items)
+        if palette:
+            items = self._painted(document, items, palette)
+        manifest = {**document.manifest, "painted": list(palette)}
+        return replace(document, items=items, manifest=manifest)
+
+    def _painted(
+        self, document: Document, items: tuple[Item, ...], palette: tuple[str, ...]
+    ) -> tuple[Item, ...]:
+        ways = {item: self._way(item) for item in items}
+        palettes = [palette if ways[item] == "tint" else () for item in items]
+        layout = replace(document, items=items).layout
+        colours = given_out(palettes, layout, is_mixed=True, seed=0)
+        known: dict[tuple[Item, str | None], Item] = {}
+        for pair in zip(items, colours, strict=True):
+            if pair not in known:
+                item, colour = pair
+                made = item if colour is None else in_shades_of(item, colour)
+                made = in_palette(item, palette) if ways[item] == "nearest" else made
+                known[pair] = with_own_art(made, item)
+        return tuple(known[pair] for pair in zip(items, colours, strict=True))
+
+    def _way(self, item: Item) -> Shades:
+        if isinstance(item.art, PhotoArt):
+            return "keep"
+        return "tint" if has_one_colour(item.art) else self.shades
+
+
+class Background(Command):
+    """Have another colour behind all, on the page and in files that ask for none."""
+
+    kind: Literal["background"] = "background"
+    colour: Annotated[Text, Field(max_length=100)]
+    """Any CSS colour; empty for none."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document on that colour."""
+        channels = parse_colour("background", self.colour or "none")
+        ground = hex_colour(channels) if channels[3] else ""
+        return replace(document, manifest={**document.manifest, "ground": ground})

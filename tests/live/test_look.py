@@ -1,0 +1,90 @@
+"""Palettes and backgrounds of sessions: nothing moves, and each drawing is known as it was."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.live.log import Log, read_entries
+from packwork.live.session import Session
+from packwork.readers.builtin import icon_names
+from packwork.scene.recolour import one_colour
+from packwork.steps.appearance import beside
+
+QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
+
+
+@pytest.fixture(scope="module")
+def drawn() -> pw.Layout:
+    """Items of one colour, and a drawing of several."""
+    return pw.fill("circle", ["star", "heart", f"builtin:{icon_names()[0]}"], count=12, **QUICK)
+
+
+def arts(session: Session) -> list[object]:
+    return [item.art for item in session.document.items]
+
+
+def test_neighbours_get_unlike_colours_and_nothing_moves(drawn: pw.Layout) -> None:
+    session = drawn.edit()
+    session.palette("tol-bright")
+    assert session.finish().certified
+    after = session.layout
+    assert after.poses.x.tobytes() == drawn.poses.x.tobytes()
+    colours = [one_colour(item.art) for item in after.items]
+    alike = [(a, b) for a, b in beside(after) if colours[a] and colours[a] == colours[b]]
+    assert alike == []
+
+
+@pytest.mark.parametrize("shades", ["tint", "nearest", "keep"])
+def test_each_palette_is_put_on_drawings_as_they_were_first(drawn: pw.Layout, shades: str) -> None:
+    once, again = drawn.edit(), drawn.edit()
+    once.palette(["#aa3377", "teal"], shades)
+    again.palette("viridis", "tint")
+    again.recolor("*", "black")
+    again.palette(["#aa3377", "teal"], shades)
+    texts = [[getattr(art, "markup", art) for art in arts(one)] for one in (once, again)]
+    assert texts[0] == texts[1]
+    again.palette(None)
+    assert arts(again) == [item.art for item in drawn.items]
+
+
+def test_what_is_turned_over_has_its_own_colours_turned_over(drawn: pw.Layout) -> None:
+    session, plain = drawn.edit(), drawn.edit()
+    session.palette("ink", "nearest")
+    for one in (session, plain):
+        one.flip("*")
+    session.palette(None)
+    for got, expected in zip(session.document.items, plain.document.items, strict=True):
+        assert repr(got.art) == repr(expected.art)
+
+
+def test_a_file_and_a_log_keep_how_each_was_drawn(drawn: pw.Layout, tmp_path: Path) -> None:
+    stream, begun = io.StringIO(), drawn.edit().document
+    session = pw.Session(begun, log=Log(stream))
+    session.palette("ink")
+    session.background("ivory")
+    session.save(tmp_path / "a.packwork")
+    again = pw.Session.open(tmp_path / "a.packwork")
+    assert again.document.palette == session.document.palette
+    assert again.layout.ground == "#fffff0"
+    again.palette(None)
+    assert [one_colour(a) for a in arts(again)] == [one_colour(i.art) for i in begun.items]
+    entries = read_entries(iter(stream.getvalue().splitlines()), "log")
+    done = Session.replay(begun, entries)
+    assert [one_colour(a) for a in arts(done)] == [one_colour(a) for a in arts(session)]
+    session.undo()
+    assert session.layout.ground == ""
+
+
+def test_what_is_no_colour_is_refused(drawn: pw.Layout) -> None:
+    session = drawn.edit()
+    with pytest.raises(RecipeError, match="'mud' is no colour"):
+        session.palette("mud")
+    with pytest.raises(RecipeError, match="'mud' is no colour"):
+        session.background("mud")
+    session.background("none")
+    assert session.layout.ground == ""

@@ -1,0 +1,82 @@
+"""Colours of all items and what is behind them, chosen on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+
+from studio.browsing import WIDE, Desk, Server, in_browser
+
+pytestmark = in_browser
+
+FILLS = "studio.collage.items.map((item) => studio.collage.colour(item.id))"
+MUTED = 9
+
+
+@pytest.fixture
+def desk(browser: Any) -> Iterator[Desk]:
+    server = Server("circle", "star", "heart", "-n", "8").start()
+    context = browser.new_context(viewport=WIDE, accept_downloads=True)
+    made = Desk(context.new_page(), server.address)
+    made.settled()
+    yield made
+    assert made.faults == []
+    context.close()
+    server.stop()
+
+
+def test_a_palette_is_put_on_by_mouse_and_by_keys_and_undone(desk: Desk) -> None:
+    before, places = desk.look(FILLS), desk.look("[...studio.collage.poses]")
+    desk.page.keyboard.press("6")
+    desk.page.get_by_role("button", name="tol-muted", exact=True).click()
+    desk.until(f"studio.collage.scene.palette.length === {MUTED}")
+    muted = set(desk.look("studio.collage.scene.palette"))
+    assert set(desk.look(FILLS)) <= muted
+    assert len(set(desk.look(FILLS))) > 4
+    desk.picture("look-muted")
+    strip = desk.page.get_by_role("button", name="ink", exact=True)
+    strip.focus()
+    desk.page.keyboard.press("Enter")
+    desk.until("studio.collage.scene.palette[0] === '#22304f'")
+    assert strip.get_attribute("aria-pressed") == "true"
+    desk.page.get_by_label("Colour 1 of the palette").fill("#ff0000")
+    desk.until("studio.collage.scene.palette[0] === '#ff0000'")
+    assert "#ff0000" in desk.look(FILLS)
+    for _ in range(2):
+        desk.page.locator("#bar [data-do=undo]").click()
+    desk.until(f"studio.collage.scene.palette.length === {MUTED}")
+    desk.page.get_by_role("button", name="their own").click()
+    desk.until("!studio.collage.scene.palette.length")
+    assert desk.look(FILLS) == before
+    assert desk.look("[...studio.collage.poses]") == places
+
+
+def test_the_background_on_the_page_is_that_of_the_file(desk: Desk) -> None:
+    desk.page.locator("#tab-look").click()
+    desk.page.locator("#panel [data-ground='#171717']").click()
+    desk.until("studio.collage.scene.ground === '#171717'")
+    desk.page.locator("#export").click()
+    desk.page.locator("dialog.export input[value=png]").check()
+    with desk.page.expect_download() as waited:
+        desk.page.locator("dialog.export button.primary").click()
+    with Image.open(BytesIO(Path(waited.value.path()).read_bytes())) as picture:
+        assert picture.convert("RGB").getpixel((1, 1)) == (0x17, 0x17, 0x17)
+
+
+def test_a_pipette_is_there_where_the_browser_has_one(desk: Desk) -> None:
+    taken = "class { open() { return Promise.resolve({ sRGBHex: '#123456' }); } }"
+    for pipette, count in ((taken, 1), ("undefined", 0)):
+        desk.page.add_init_script(f"globalThis.EyeDropper = {pipette};")
+        desk.page.reload()
+        desk.settled()
+        desk.page.locator("#tab-look").click()
+        found = desk.page.get_by_role("button", name="Colour behind all, from the screen")
+        assert found.count() == count
+        if count:
+            found.click()
+            desk.until("studio.collage.scene.ground === '#123456'")
