@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import final
@@ -21,7 +21,6 @@ from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.bottom_left import HeightOf, bottom_left
-from packwork.settle.pour import Source, Spout, pour
 from packwork.settle.round_pack import start_round_pack
 from packwork.settle.separate_fixed import separate_fixed
 from packwork.settle.settle import FIRST_TRUST, LAST_TRUST, Settling
@@ -72,8 +71,9 @@ class Arrival:
     one rank.
     ``shuffle``: logarithm of size within which items without a place come in random order and not
     the largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
-    ``source``: where items come from, one after another or all at once; None for their lowest
-    places.
+    ``about``: ``(m, 2)`` points that all begin near to; None for their lowest places.
+    ``rounds``: the items that are there, and where their origins are, in each round of their way to
+    where their poses have them; None for items that are there one after another.
     ``is_round``: whether the pack is to lie in a small circle, where forces draw all items to one
     point alike.
     """
@@ -82,12 +82,13 @@ class Arrival:
     keeps: bool = True
     ranks: IntArray = field(default_factory=lambda: np.arange(0))
     shuffle: float = 0.0
-    source: Source | None = None
+    about: FloatArray | None = None
+    rounds: Iterable[tuple[IntArray, FloatArray]] | None = None
     is_round: bool = False
 
     def centre(self, forces: Forces) -> FloatArray | None:
         """``(2,)`` of the circle that a round pack lies in; None for other piles."""
-        is_free = self.source is None and len(self.known) == 0
+        is_free = self.about is None and self.rounds is None and len(self.known) == 0
         return forces.common_point() if self.is_round and is_free else None
 
 
@@ -132,10 +133,10 @@ def pile(
         return Piled(poses, np.arange(0), 0, 0.0)
     run = _Pile(container, outlines, poses, forces, options, arrival, observer, stop)
     room = container.outline if basin is None else basin
-    if arrival.source is None:
+    if arrival.about is None:
         run.gather(room)
     else:
-        run.pour(room, arrival.source)
+        run.begin_about(room, arrival.about)
     run.settle(room, run.first_trust)
     if basin is not None and run.leave_out_what_sticks_out():
         run.settle(container.outline, ROUGH_TRUST)
@@ -192,9 +193,7 @@ class _Pile:
             self._take_over(near, known)
             standing = np.delete(known, lost)
             if not self._is_given:
-                many = len(standing)
-                for come in np.linspace(1, many, min(many, ARRIVALS), dtype=int):
-                    self._tell(standing[:come], self._places(standing[:come]))
+                self._tell_arrivals(standing)
         arrangement = self._arrangement(room, COARSE, all_items)
         lifted = np.setdiff1d(all_items, standing)
         sizes = self._order_sizes(arrangement)
@@ -207,6 +206,19 @@ class _Pile:
         self._take_over(arrangement, all_items)
         self._items = np.setdiff1d(all_items, left)
         self._keeps_round = len(left) == 0
+
+    def _tell_arrivals(self, standing: IntArray) -> None:
+        """Tell of items that come to where they stand: on their ways, or there one by one."""
+        if self._arrival.rounds is None:
+            many = len(standing)
+            for come in np.linspace(1, many, min(many, ARRIVALS), dtype=int):
+                self._tell(standing[:come], self._places(standing[:come]))
+            return
+        for items, points in self._arrival.rounds:
+            self._rounds += 1
+            places = self._places(items)
+            places[:, :2] = points
+            self._tell(items, places)
 
     def round_off(self, room: Outline) -> None:
         """Settle into a small circle those that at first did not all find room."""
@@ -226,28 +238,14 @@ class _Pile:
         """First bound of a move: a narrow one where items were given places."""
         return ROUGH_TRUST if self._is_given else FIRST_TRUST
 
-    def pour(self, room: Outline, source: Source) -> None:
-        """Let items in one after another from a source (an emitter)."""
-        all_items = self._items
-        arrangement = self._arrangement(room, COARSE, all_items)
-        rng = np.random.default_rng(self._options.seed)
-        queue = rng.permutation(all_items)
-        if source.every == 0:
-            near = Distance.from_points(source.points)
-            left = self._bottom_left(
-                arrangement, queue, np.arange(0), lambda points, _: near(points)[0]
-            )
-        else:
-            spout = Spout(source, room.region, self._gap, rng)
-            settling = self._settling(arrangement, all_items)
-
-            def tell(places: FloatArray) -> None:
-                self._tell(settling.active, places[settling.active])
-
-            left, rounds = pour(settling, spout, queue, source.every, tell, self._stop)
-            self._rounds += rounds
-        self._take_over(arrangement, all_items)
-        self._items = np.setdiff1d(all_items, left)
+    def begin_about(self, room: Outline, points: FloatArray) -> None:
+        """Give all items first places as near to some points as there is room."""
+        arrangement = self._arrangement(room, COARSE, self._items)
+        queue = np.random.default_rng(self._options.seed).permutation(self._items)
+        near = Distance.from_points(points)
+        left = self._bottom_left(arrangement, queue, np.arange(0), lambda at, _: near(at)[0])
+        self._take_over(arrangement, self._items)
+        self._items = np.setdiff1d(self._items, left)
 
     def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
         settling = Settling(

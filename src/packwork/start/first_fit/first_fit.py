@@ -362,10 +362,16 @@ class _Fitting:
 
 
 def heights_on(
-    fields: Sequence[FieldForce], shape: tuple[int, ...], px_per_cu: float
+    fields: Sequence[FieldForce],
+    shape: tuple[int, ...],
+    px_per_cu: float,
+    corner_cu: tuple[float, float] = (0.0, 0.0),
 ) -> list[FloatArray]:
-    """Heights of fields at all pixels, as shares of the canvas' longer side."""
+    """Heights of fields at all pixels, as shares of the image's longer side.
+
+    ``corner_cu``: point of the canvas in the image's top left corner.
+    """
     rows, columns = np.mgrid[: shape[0], : shape[1]]
-    points = np.column_stack([columns.ravel(), rows.ravel()]) / px_per_cu
+    points = np.column_stack([columns.ravel(), rows.ravel()]) / px_per_cu + corner_cu
     side_cu = max(shape) / px_per_cu
     return [np.asarray(one.field(points)[0]).reshape(shape) / side_cu for one in fields]

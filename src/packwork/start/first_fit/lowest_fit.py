@@ -9,8 +9,9 @@ is against how much of what is round it is taken.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit.first_fit import heights_on
-from packwork.start.first_fit.occupancy import NOISE, REACH, Occupancy, Stencil, cut
+from packwork.start.first_fit.occupancy import NOISE, REACH, Bits, Occupancy, Stencil, cut
 from packwork.start.first_poses import container_image
 
 SIDE_PX = 1_000
@@ -59,84 +60,111 @@ def lowest_fit(
     container: Container, falling: Falling, rng: np.random.Generator, stop: Stop
 ) -> tuple[Poses, IntArray]:
     """Poses at which nothing overlaps, and the items ``(m,)`` that found a place, as they came."""
-    board = _LowestFit(container, falling, rng)
+    board = FallingBoard(container, falling, rng)
     found = list[int]()
     for item in falling.order:
         if stop():
             break
-        if board.put(int(item)):
+        place = board.best(int(item), board.rows()) or board.best(int(item))
+        if place is not None:
+            board.take(int(item), place)
             found.append(int(item))
     return board.poses, np.array(found, dtype=np.int64)
 
 
-class _LowestFit:
-    """The container as pixels, and the poses of what lies on it."""
+class Place(NamedTuple):
+    """Free place of an item: its score, the corner of its box on the image, and its angle."""
 
-    def __init__(self, container: Container, falling: Falling, rng: np.random.Generator) -> None:
-        self._falling = falling
+    score: float
+    row: int
+    column: int
+    angle: float
+
+
+class FallingBoard:
+    """A container as pixels, and the poses of what lies on it.
+
+    ``corner_cu``: point of the canvas in the image's top left corner; the container is moved there.
+    """
+
+    def __init__(
+        self,
+        container: Container,
+        falling: Falling,
+        rng: np.random.Generator,
+        corner_cu: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
+        self._falling, self._corner = falling, corner_cu
         scales, fields = falling.scales, falling.fields
         each = math.sqrt(float(np.mean([one.area for one in falling.outlines] * scales**2)))
         px_each = np.clip(SIDE_PX / container.side * each, LEAST_EACH, MOST_EACH)
-        image, self._px_per_cu = container_image(
-            container, math.ceil(px_each / each * container.side)
-        )
+        self.resolution = math.ceil(px_each / each * container.side)
+        image, self.px_per_cu = container_image(container, self.resolution)
         inside: BoolArray = image > 1 - TOUCHED
-        self._occupancy = Occupancy(inside, REACH)
+        self.occupancy = Occupancy(inside, REACH)
         self._noise = NOISE * rng.random(image.shape)
         unit = container.side / each
-        self._heights = [unit * one for one in heights_on(fields, image.shape, self._px_per_cu)]
-        self._strongest = max(float(np.abs(one.strengths).max()) for one in fields)
+        heights = heights_on(fields, image.shape, self.px_per_cu, corner_cu)
+        self._heights = [unit * one for one in heights]
+        self._strongest = max((float(np.abs(one.strengths).max()) for one in fields), default=1.0)
         self._stencils: dict[tuple[Outline, float, float], Stencil] = {}
         self._full = set[tuple[Outline, float]]()
         self._pulls, self._worth = np.zeros(len(fields)), self._noise
         x, y, angle = np.zeros((3, len(scales)))
         self.poses = Poses(x, y, angle, scales)
         self._reach = float(np.max([one.radius for one in falling.outlines] * scales)) / each
-        self._reach_px = math.ceil(self._reach * each * self._px_per_cu)
+        self._reach_px = math.ceil(self._reach * each * self.px_per_cu)
         # Of one force on all alike, no place far above all that lies is the best.
         self._row_heights = None
         if len(fields) == 1 and fields[0].strengths.min() == self._strongest:
             self._row_heights = np.where(inside, self._heights[0], np.inf).min(axis=1)
             self._top = float(self._row_heights.min())
 
-    def put(self, item: int) -> bool:
-        """Put an item where it lies best; False if nowhere."""
+    def best(
+        self,
+        item: int,
+        rows: tuple[int, int] | None = None,
+        keep: Callable[[Stencil, Bits], None] | None = None,
+    ) -> Place | None:
+        """Where an item lies best; None if nowhere.
+
+        ``rows``, ``keep``: as of :meth:`Occupancy.best_place`.
+        """
         kind = self._falling.outlines[item], float(self._falling.scales[item])
         if kind in self._full:
-            return False
-        best = self._best(item, self._rows()) or self._best(item, None)
-        if best is None:
+            return None
+        found, worth = [], self.worth(item)
+        for angle in self._falling.angles[item]:
+            stencil = self.stencil(item, angle)
+            place = self.occupancy.best_place(stencil, worth, rows=rows, keep=keep)
+            if place is not None:
+                found.append(Place(*place, float(angle)))
+        if rows is None and not found:
             self._full.add(kind)
-            return False
-        _, row, column, angle = best
-        stencil = self._stencil(item, angle)
-        self._occupancy.take(stencil.mask, row, column)
-        y, x = row + stencil.origin[0], column + stencil.origin[1]
-        self.poses.x[item], self.poses.y[item] = x / self._px_per_cu, y / self._px_per_cu
-        self.poses.angle[item] = angle
-        if self._row_heights is not None:
-            rows, columns = self._heights[0].shape
-            here = self._heights[0][min(max(y, 0), rows - 1), min(max(x, 0), columns - 1)]
-            self._top = max(self._top, float(here))
-        return True
+        return max(found, default=None)
 
-    def _best(
-        self, item: int, rows: tuple[int, int] | None
-    ) -> tuple[float, int, int, float] | None:
-        """Score, row, column and angle of the best place."""
+    def worth(self, item: int) -> FloatArray:
+        """``(rows, columns)`` what it is worth to an item that its origin comes to a pixel."""
         pulls = np.array([one.strengths[item] for one in self._falling.fields])
         if (pulls != self._pulls).any():
             drawn = PULL / self._strongest * pulls
             self._pulls, self._worth = pulls, self._noise - np.tensordot(drawn, self._heights, 1)
-        found = []
-        for angle in self._falling.angles[item]:
-            stencil = self._stencil(item, angle)
-            place = self._occupancy.best_place(stencil, self._worth, rows=rows)
-            if place is not None:
-                found.append((*place, float(angle)))
-        return max(found, default=None)
+        return self._worth
 
-    def _rows(self) -> tuple[int, int] | None:
+    def take(self, item: int, place: Place) -> None:
+        """Put an item to its place."""
+        stencil = self.stencil(item, place.angle)
+        self.occupancy.take(stencil.mask, place.row, place.column)
+        y, x = place.row + stencil.origin[0], place.column + stencil.origin[1]
+        self.poses.x[item] = x / self.px_per_cu + self._corner[0]
+        self.poses.y[item] = y / self.px_per_cu + self._corner[1]
+        self.poses.angle[item] = place.angle
+        if self._row_heights is not None:
+            rows, columns = self._heights[0].shape
+            here = self._heights[0][min(max(y, 0), rows - 1), min(max(x, 0), columns - 1)]
+            self._top = max(self._top, float(here))
+
+    def rows(self) -> tuple[int, int] | None:
         """Rows of pixels in which an item can touch what lies there; None for all."""
         if self._row_heights is None:
             return None
@@ -144,11 +172,12 @@ class _LowestFit:
         first, last = int(near[0]) - self._reach_px, int(near[-1]) + self._reach_px
         return max(first, 0), min(last + 1, len(self._row_heights))
 
-    def _stencil(self, item: int, angle: float) -> Stencil:
+    def stencil(self, item: int, angle: float) -> Stencil:
+        """Pixels that an item takes at an angle; cut once."""
         outline, scale = self._falling.outlines[item], float(self._falling.scales[item])
         key = outline, scale, float(angle)
         if key not in self._stencils:
-            posed = outline.mapped(similarity(0.0, 0.0, key[2], scale * self._px_per_cu))
-            margin_px = self._falling.margin_cu * self._px_per_cu
+            posed = outline.mapped(similarity(0.0, 0.0, key[2], scale * self.px_per_cu))
+            margin_px = self._falling.margin_cu * self.px_per_cu
             self._stencils[key] = cut(posed, REACH, margin_px)
         return self._stencils[key]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
@@ -182,6 +183,7 @@ class Occupancy:
         field: FloatArray | None = None,
         pull: float = 1.0,
         rows: tuple[int, int] | None = None,
+        keep: Callable[[Stencil, Bits], None] | None = None,
     ) -> tuple[float, int, int] | None:
         """Score, row and column for the stencil's box where it touches most; None if none.
 
@@ -191,6 +193,7 @@ class Occupancy:
         ``field``, ``pull``: ``(rows, columns)`` that is added as well, so many times; None for
         none.
         ``rows``: first one and end of those that its box may take; None for all.
+        ``keep``: clears bits of free places, of all rows, that are out of the question.
         """
         top, bottom = rows or (0, self.shape[0])
         free = self._free[top:bottom]
@@ -198,6 +201,8 @@ class Occupancy:
         _kernels.clear_taken(
             self._rows[top:bottom], stencil.boxes, stencil.mask.shape[0], 0, 0, free
         )
+        if keep is not None:
+            keep(stencil, free)
         if not free.any():
             return None
         fringe = stencil.fringe
@@ -211,6 +216,12 @@ class Occupancy:
             np.array(stencil.origin), is_everywhere,
         )  # fmt: skip
         return (float(score), int(row) + top, int(column)) if row >= 0 else None
+
+    def free_places(self, stencil: Stencil) -> Bits:
+        """``(rows, words)`` bits of the places at which a stencil's box meets nothing."""
+        free = np.full_like(self._free, _kernels.ALL)
+        self.clear(stencil.boxes, stencil.mask.shape[0], free)
+        return free
 
     def clear(self, boxes: IntArray, height: int, free: Bits, top: int = 0, word: int = 0) -> None:
         """Clear bits for the corner of a stencil so high where its boxes meet what is taken.

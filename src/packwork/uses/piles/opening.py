@@ -22,7 +22,7 @@ from packwork.readers.svg.curve import read_curve
 from packwork.recipe.piles import Emitter, PileOptions, Side, parse_emitter
 from packwork.scene.container import Container
 from packwork.scene.layout import sheet
-from packwork.settle.pour import Source
+from packwork.start.first_fit.pour import Source
 from packwork.units import CanvasSize
 
 LID = 0.1

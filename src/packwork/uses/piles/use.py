@@ -26,9 +26,8 @@ from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.registration import matched
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.progress import Stop
 from packwork.recipe.piles import PileOptions
-from packwork.scene.container import Container, brought_over
+from packwork.scene.container import brought_over
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
@@ -36,6 +35,7 @@ from packwork.scene.pose import Poses
 from packwork.settle.pile import Arrival, Piled, SettleOptions, pile
 from packwork.start.angles_and_sizes import nearest_allowed, spread_angles
 from packwork.start.first_fit.lowest_fit import Falling, lowest_fit
+from packwork.start.first_fit.pour import pour
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.line_weights import evened
 from packwork.steps.measure import RemarkCount
@@ -179,12 +179,18 @@ def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[J
         is_alone = room.container.name == NO_CONTAINER
         arrival = Arrival(
             known=known,
-            source=source,
+            about=None if source is None or source.every else source.points,
             shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
             is_round=is_alone,
         )
-        if falls(arrival, forces):
-            poses, known = _fallen(job, room.container, poses, forces, options, context.stop)
+        if source is not None and source.every:
+            rng, falling = _falling(job, poses, forces, options)
+            poured = pour(room.container, basin, falling, source, rng, context.stop)
+            poses, rounds = poured.poses, poured.rounds()
+            arrival = replace(arrival, known=poured.items, keeps=False, rounds=rounds)
+        elif falls(arrival, forces):
+            rng, falling = _falling(job, poses, forces, options)
+            poses, known = lowest_fit(room.container, falling, rng, context.stop)
             arrival = replace(arrival, known=known, keeps=False)
         piled = pile(
             room.container, outlines, poses, forces, options, room.basin,
@@ -195,23 +201,22 @@ def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[J
 
 def falls(arrival: Arrival, forces: Forces) -> bool:
     """True where nothing but fields says where items come to lie."""
-    is_told = arrival.source is not None or len(arrival.known) > 0
+    is_told = arrival.about is not None or len(arrival.known) > 0
     return not (is_told or forces.bonds or arrival.centre(forces) is not None)
 
 
-def _fallen(
-    job: Job, container: Container, poses: Poses, forces: Forces, options: SettleOptions, stop: Stop
-) -> tuple[Poses, IntArray]:
-    """Poses of those that found a place by their outlines, and which these are."""
+def _falling(
+    job: Job, poses: Poses, forces: Forces, options: SettleOptions
+) -> tuple[np.random.Generator, Falling]:
+    """Items in the order in which they fall, and the random numbers that this took some of."""
     rng, outlines = np.random.default_rng(job.plan.seed), job.solid_outlines
     angles = _angles_tried(job, poses.angle, rng)
     radii = np.array([outline.radius for outline in outlines]) * poses.scale
     mixed = radii * np.exp(rng.uniform(-SHUFFLE, SHUFFLE, len(radii)))
-    falling = Falling(
+    return rng, Falling(
         outlines, poses.scale, angles, np.argsort(-mixed, kind="stable"), forces.fields,
-        options.gap_cu / 2 + HAIR * container.side,
+        options.gap_cu / 2 + HAIR * job.container.side,
     )  # fmt: skip
-    return lowest_fit(container, falling, rng, stop)
 
 
 def _angles_tried(job: Job, first: FloatArray, rng: np.random.Generator) -> list[FloatArray]:
