@@ -538,3 +538,24 @@ def test_a_flipped_photograph_is_printed_as_it_is_shown(tmp_path: Path) -> None:
         (was.preview, now.preview), (was.original.printed(1.0), now.original.printed(1.0))
     ):  # fmt: skip
         assert after.matrix.tolist() == [(-before.matrix[0]).tolist(), before.matrix[1].tolist()]
+
+
+def test_a_line_that_crosses_itself_is_filled_and_a_hole_may_reach_outside(
+    session: pw.Session,
+) -> None:
+    container = session.document.container
+    middle, radius = np.array([container.width, container.height]) / 2, container.side / 2
+    angles = np.linspace(0, 2.2 * np.pi, 80)
+    ring = middle + 0.8 * radius * np.column_stack([np.cos(-angles), np.sin(-angles)])
+    session.draw_container(ring.tolist())
+    outline = session.document.container.outline
+    assert len(outline.rings) == 1
+    assert outline.area == pytest.approx(np.pi * (0.8 * radius) ** 2, rel=0.01)
+    half = [(middle[0], -radius), (9 * radius, -radius), (9 * radius, 9 * radius)]
+    session.draw_container([*half, (middle[0], 9 * radius)], is_hole=True)
+    assert session.document.container.outline.area == pytest.approx(outline.area / 2, rel=0.01)
+    assert session.finish().certified
+    with pytest.raises(RecipeError, match="nothing of it would be left"):
+        session.draw_container(ring.tolist(), is_hole=True)
+    with pytest.raises(RecipeError, match="nowhere near"):
+        session.draw_container([(0, 0), (1, 0), (1e9, 1)])

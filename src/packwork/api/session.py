@@ -156,6 +156,7 @@ class Session(LiveSession):
     background = edits.background
     reshape = edits.reshape
     place_container = edits.place_container
+    draw_container = edits.draw_container
     set = edits.set
     count = edits.count
     cover = edits.cover

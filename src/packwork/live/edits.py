@@ -273,6 +273,17 @@ def reshape(session: Session, rings: Iterable[Iterable[tuple[float, float]]]) ->
     session.do("reshape", rings=listed)
 
 
+def draw_container(
+    session: Session, line: Iterable[tuple[float, float]], *, is_hole: bool = False
+) -> None:
+    """Fill what a closed line encloses, canvas units; as a hole, no longer fill that.
+
+    The line may cross itself.
+    """
+    points = tuple((float(x), float(y)) for x, y in line)
+    session.do("draw_container", line=points, is_hole=is_hole)
+
+
 def place_container(
     session: Session, x: float = 0.0, y: float = 0.0, factor: float = 1.0, angle: float = 0.0
 ) -> None:

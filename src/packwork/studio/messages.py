@@ -14,7 +14,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 from packwork.errors import PackworkError
 from packwork.live import edits
 from packwork.live.commands.command import Command, ItemIds, made, named_container, named_item
-from packwork.live.commands.container import SetContainer
+from packwork.live.commands.container import DrawContainer, SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import AnyCommand
 from packwork.live.face.offers import container_of, items_of
@@ -212,6 +212,17 @@ class Room(PageRequest):
         return container_of(importer.container(self.source), canvas, importer.font(self.font))
 
 
+class OutlineMessage(PageRequest):
+    """Fill what a line encloses that was drawn on the canvas."""
+
+    type: Literal["outline"] = "outline"
+    line: Annotated[tuple[tuple[Place, Place], ...], Field(min_length=3, max_length=10_000)]
+
+    def act(self, tab: Tab) -> None:
+        """Have a run."""
+        tab.workspace.pour(0, lambda _: [made(DrawContainer, line=self.line)])
+
+
 class Fill(PageRequest):
     """Fill the container with other items, all of those there taken away."""
 
@@ -330,8 +341,8 @@ class Set(PageRequest):
 
 
 Told: TypeAlias = Annotated[
-    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | Swap | Room | Fill
-    | Picture | Order | Alike | Words | More | Set,
+    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | Swap | Room
+    | OutlineMessage | Fill | Picture | Order | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

@@ -12,7 +12,8 @@ from pydantic import Field
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import valid
+from packwork.geometry.overlay import difference, valid
+from packwork.geometry.polygon import region
 from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
@@ -63,6 +64,30 @@ class Reshape(Command):
         except (ShapeError, ValueError) as error:
             raise RecipeError("reshape", "the outline has no area; give three points") from error
         return replace(document, container=_outlined(document.container, outline))
+
+
+class DrawContainer(Command):
+    """Have what a closed line encloses as the container, or cut it out of the container."""
+
+    kind: Literal["draw_container"] = "draw_container"
+    line: Annotated[tuple[tuple[Number, Number], ...], Field(min_length=3, max_length=10_000)]
+    """Canvas units; it may cross itself."""
+    is_hole: bool = False
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the outline."""
+        line, container = np.array(self.line), document.container
+        if float(np.abs(line).max()) > FARTHEST * container.side:
+            raise RecipeError("container", "points are nowhere near the canvas")
+        inside = region([line])
+        if self.is_hole:
+            inside = difference(container.outline.region, inside)
+        try:
+            outline = Outline.from_region(inside)
+        except ShapeError as error:
+            raise RecipeError("container", "nothing of it would be left") from error
+        made = _outlined(container, outline)
+        return replace(document, container=made if self.is_hole else replace(made, name="drawn"))
 
 
 class PlaceContainer(Command):

@@ -9,6 +9,7 @@ from pydantic import Field, TypeAdapter
 
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.container import (
+    DrawContainer,
     Entitle,
     PlaceContainer,
     Reshape,
@@ -35,7 +36,7 @@ SingleCommand: TypeAlias = Annotated[
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
     | SetContainer | Reshape | PlaceContainer | SetOption | Entitle
-    | Paint | Background,
+    | Paint | Background | DrawContainer,
     Field(discriminator="kind"),
 ]  # fmt: skip
 """Any command that is one edit by itself."""

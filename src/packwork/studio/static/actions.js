@@ -105,6 +105,8 @@ function views(studio) {
     { id: "farther", group: "View", label: "Zoom out", keys: ["Mod+-"], icon: "minus", repeats: true, run: () => view.zoomAt(0.8, ...middle()) },
     { id: "chosen", group: "View", label: "Show what is chosen", keys: ["F"], when: () => studio.choice.ids.size > 0, run: () => studio.showChosen() },
     ...PANELS.map(([id, , label], k) => ({ id: `panel-${id}`, group: /** @type {const} */ ("View"), label: `Panel: ${label}`, keys: [String(k + 1)], run: () => studio.panels.goTo(id) })),
+    { id: "draw", group: "View", label: "Draw the container freehand", keys: ["K"], when: () => studio.collage.hasPoses, run: () => studio.sketch.begin(false) },
+    { id: "draw-hole", group: "View", label: "Draw a hole in the container", keys: ["Shift+K"], when: () => studio.collage.hasPoses, run: () => studio.sketch.begin(true) },
     { id: "force", group: "View", label: "Draw a force as an arrow", keys: ["G"], when: () => studio.collage.hasPoses, run: () => studio.forces.begin() },
     { id: "faults", group: "View", label: "Show what is free, covered and overlapping", keys: ["V"], icon: "layers", run: () => studio.toggleFaults() },
     { id: "theme", group: "View", label: "Light or dark", keys: ["T"], icon: "theme", run: () => studio.toggleTheme() },

@@ -74,6 +74,7 @@ export class Gestures {
    */
   begun(event, at, kind) {
     if (this.stage.forces?.isDrawing) return { act: "force", from: at, at, kind };
+    if (this.stage.sketch?.isDrawing) return { act: "sketch", from: at, at, kind };
     const room = this.stage.room;
     if (room?.isOn) {
       room.down(at, REACH[kind]);
@@ -145,6 +146,7 @@ export class Gestures {
     else if (doing.act === "marquee") this.marquee(doing, at);
     else if (doing.act === "room") this.stage.room?.move(doing.from, at, snaps);
     else if (doing.act === "force") this.stage.forces?.draw(doing.from, at);
+    else if (doing.act === "sketch") this.stage.sketch?.draw(at);
     else if (doing.act === "item") this.hand.move(x / zoom, y / zoom);
     else this.pull(doing, at, snaps);
     this.hears.changed();
@@ -217,6 +219,7 @@ export class Gestures {
   end() {
     this.stage.room?.drop();
     this.stage.forces?.drop();
+    this.stage.sketch?.drop();
     this.hand.drop();
     this.choice.isBusy = false;
     this.hears.changed();
@@ -224,7 +227,7 @@ export class Gestures {
 
   /** Leave off what the pointer does; whether it did anything. */
   cancel() {
-    if (this.stage.forces?.cancel()) {
+    if (this.stage.forces?.cancel() || this.stage.sketch?.cancel()) {
       this.doing = null;
       this.hears.changed();
       return true;
@@ -303,7 +306,11 @@ export class Gestures {
 
   /** @param {Point} at */
   pointer(at) {
-    const room = this.stage.room;
+    const { room, forces, sketch } = this.stage;
+    if (forces?.isDrawing || sketch?.isDrawing) {
+      this.stage.canvas.dataset.over = "draw";
+      return;
+    }
     if (room?.isOn) {
       const kind = room.gripAt(at, REACH.mouse)?.kind;
       this.stage.canvas.dataset.over = kind === "scale" || kind === "turn" ? kind : "item";
@@ -316,7 +323,7 @@ export class Gestures {
 }
 
 /**
- * @typedef {{act: "pan" | "force" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ * @typedef {{act: "pan" | "force" | "sketch" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, base?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */

@@ -132,11 +132,12 @@ export class Panels {
     const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}`, font: this.roomFont.value, canvas: dropping.sheet });
     const grid = h("div", { class: "grid" });
     const edit = h("button", { type: "button", class: "edit-room", "aria-pressed": String(this.studio.room.isOn), onclick: () => this.studio.editRoom() }, icon("shape"), "Edit its outline");
+    const draw = (/** @type {string} */ label, /** @type {boolean} */ isHole) => h("button", { type: "button", onclick: () => this.studio.sketch.begin(isHole) }, icon("pencil"), label);
     const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value) }, ...this.sheets().map(([value, label]) => h("option", { value, selected: value === dropping.sheet }, label)));
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file")),
-      h("div", { class: "row" }, edit), h("label", { class: "row" }, "Sheet", sheet),
+      h("div", { class: "row" }, edit), h("div", { class: "row halves" }, draw("Draw one", false), draw("A hole", true)), h("label", { class: "row" }, "Sheet", sheet),
       h("form", { onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); fill(); } },
         h("div", { class: "row" }, word, h("button", { type: "submit" }, "Fill a word")), this.roomFont.element),
       h("h3", {}, "Bundled"), grid);

@@ -96,3 +96,32 @@ export function pulled(ring, telling, which, x, y) {
     return [px + share * x, py + share * y];
   });
 }
+
+/** Points of a smoothed line, and how often each becomes the mean of those about it. */
+const POINTS = 240, ROUNDS = 6;
+
+/**
+ * A line drawn by hand as a smooth closed ring of points at equal distances; null if it is short.
+ * @param {Ring} line
+ * @param {number} shortest length of one that is not
+ * @returns {Ring | null}
+ */
+export function smoothed(line, shortest) {
+  const closed = [...line, line[0]];
+  const along = [0];
+  closed.slice(1).forEach(([x, y], k) => along.push(along[k] + Math.hypot(x - closed[k][0], y - closed[k][1])));
+  const length = along[along.length - 1];
+  if (line.length < 3 || length < shortest) return null;
+  let k = 0;
+  let ring = Array.from({ length: POINTS }, (_, one) => {
+    const far = (one * length) / POINTS;
+    while (k + 2 < along.length && along[k + 1] < far) k++;
+    const share = (far - along[k]) / (along[k + 1] - along[k] || 1);
+    return /** @type {[number, number]} */ ([0, 1].map((axis) => closed[k][axis] + share * (closed[k + 1][axis] - closed[k][axis])));
+  });
+  for (let round = 0; round < ROUNDS; round++) ring = ring.map((at, one) => {
+    const [before, after] = [ring[(one + POINTS - 1) % POINTS], ring[(one + 1) % POINTS]];
+    return /** @type {[number, number]} */ ([0, 1].map((axis) => (before[axis] + 2 * at[axis] + after[axis]) / 4));
+  });
+  return ring;
+}

@@ -42,6 +42,8 @@ export class Stage {
     this.showsFaults = false;
     /** @type {import("./forces.js").Forces | null} */
     this.forces = null;
+    /** @type {import("./sketch.js").Sketch | null} */
+    this.sketch = null;
     /** The container in the hand. @type {import("./room.js").Room | null} */
     this.room = null;
     /** @type {null | [number, number, number, number]} */
@@ -211,6 +213,7 @@ export class Stage {
     this.drawHandles();
     this.room?.draw(this.pen);
     this.forces?.paint(this.pen);
+    this.sketch?.paint(this.pen);
     if (this.marquee) this.drawMarquee(this.marquee);
   }
 

@@ -23,6 +23,7 @@ import { Palette } from "./palette.js";
 import { Panels } from "./panels.js";
 import { Replacing } from "./replacing.js";
 import { Room } from "./room.js";
+import { Sketch } from "./sketch.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
 import { Start } from "./start.js";
@@ -77,6 +78,7 @@ export class Studio {
     this.menu = new Menu(this.actions);
     this.variants = new Variants(this);
     this.forces = this.stage.forces = new Forces(this);
+    this.sketch = this.stage.sketch = new Sketch(this);
     this.panels = new Panels(this);
     this.words = this.panels.words;
     this.incoming = new Incoming(this);

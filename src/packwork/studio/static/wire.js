@@ -14,7 +14,8 @@
  * @typedef {{kind: "cancel"}} Cancel
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
@@ -30,6 +31,7 @@
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
  * @typedef {{type: "open", source: string}} Open
  * @typedef {{type: "order", way: ("right" | "left" | "down" | "up" | "outwards" | "inwards" | "around" | "along"), by: ("weight" | "hue" | "lightness" | "name")}} Order
+ * @typedef {{type: "outline", line: [number, number][]}} OutlineMessage
  * @typedef {{kind: "paint", palette: string[], shades?: ("tint" | "nearest" | "keep")}} Paint
  * @typedef {{type: "picture", source: string}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
@@ -53,8 +55,8 @@
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background)[]}} Together
- * @typedef {Ack | Alike | Begin | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer)[]}} Together
+ * @typedef {Ack | Alike | Begin | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
