@@ -149,6 +149,8 @@ class Session(LiveSession):
     release = edits.release
     remove = edits.remove
     duplicate = edits.duplicate
+    copy = edits.copy
+    paste = edits.paste
     weigh = edits.weigh
     rename = edits.rename
     recolor = edits.recolor

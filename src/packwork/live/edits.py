@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 from packwork.errors import RecipeError
 
 if TYPE_CHECKING:
+    from packwork.live.clips import Clip
     from packwork.live.document import Property
     from packwork.live.names import Coordinate, Which
     from packwork.live.session import Session
@@ -246,6 +247,35 @@ def duplicate(session: Session, which: Which) -> int:
     number = session.document.next_id
     session.do("duplicate", item=session.one(which))
     return number
+
+
+def copy(session: Session, which: Which) -> Clip:
+    """Take a copy of items as they are now, for :meth:`paste` into this or another session."""
+    from packwork.live.clips import clipped
+
+    return clipped(session.document, session.find(which))
+
+
+def paste(
+    session: Session, clip: Clip, x: Coordinate | None = None, y: Coordinate | None = None
+) -> tuple[int, ...]:
+    """Bring the items of a clip, lying to each other as they did; their numbers.
+
+    Parameters
+    ----------
+    x, y
+        Where the middle of them all is put; unless given, where it was.
+    """
+    from packwork.live.clips import pasted
+    from packwork.live.names import length_of
+
+    if (x is None) != (y is None):
+        raise RecipeError("paste", "takes both x and y, or neither")
+    document, first = session.document, session.document.next_id
+    across = None if x is None else length_of(document, "x", x)
+    down = None if y is None else length_of(document, "y", y)
+    session.do_together(pasted(session, clip, across, down))
+    return tuple(range(first, first + len(clip)))
 
 
 def weigh(session: Session, which: Which, weight: float) -> None:

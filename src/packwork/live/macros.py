@@ -41,11 +41,15 @@ def brought(session: Session, items: Iterable[Item]) -> Iterator[Add]:
     What is there already comes with the weight that it has there, all else with its own, in the
     document's unit.
     """
-    document = session.document
+    listed = list(items)
+    yield from weighed(session, zip(listed, weights_in(session.document, listed), strict=True))
+
+
+def weights_in(document: Document, items: Sequence[Item]) -> list[float]:
+    """Weights with which items come into a document, in its unit."""
     there = dict(zip(reversed(document.items), reversed(document.weights.tolist()), strict=True))
     unit = _unit_of(document)
-    pairs = [(item, there.get(item, item.weight * unit)) for item in items]
-    yield from weighed(session, pairs)
+    return [there.get(item, item.weight * unit) for item in items]
 
 
 def weighed(session: Session, pairs: Iterable[tuple[Item, float]]) -> Iterator[Add]:

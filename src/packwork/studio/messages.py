@@ -24,6 +24,7 @@ from packwork.live.owner import Leap
 from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
 from packwork.scene.container import Container, on_canvas
+from packwork.studio.clipboard import Copy, Paste
 from packwork.studio.documents import Begin, Name, Open, PageRequest
 from packwork.studio.importer import FILES
 from packwork.studio.wire import SAID
@@ -342,7 +343,7 @@ class Set(PageRequest):
 
 Told: TypeAlias = Annotated[
     Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | Swap | Room
-    | OutlineMessage | Fill | Picture | Order | Alike | Words | More | Set,
+    | OutlineMessage | Fill | Copy | Paste | Picture | Order | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

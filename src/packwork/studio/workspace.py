@@ -29,6 +29,7 @@ from packwork.live.macros import prepared
 from packwork.live.owner import Frame, Leap, Owner
 from packwork.live.relayout import Moment, in_place, poured_again, poured_into
 from packwork.live.session import Session
+from packwork.studio.clipboard import Clipboard
 from packwork.studio.kept_workspaces import Shelf
 from packwork.studio.view import Scenes, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
@@ -76,6 +77,7 @@ class Workspace:
         self._busy, self._progress = "", 0.0
         self._desk: tuple[Owner, Keeper | None] | None = None
         self._unplaced: tuple[IntArray, tuple[LeftOut, ...]] | None = None
+        self.clipboard = Clipboard()
         self._unheard: deque[News] = deque(maxlen=MOST_LINES)
         self._dragging: object = None
         self._tidying: asyncio.Task[None] | None = None

@@ -67,15 +67,17 @@ class Add(Command):
 
 
 class Duplicate(Command):
-    """Bring a copy of an item, a little beside it."""
+    """Bring a copy of an item, a little beside it or just where it is."""
 
     kind: Literal["duplicate"] = "duplicate"
     item: ItemId
+    beside: Annotated[Number, Field(ge=0, le=1)] = OFFSET
+    """How far beside it, right and down, as a share of the canvas."""
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the copy, the last of all."""
         k = index_of(document, self.item, "duplicate")
-        pose, beside = document.poses.subset(np.array([k])), OFFSET * document.container.side
+        pose, beside = document.poses.subset(np.array([k])), self.beside * document.container.side
         pose = replace(pose, x=pose.x + beside, y=pose.y + beside)
         return _joined(document, document.items[k], pose, float(document.weights[k]))
 

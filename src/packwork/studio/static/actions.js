@@ -7,7 +7,8 @@ import { PANELS } from "./panels.js";
 /** @typedef {import("./dom.js").IconName} IconName */
 /**
  * @typedef {{id: string, label: string, keys: string[], run: () => void, icon?: IconName,
- *   group: "Edit" | "Choose" | "Items" | "View" | "File", when?: () => boolean, repeats?: boolean}} Action
+ *   group: "Edit" | "Choose" | "Items" | "View" | "File", when?: () => boolean, repeats?: boolean, isNative?: boolean}} Action
+ * `isNative`: its keys are the browser's own, which tells of them by another event.
  */
 
 /** How far an arrow key moves, as a share of the canvas; with shift. */
@@ -67,6 +68,9 @@ function items(studio) {
     { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
     { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
     { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when: grows, run: () => studio.duplicate() },
+    { id: "copy", group: "Items", label: "Copy", keys: ["Mod+C"], isNative: true, when, run: () => studio.clipboard.ask("copy") },
+    { id: "cut", group: "Items", label: "Cut", keys: ["Mod+X"], isNative: true, when, run: () => studio.clipboard.ask("cut") },
+    { id: "paste", group: "Items", label: "Paste", keys: ["Mod+V"], isNative: true, when: () => studio.collage.hasPoses && kindOf(studio.collage).grows, run: () => studio.clipboard.askPaste() },
     { id: "middle", group: "Items", label: "Put it in the middle", keys: ["M"], when: () => choice.ids.size === 1, run: () => studio.toMiddle() },
     { id: "inspect", group: "Items", label: "Its numbers: place, size and angle", keys: ["I"], icon: "options", when, run: () => studio.inspect() },
     { id: "flip", group: "Items", label: "Flip left and right", keys: ["Shift+F"], icon: "flip", when, run: () => studio.flip("horizontal") },

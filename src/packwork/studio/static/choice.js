@@ -11,6 +11,16 @@ export class Choice {
     this.hovered = null;
     /** Whether they are in the hand: handles would be in the way. */
     this.isBusy = false;
+    /** What was there before something was asked for that is to be chosen. @type {Map<number, number> | null} */
+    this.before = null;
+  }
+
+  /**
+   * Choose what comes next.
+   * @param {Map<number, number>} present what is there before
+   */
+  expect(present) {
+    this.before = present;
   }
 
   /** @param {number} id */
@@ -36,6 +46,11 @@ export class Choice {
    * @param {Map<number, number>} present
    */
   keep(present) {
+    const fresh = this.before ? [...present.keys()].filter((id) => !this.before?.has(id)) : [];
+    if (fresh.length) {
+      this.before = null;
+      return this.set(fresh);
+    }
     const left = [...this.ids].filter((id) => present.has(id));
     if (left.length !== this.ids.size) this.set(left);
     if (this.hovered !== null && !present.has(this.hovered)) this.hovered = null;

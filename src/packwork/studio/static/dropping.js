@@ -121,10 +121,15 @@ export class Dropping {
     this.ask("image/*", false, (batch) => this.connection.send({ type: "picture", source: `file:${batch}` }));
   }
 
+  /** Bring files beside what is there. @param {string} batch */
+  add(batch) {
+    this.connection.send({ type: "bring", sources: [`file:${batch}`] });
+  }
+
   /** @param {string} batch */
   bring(batch) {
     const source = `file:${batch}`;
-    if (this.as === "beside") this.connection.send({ type: "bring", sources: [source] });
+    if (this.as === "beside") this.add(batch);
     else this.connection.send({ type: "fill", use: this.as, source, ...(this.as === "items" ? { count: this.many() } : {}) });
   }
 

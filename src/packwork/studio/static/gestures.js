@@ -1,6 +1,8 @@
 // @ts-check
 /** Pointers, wheel and pinch on the canvas: mouse, pen and touch alike. */
 
+import { kindOf } from "./kinds.js";
+
 /** @typedef {import("./stage.js").Stage} Stage */
 /** @typedef {import("./view.js").View} View */
 /** @typedef {import("./choice.js").Choice} Choice */
@@ -59,7 +61,7 @@ export class Gestures {
     this.pointers.set(event.pointerId, at);
     if (this.pointers.size === 2) this.pinch();
     if (this.pointers.size > 1 || event.button === 2) return;
-    const kind = kindOf(event);
+    const kind = pointerKindOf(event);
     const isPan = this.isPanning || event.button === 1;
     this.doing = isPan ? { act: "pan", from: at, at, kind } : this.begun(event, at, kind);
     if (kind === "touch") this.waitForMenu(at);
@@ -88,7 +90,7 @@ export class Gestures {
     const was = this.choice.has(id);
     if (isMore) this.choice.toggle(id);
     else if (!was) this.choice.set([id]);
-    return { act: "item", from: at, at, kind, id, single: was && !isMore };
+    return { act: "item", from: at, at, kind, id, single: was && !isMore, copies: event.altKey };
   }
 
   /**
@@ -131,6 +133,7 @@ export class Gestures {
       if (doing.id !== undefined && !this.choice.has(doing.id)) this.choice.set([doing.id]);
       this.choice.isBusy = true;
       this.hand.grab(this.choice.ids);
+      if (doing.copies && kindOf(this.stage.collage).grows) this.hand.leaveCopies();
     }
   }
 
@@ -324,7 +327,7 @@ export class Gestures {
 
 /**
  * @typedef {{act: "pan" | "force" | "sketch" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
- *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, base?: number[],
+ *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, base?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */
 
@@ -334,7 +337,7 @@ function point(event) {
 }
 
 /** @param {PointerEvent} event @returns {keyof typeof STILL} */
-function kindOf(event) {
+function pointerKindOf(event) {
   return event.pointerType === "touch" || event.pointerType === "pen" ? event.pointerType : "mouse";
 }
 

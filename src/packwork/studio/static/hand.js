@@ -41,6 +41,11 @@ export class Hand {
     if (this.isFull) this.connection.do({ kind: "grab", items: [...this.began.keys()] });
   }
 
+  /** Leave a copy of what is held where it was taken. */
+  leaveCopies() {
+    this.connection.do(together([...this.began.keys()].map((item) => ({ kind: "duplicate", item, beside: 0 }))));
+  }
+
   /**
    * Have what is held `x` and `y` from where it was taken.
    * @param {number} x

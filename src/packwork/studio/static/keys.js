@@ -44,7 +44,7 @@ export function listenToKeys(actions, hears) {
       return hears.pans(true);
     }
     const action = known.get(keyOf(event));
-    if (!action || (event.repeat && !action.repeats) || isTaken(event)) return;
+    if (!action || action.isNative || (event.repeat && !action.repeats) || isTaken(event)) return;
     event.preventDefault();
     closeMenu();
     if (!action.when || action.when()) action.run();
@@ -61,7 +61,7 @@ function closeMenu() {
 }
 
 /** @param {Event} event */
-function isTyping(event) {
+export function isTyping(event) {
   const target = event.target instanceof HTMLElement ? event.target : null;
   return Boolean(target?.closest("input:not([type=checkbox]):not([type=range]), textarea, select"));
 }

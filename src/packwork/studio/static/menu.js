@@ -6,9 +6,9 @@ import { shownKey } from "./keys.js";
 
 /** @typedef {import("./actions.js").Action} Action */
 
-const OF_ITEMS = ["inspect", "hold", "release", "middle", "duplicate", "flip", "flip-down", "replace", "exchange", "remove", "alike", "chosen"];
+const OF_ITEMS = ["inspect", "hold", "release", "middle", "copy", "cut", "paste", "duplicate", "flip", "flip-down", "replace", "exchange", "remove", "alike", "chosen"];
 const OF_FILES = ["new", "add", "folder", "save", "export"];
-const OF_NOTHING = ["add", "folder", "room", "all", "pour", "fit", "export"];
+const OF_NOTHING = ["paste", "add", "folder", "room", "all", "pour", "fit", "export"];
 
 export class Menu {
   /** @param {Map<string, Action>} actions */

@@ -5,6 +5,7 @@ import { actionsOf } from "./actions.js";
 import { Badge } from "./badge.js";
 import { Bar } from "./bar.js";
 import { Choice } from "./choice.js";
+import { Clipboard } from "./clipboard.js";
 import { Collage } from "./collage.js";
 import { Connection } from "./connection.js";
 import { byId } from "./dom.js";
@@ -63,6 +64,7 @@ export class Studio {
       menu: (x, y) => this.menu.open(x, y + this.canvas.getBoundingClientRect().top, this.choice.ids.size > 0),
     });
     this.dropping = new Dropping(this.connection, this.collage);
+    this.clipboard = new Clipboard(this);
     this.ordering = new Ordering(this);
     this.exporting = new Exporting(this.connection, this.collage, () => this.panels.load());
     const actions = actionsOf(this);
@@ -331,6 +333,7 @@ export class Studio {
   }
 
   duplicate() {
+    this.choice.expect(this.collage.rows);
     this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "duplicate", item }))));
   }
 

@@ -12,12 +12,13 @@
  * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{kind: "cancel"}} Cancel
+ * @typedef {{type: "copy", items: number[]}} Copy
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{kind: "drop"}} Drop
- * @typedef {{kind: "duplicate", item: number}} Duplicate
+ * @typedef {{kind: "duplicate", item: number, beside?: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
  * @typedef {{kind: "exchange", first: number, second: number}} Exchange
  * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null), without?: string[]}} Fill
@@ -33,6 +34,7 @@
  * @typedef {{type: "order", way: ("right" | "left" | "down" | "up" | "outwards" | "inwards" | "around" | "along"), by: ("weight" | "hue" | "lightness" | "name")}} Order
  * @typedef {{type: "outline", line: [number, number][]}} OutlineMessage
  * @typedef {{kind: "paint", palette: string[], shades?: ("tint" | "nearest" | "keep")}} Paint
+ * @typedef {{type: "paste", x?: (number | null), y?: (number | null)}} Paste
  * @typedef {{type: "picture", source: string}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
@@ -56,7 +58,7 @@
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer)[]}} Together
- * @typedef {Ack | Alike | Begin | Bring | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Picture | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {Ack | Alike | Begin | Bring | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
