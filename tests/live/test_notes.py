@@ -10,6 +10,7 @@ import pytest
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.face.opening import opening_of
+from packwork.live.relayout import poured_again
 from packwork.writers import svg_text
 
 TABLE = {"name": ["fig", "kiwi", "plum", "pear"], "kg": [4, 2, 5, 3]}
@@ -71,3 +72,19 @@ def test_an_svg_of_ours_is_opened_as_a_layout_and_no_other(tmp_path: Path) -> No
     recipe = opening_of([str(other)]).recipe
     assert recipe is not None
     assert recipe.container == str(other)
+
+
+def test_marks_poured_anew_keep_their_sizes_and_what_has_no_room_is_taken_back(
+    chart: pw.Layout,
+) -> None:
+    session = chart.edit()
+    before = session.document
+    session.apply(poured_again(before, 3))
+    assert session.settle().certified
+    assert session.document.poses.scale == pytest.approx(before.poses.scale)
+    now = session.document
+    session.move("plum", 0.0, 0.0)
+    session.hold("plum")
+    assert session.settle().certified
+    assert np.array_equal(session.document.poses.x, now.poses.x)
+    assert any("taken back" in line for line in session.advice)

@@ -41,7 +41,6 @@ def test_parts_are_moved_turned_and_cut_in_true_size(
     scale = desk.look(f"studio.collage.pose({first}).scale")
     desk.page.mouse.click(*desk.place(first))
     assert desk.look("studio.stage.handles().map(handle => handle.kind)") == ["turn"]
-    assert desk.page.locator(".editor label:has-text('Name')").is_visible()
     assert desk.page.locator(".editor label:has-text('Weight')").is_hidden()
     desk.page.keyboard.press("+")
     middle = desk.look("(p => [p.x, p.y + 49])(studio.view.toScreen(150, 100))")

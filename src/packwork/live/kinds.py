@@ -148,6 +148,7 @@ class ChartKind(Kind):
     name = "chart"
     sizes = "shared"
     refusal = "marks of a chart are as large as their numbers say; change those"
+    shows_shape = False
 
 
 @final

@@ -277,7 +277,9 @@ class LocalSolver:
                 if len(self.violations) > wrong:
                     # Nothing is better than something worse.
                     self._turn_to(asked)
-        if (back := taken_back(self.base, self.document)) is not None:
+        if (
+            back := taken_back(self.base, self.document, is_wrong=bool(self.violations))
+        ) is not None:
             self.news = (back.message,)
             self._turn_to(back.document)
 

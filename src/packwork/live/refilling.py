@@ -104,10 +104,11 @@ def refilled(
     return Refilled(kept, message)
 
 
-def taken_back(before: Document, now: Document) -> Refilled | None:
+def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled | None:
     """Layout without a gesture for which all items would become much smaller; None if none would.
 
-    Marks of a chart do not become smaller at all: their keys say how large they are.
+    Marks of a chart do not become smaller at all, for their keys say how large they are: where
+    those that are held leave them no room (``is_wrong``), that is taken back too.
     """
     if now.options.sizes != "shared" or before.container is not now.container:
         return None
@@ -116,11 +117,14 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
         return None
     share = [100 * covered(one) for one in (before, now)]
     least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
-    if share[1] >= share[0] * least:
+    has_no_room = is_wrong and bool(now.kind.refusal)
+    if share[1] >= share[0] * least and not has_no_room:
         return None
     columns = {name: getattr(before, name) for name in ("poses", "weights", "smallest", "largest")}
     message = (
-        f"taken back, for all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
+        "taken back, for there is no room for it at these sizes"
+        if has_no_room
+        else f"taken back, for all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
     )
     return Refilled(replace(now, **columns), message)
 

@@ -67,7 +67,11 @@ def poured_again(
         if error.key != HOLD.key:
             raise
         layout, kept = run_shown(job, shown, stop)
-    return arranged(document.ids[kept].tolist(), layout.poses)
+    poses = layout.poses
+    if document.kind.refusal:
+        # Where there is too little room for that, a settle takes it back and says so.
+        poses = replace(poses, scale=document.poses.scale[kept])
+    return arranged(document.ids[kept].tolist(), poses)
 
 
 def _nested(
@@ -239,10 +243,11 @@ def pin_of(document: Document, k: int) -> dict[str, str | float]:
     return pin
 
 
-def poured(recipe: Recipe, shown: Shown, stop: Stop = never) -> Layout:
-    """Layout of a recipe, every moment of its run shown."""
-    job = uses.read(recipe)
-    return run_shown(job, shown, stop)[0]
+def poured(
+    recipe: Recipe, shown: Shown, stop: Stop = never, container: Container | None = None
+) -> Layout:
+    """Layout of a recipe, every moment of its run shown; in a container in place of its own."""
+    return run_shown(uses.read(recipe, None, container), shown, stop)[0]
 
 
 def poured_into(

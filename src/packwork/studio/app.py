@@ -23,7 +23,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from packwork.errors import PackworkError
-from packwork.live.face.offers import offers
+from packwork.live.face.offers import columns_of, offers
 from packwork.studio.files import MOST_BYTES, Exporter, Uploads
 from packwork.studio.guard import AGAIN, PROTOCOL, Guard
 from packwork.studio.importer import Importer
@@ -65,6 +65,7 @@ class Studio:
             Route(AGAIN, self._again, methods=["POST"]),
             Route("/choices", self._choices),
             Route("/recent", self._recent),
+            Route("/tables/{batch}", self._table),
             Route("/files", self._batch, methods=["POST"]),
             Route("/files/{batch}", self._file, methods=["POST"]),
             Route("/export", self._export, methods=["POST"]),
@@ -88,6 +89,13 @@ class Studio:
         found = [] if shelf is None else await asyncio.to_thread(shelf.recent)
         told = [{**asdict(one), "png": b64encode(one.png).decode("ascii")} for one in found]
         return JSONResponse(told)
+
+    async def _table(self, request: Request) -> Response:
+        try:
+            file = self._importer.file(request.path_params["batch"])
+            return JSONResponse(await asyncio.to_thread(columns_of, file))
+        except PackworkError as error:
+            return refused(PackworkError(self._importer.without_folder(str(error))))
 
     async def _batch(self, request: Request) -> Response:
         return JSONResponse({"batch": self._uploads.new_batch()})

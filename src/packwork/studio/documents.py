@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
 from packwork.errors import ReadError
-from packwork.live.face.opening import Opening, opening_sent
+from packwork.live.face.offers import container_of
+from packwork.live.face.opening import Opening, chart_opening, opening_sent
 from packwork.live.face.templates import template
+from packwork.live.kinds import ChartKind
+from packwork.scene.container import Container, placed_container
 from packwork.studio.wire import Message
 
 if TYPE_CHECKING:
@@ -42,7 +46,45 @@ class Open(PageRequest):
     def _open(self, tab: Tab) -> None:
         if (opening := opening_sent(tab.importer.folder(self.source))) is None:
             raise ReadError("open", "what was sent is neither a session, a recipe nor a layout")
-        tab.workspace.open_another(opening)
+        tab.importer.begin(opening)
+
+
+class BeginChart(PageRequest):
+    """Have a chart of a table that was sent before on the desk, in the container of now."""
+
+    type: Literal["chart"] = "chart"
+    source: Name
+    size_by: Name | None = None
+    """Column of numbers; None for marks that are all alike."""
+    color_by: Name | None = None
+    label_by: Name | None = None
+    mark: Annotated[str, Field(pattern="^builtin:[a-z0-9-]{1,60}$")] | None = None
+    """A bundled drawing; None for circles."""
+    title: Annotated[str, Field(max_length=200)] = ""
+
+    def act(self, tab: Tab) -> None:
+        """Read the table, and have a run; what is there stays until it lies."""
+        tab.importer.read(partial(self._begin, tab), "Drawing the chart")
+
+    def _begin(self, tab: Tab) -> None:
+        file, container = tab.importer.file(self.source), _room(tab)
+        asked = {"size_by": self.size_by, "color_by": self.color_by, "label_by": self.label_by}
+        marks = () if self.mark is None else (self.mark,)
+        opening = chart_opening(container, file, **asked, mark=marks, title=self.title or None)
+        tab.importer.begin(opening)
+
+
+def _room(tab: Tab) -> Container:
+    """Container on the desk, without the paper that a chart has about it."""
+    if (shown := tab.workspace.shown) is None:
+        return container_of("circle", None)
+    container = shown.view.container
+    if not isinstance(shown.view.kind, ChartKind):
+        return container
+    left, top, right, bottom = container.outline.bounds
+    box, region = (left, top, right - left, bottom - top), container.outline.region
+    room = placed_container(container.name, container.source, region, box, container.side)
+    return replace(room, unit=container.unit)
 
 
 class Begin(PageRequest):
@@ -68,4 +110,4 @@ class Begin(PageRequest):
             opening = Opening(file=shelf.file(self.kept))
         else:
             raise ReadError("begin", "takes a template or the name of what is kept")
-        tab.workspace.open_another(opening)
+        tab.importer.begin(opening)

@@ -8,7 +8,9 @@ from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
 from packwork.live.face.offers import offered_fonts, only_file
+from packwork.live.face.opening import Opening
 from packwork.studio.files import Uploads
+from packwork.studio.view import told_of
 from packwork.studio.workspace import Workspace
 
 FILES = "file:"
@@ -39,6 +41,14 @@ class Importer:
                 raise PackworkError(self.without_folder(str(error))) from error
 
         self._workspace.work(what, read)
+
+    def begin(self, opening: Opening) -> None:
+        """Have another document on the desk, and what its run left out of its files told."""
+        self._workspace.open_another(opening)
+        owner = self._workspace.owner
+        if owner is not None and opening.recipe is not None:
+            for line in told_of(owner.frame.document.manifest):
+                self._workspace.say(self.without_folder(line), is_error=False)
 
     def folder(self, asked: str) -> Path:
         """Folder of files that were sent."""

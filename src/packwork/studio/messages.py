@@ -25,7 +25,7 @@ from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
 from packwork.scene.container import Container, on_canvas
 from packwork.studio.clipboard import Copy, Paste
-from packwork.studio.documents import Begin, Name, Open, PageRequest
+from packwork.studio.documents import Begin, BeginChart, Name, Open, PageRequest
 from packwork.studio.importer import FILES
 from packwork.studio.wire import SAID
 from packwork.units import canvas_size
@@ -141,7 +141,7 @@ class Bring(PageRequest):
         if len(self.sources) == 1 and self.sources[0].startswith(FILES):
             opening = opening_sent(importer.folder(self.sources[0]))
             if opening is not None:
-                workspace.open_another(opening)
+                importer.begin(opening)
                 return
         sources = [importer.source(one) for one in self.sources]
         found = items_of(sources, has_parts=_has_parts(tab))
@@ -342,7 +342,7 @@ class Set(PageRequest):
 
 
 Told: TypeAlias = Annotated[
-    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | Swap | Room
+    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | BeginChart | Swap | Room
     | OutlineMessage | Fill | Copy | Paste | Picture | Order | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -12,12 +12,13 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.offers import INK_FINENESS, Drawing, counted, drawing_of, path_of
 from packwork.live.kinds import COLLAGE, Kind
+from packwork.live.notes import Attached
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import ground_in
 from packwork.scene.pose import Poses
-from packwork.studio.wire import LeftOut, Scene, Shape, Thing
+from packwork.studio.wire import Drawn, LeftOut, Scene, Shape, Thing
 from packwork.studio.wording import for_page
 
 MOST_LEFT_OUT = 100
@@ -47,6 +48,7 @@ class View:
     title: str = ""
     palette: tuple[str, ...] = ()
     ground: str = ""
+    notes: tuple[Attached, ...] = ()
     poses: Poses | None
 
     @classmethod
@@ -64,6 +66,7 @@ class View:
             title=document.title,
             palette=document.palette,
             ground=ground_in(document.manifest),
+            notes=document.notes,
             poses=poses or document.poses,
         )
 
@@ -98,6 +101,7 @@ class View:
             and self.options == other.options
             and (self.kind, self.title) == (other.kind, other.title)
             and (self.palette, self.ground) == (other.palette, other.ground)
+            and self.notes is other.notes
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
             and _same(self.held, other.held)
@@ -116,6 +120,12 @@ class View:
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
     return one is other or np.array_equal(one, other)
+
+
+def _drawn(one: Attached) -> Drawn:
+    note = one.note
+    matrix = cast(tuple[float, float, float, float, float, float], tuple(note.matrix.T.ravel()))
+    return Drawn(path=note.path, matrix=matrix, fill=note.fill, item=one.item, pose=one.pose)
 
 
 class Scenes:
@@ -150,6 +160,7 @@ class Scenes:
             options=dict(view.options),
             angles=view.angles,
             kind=view.kind.name,
+            notes=tuple(map(_drawn, view.notes)),
             title=view.title or container.name,
             palette=view.palette,
             ground=view.ground,
@@ -205,3 +216,15 @@ def left_out_of(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:
         )
         for one in rows[:MOST_LEFT_OUT]
     )
+
+
+def told_of(manifest: Mapping[str, Any]) -> list[str]:
+    """Sentences of a run about what it has left out of what it read, the first few.
+
+    Examples
+    --------
+    >>> told_of({"skipped": ["cups.csv: left out 1 row of 9 whose cups is 0: Chad"]}), told_of({})
+    (['cups.csv: left out 1 row of 9 whose cups is 0: Chad'], [])
+    """
+    found = manifest.get("skipped")
+    return [str(one)[:MOST_TOLD] for one in found[:3]] if isinstance(found, list) else []

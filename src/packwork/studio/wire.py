@@ -61,6 +61,18 @@ class Thing(Message):
     held: tuple[bool, bool, bool]
 
 
+class Drawn(Message):
+    """A letter or a key beside the items, or a label on one of them, which it follows."""
+
+    path: str
+    matrix: tuple[float, float, float, float, float, float]
+    """As an SVG has it."""
+    fill: str
+    item: int | None
+    pose: tuple[float, float, float, float]
+    """x, y, angle and scale of the item where the label was put."""
+
+
 class Scene(Message):
     """All that poses do not tell; sent when any of it has changed."""
 
@@ -78,6 +90,7 @@ class Scene(Message):
     """The only ones allowed, radians; None for any."""
     kind: KindName = "collage"
     """Kind of document, by which the page shows what has meaning."""
+    notes: tuple[Drawn, ...] = ()
     title: str = ""
     """That a person has given, or the container's name."""
     palette: tuple[str, ...] = ()

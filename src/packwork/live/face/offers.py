@@ -25,6 +25,8 @@ from packwork.readers.builtin import (
 )
 from packwork.readers.container import read_container
 from packwork.readers.items import ItemsRead, read_items
+from packwork.readers.tables.cells import any_number, cell_text, is_missing
+from packwork.readers.tables.table import read_table
 from packwork.recipe import Recipe
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
@@ -117,6 +119,32 @@ def _container(name: str) -> dict[str, Any]:
 def items_of(sources: Sequence[str], *, has_parts: bool = False) -> ItemsRead:
     """Items of bundled names and of folders of files; of a nest they are drawings for a machine."""
     return read_items(sources, holes="keep" if has_parts else "fill", by_lines=has_parts)
+
+
+MOST_SHOWN = 4
+"""Rows of a table that are shown. Chosen."""
+
+MOST_COLUMNS = 60
+"""Columns of a table that are offered; of tables with more, the first. Chosen."""
+
+
+def columns_of(path: str) -> dict[str, Any]:
+    """Columns of a table, as a chart may stand for them, and its first rows, as plain values.
+
+    ``numbers``: whether most cells that hold something are numbers; ``values``: how many differ.
+    """
+    table = read_table(path)
+    columns, rows = list[dict[str, Any]](), list[list[str]]()
+    for name in table.columns[:MOST_COLUMNS]:
+        cells = [row.get(name) for row in table.with_numbers(name, None, whole=False).rows]
+        held = [cell for cell in cells if not is_missing(cell)]
+        numbers = sum(not math.isnan(any_number(cell)) for cell in held)
+        values = len({cell_text(cell) for cell in held})
+        columns.append({"name": name, "numbers": 2 * numbers > len(held), "values": values})
+    for row in table.rows[:MOST_SHOWN]:
+        cells = [row.get(one["name"]) for one in columns]
+        rows.append(["" if is_missing(cell) else cell_text(cell) for cell in cells])
+    return {"columns": columns, "rows": rows, "count": len(table.rows)}
 
 
 def offered_fonts() -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from packwork import uses
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk, lock_beside
@@ -16,6 +17,7 @@ from packwork.readers.layouts.read import holds_layout, is_drawn, read_written
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe_paths import named_elsewhere
+from packwork.scene.container import Container
 
 FIRST = "heart"
 """Container of a workspace in which nothing was put."""
@@ -31,12 +33,16 @@ DOCUMENTS = frozenset({ENDING, ".toml", ".geojson", ".json"})
 class Opening:
     """Opening of a studio: a recipe, a document or a session's file.
 
+    ``container``: that is filled in place of the recipe's.
+    ``title``: of the document; empty for its container's name.
     ``kept_in``: file in which the session is kept, with a journal; None to keep it nowhere.
     ``is_copied``: whether ``file`` is read once and never written.
     ``is_bare``: whether nothing was given.
     """
 
     recipe: Recipe | None = None
+    container: Container | None = None
+    title: str = ""
     document: Document | None = None
     file: Path | None = None
     kept_in: Path | None = None
@@ -97,6 +103,13 @@ def opening_sent(folder: Path) -> Opening | None:
     return replace(_of_file(files[0], files[0].suffix.lower(), None, {}), is_copied=True)
 
 
+def chart_opening(container: Container, table: str, **options: Any) -> Opening:
+    """Opening of a chart of a table's file, with options as ``packwork chart`` has them."""
+    recipe = uses.chart_recipe("page", table, **_drafted(None, options))
+    title = options.get("title") or Path(table).stem
+    return Opening(recipe=recipe, container=container, title=title)
+
+
 def _is_document(path: Path) -> bool:
     is_ours = is_drawn(path) and path.is_file() and holds_layout(path)
     return is_ours or path.suffix.lower() in DOCUMENTS
@@ -133,7 +146,10 @@ def begun_with(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] 
         return (read_once(opening.file), None) if opening.is_copied else opened(opening.file)
     document = opening.document
     if opening.recipe is not None:
-        document = Document.from_layout(poured(opening.recipe, shown))
+        layout = poured(opening.recipe, shown, container=opening.container)
+        document = Document.from_layout(layout)
+    if document is not None and opening.title:
+        document = replace(document, manifest={**document.manifest, "title": opening.title})
     return None if document is None else (Session(document), None)
 
 

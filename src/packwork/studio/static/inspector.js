@@ -71,7 +71,9 @@ export class Inspector {
     this.colour.classList.toggle("mixed", !own);
     this.name.placeholder = `${items.length} items`;
     this.unit.textContent = collage.scene?.unit ?? "";
-    for (const field of [this.field("width"), this.field("height"), this.weight]) field.disabled = !kindOf(collage).sizes;
+    const { sizes } = kindOf(collage);
+    for (const field of [this.field("width"), this.field("height")]) field.disabled = !sizes;
+    /** @type {HTMLElement} */ (this.weight.parentElement).hidden = !sizes;
     for (const [field, value] of /** @type {const} */ ([[this.name, same(items.map((one) => one.name)) ?? ""], [this.weight, shown(first.weight)], [this.colour, colour]])) {
       if (document.activeElement !== field) field.value = value;
     }

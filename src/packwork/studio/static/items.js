@@ -22,7 +22,7 @@ export class ItemList {
     this.list = h("ul", { class: "items", "aria-label": "Items of the collage" });
     this.counter = h("input", { type: "number", id: "count", min: "1", max: "10000",
       onchange: () => studio.connection.send({ type: "count", count: Number(this.counter.value) || 1 }) });
-    this.orders = h("div", { class: "orders stack" },
+    this.orders = h("div", { class: "orders" },
       h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => studio.dropping.choosePicture() }, "Show a picture by their colours"),
       h("button", { type: "button", class: "wide", title: "By a table of vectors, such as a model of pictures gives: a row an item, or a first column of names", onclick: () => studio.ordering.chooseVectors() }, "Like beside like, by a table"),
       studio.ordering.element);

@@ -38,6 +38,8 @@ export class Stage {
     this.sprites = sprites;
     this.choice = choice;
     this.outline = { text: "", path: new Path2D() };
+    /** Notes by their items. @type {{of: unknown, by: Map<number | null, import("./wire.js").Drawn[]>}} */
+    this.noted = { of: null, by: new Map() };
     /** Whether silhouettes are shown in place of drawings: free, covered, covered twice. */
     this.showsFaults = false;
     /** @type {import("./forces.js").Forces | null} */
@@ -121,15 +123,40 @@ export class Stage {
     const text = this.room?.path ?? scene.outline;
     if (this.outline.text !== text) this.outline = { text, path: new Path2D(text) };
     this.toCanvas();
-    pen.fillStyle = scene.ground || colours.paper;
-    if (scene.ground) pen.fillRect(0, 0, scene.width, scene.height);
+    // Letters are made to be read on paper.
+    const ground = scene.ground || (scene.notes?.length ? colours.paper : "");
+    pen.fillStyle = ground || colours.paper;
+    if (ground) pen.fillRect(0, 0, scene.width, scene.height);
     if (this.showsFaults) pen.fillStyle = colours.free;
-    if (this.showsFaults || !scene.ground) pen.fill(this.outline.path, "evenodd");
+    if (this.showsFaults || !ground) pen.fill(this.outline.path, "evenodd");
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.25 / this.view.zoom;
     pen.stroke(this.outline.path);
     // A sheet of paper has edges that matter.
     if (scene.unit !== "px") pen.strokeRect(0, 0, scene.width, scene.height);
+    for (const note of this.notes.get(null) ?? []) this.drawNote(note, new DOMMatrix());
+  }
+
+  /** Letters and keys, by the item that they are on; null for what stands beside. */
+  get notes() {
+    const notes = this.collage.scene?.notes ?? [];
+    if (this.noted.of !== notes) {
+      this.noted = { of: notes, by: new Map() };
+      for (const note of notes) this.noted.by.set(note.item, [...(this.noted.by.get(note.item) ?? []), note]);
+    }
+    return this.noted.by;
+  }
+
+  /**
+   * @param {import("./wire.js").Drawn} note
+   * @param {DOMMatrix} moved what its item did since it was put there
+   */
+  drawNote(note, moved) {
+    const { zoom, x, y } = this.view;
+    const r = this.ratio;
+    this.pen.setTransform(new DOMMatrix([r * zoom, 0, 0, r * zoom, r * x, r * y]).multiply(moved).multiply(new DOMMatrix([...note.matrix])));
+    this.pen.fillStyle = note.fill;
+    this.pen.fill(new Path2D(note.path), "evenodd");
   }
 
   toCanvas() {
@@ -175,13 +202,27 @@ export class Stage {
     if (!look || this.isOutOfSight(k, look.extent)) return;
     const scale = this.toItem(k, item);
     if (this.showsFaults) return this.drawSilhouette(look);
+    this.drawLook(look, look.extent * scale * perUnit, sprites);
+    for (const note of this.notes.get(item.id) ?? []) {
+      const [x, y, , before] = note.pose;
+      const { shown } = this.collage;
+      this.drawNote(note, new DOMMatrix().translate(shown[4 * k], shown[4 * k + 1]).scale(scale / before).translate(-x, -y));
+    }
+  }
+
+  /**
+   * @param {import("./collage.js").Look} look
+   * @param {number} size px
+   * @param {Sprites} sprites
+   */
+  drawLook(look, size, sprites) {
     if (look.inkPath && look.ink.length < LONG) {
       this.pen.fillStyle = look.fill;
       this.pen.fill(look.inkPath, "evenodd");
       return;
     }
     const [left, top, right, bottom] = look.box;
-    const sprite = sprites.of(look, look.extent * scale * perUnit);
+    const sprite = sprites.of(look, size);
     if (sprite) this.pen.drawImage(sprite, left, top, right - left, bottom - top);
   }
 

@@ -10,6 +10,7 @@
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{kind: "background", colour: string}} Background
  * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
+ * @typedef {{type: "chart", source: string, size_by?: (string | null), color_by?: (string | null), label_by?: (string | null), mark?: (string | null), title?: string}} BeginChart
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{kind: "cancel"}} Cancel
  * @typedef {{type: "copy", items: number[]}} Copy
@@ -17,6 +18,7 @@
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
+ * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} Drawn
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number, beside?: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
@@ -47,7 +49,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), title?: string, palette?: string[], ground?: string}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: Drawn[], title?: string, palette?: string[], ground?: string}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
@@ -58,7 +60,7 @@
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer)[]}} Together
- * @typedef {Ack | Alike | Begin | Bring | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh

@@ -1,0 +1,132 @@
+"""A chart on the desk: of a table that is dropped, its keys shown, its marks under the hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import packwork as pw
+from studio.browsing import PHONE, Desk, in_browser
+from studio.test_incoming import give, names
+
+pytestmark = in_browser
+
+EXCEL = (
+    "Land;Tassen;Kontinent\nFinnland;12,0;Europa\nIsland;9,0;Europa\nBrasilien;5,8;Amerika\n"
+    "Kanada;6,5;Amerika\nJapan;3,4;Asien\nVietnam;1,9;Asien\nTschad;;Afrika\n"
+)
+TITLE = "Kaffee je Kopf"
+
+
+@pytest.fixture
+def table(tmp_path: Path) -> Path:
+    file = tmp_path / "kaffee.csv"
+    file.write_text(EXCEL, encoding="utf-8-sig")
+    return file
+
+
+def draw(desk: Desk, file: Path) -> None:
+    """Have the chart that the dialog offers for a table."""
+    give(desk, file)
+    desk.page.locator("dialog.asking[open]").get_by_role("button", name="A chart").click()
+    desk.page.get_by_role("button", name="Draw the chart").click()
+    desk.until("studio.collage.scene?.kind === 'chart'")
+    desk.settled()
+
+
+def areas(desk: Desk) -> list[float]:
+    """Areas of the marks over that of the first."""
+    scales = desk.look("studio.collage.items.map(item => studio.collage.pose(item.id).scale)")
+    return [(scale / scales[0]) ** 2 for scale in scales]
+
+
+def test_a_table_of_excel_becomes_a_chart_under_the_hand(
+    open_desk: Callable[..., Desk], table: Path, tmp_path: Path
+) -> None:
+    desk = open_desk()
+    give(desk, table)
+    asked = desk.page.locator("dialog.asking[open]")
+    asked.get_by_role("button", name="A chart").click()
+    assert [asked.get_by_label(one).input_value() for one in ("Size", "Colour", "Names")] == [
+        "Tassen", "Kontinent", "Land"
+    ]  # fmt: skip
+    asked.get_by_label("Title").fill(TITLE)
+    desk.picture("chart-asked")
+    asked.get_by_label("Title").press("Enter")
+    desk.until("studio.collage.scene?.kind === 'chart'")
+    desk.settled()
+    assert desk.page.get_by_text("kaffee.csv: left out 1 row of 7", exact=False).count() == 1
+    assert desk.page.get_by_text("packwork-studio").count() == 0
+    assert names(desk) == ["Finnland", "Island", "Brasilien", "Kanada", "Japan", "Vietnam"]
+    assert areas(desk) == pytest.approx([1, 9 / 12, 5.8 / 12, 6.5 / 12, 3.4 / 12, 1.9 / 12])
+    on_marks = desk.look("studio.collage.scene.notes.filter(note => note.item !== null).length")
+    assert 0 < on_marks < desk.look("studio.collage.scene.notes.length")
+    assert desk.page.locator("#title").input_value() == TITLE
+    desk.page.mouse.click(*desk.place(0))
+    assert desk.page.locator(".editor label:has-text('Weight')").is_hidden()
+    assert desk.look("studio.stage.handles().map(handle => handle.kind)") == ["turn"]
+    before = desk.look("studio.collage.pose(0).x")
+    x, y = desk.place(0)
+    desk.drag((x, y), (x + 60, y + 40))
+    desk.settled()
+    desk.page.keyboard.press("h")
+    desk.until("studio.areHeld")
+    desk.settled()
+    assert desk.look("studio.collage.pose(0).x") != before
+    sizes = areas(desk)
+    desk.page.keyboard.press("r")
+    desk.until("studio.collage.state.busy")
+    desk.settled()
+    desk.rested()
+    assert areas(desk) == pytest.approx(sizes)
+    desk.picture("chart")
+    # What is saved opens as the same chart, and what was written shows its keys.
+    with desk.page.expect_download() as waiting:
+        desk.page.keyboard.press("Control+s")
+    kept = tmp_path / "chart.packwork"
+    waiting.value.save_as(kept)
+    layout = pw.Session.open(kept).layout
+    assert layout.certified
+    assert any(note.says == TITLE for note in layout.notes)
+    give(desk, kept)
+    desk.until("!studio.collage.state.can_undo || studio.collage.state.busy")
+    desk.settled()
+    assert areas(desk) == pytest.approx(sizes)
+
+
+def test_a_table_without_numbers_is_a_chart_of_its_rows(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    (tmp_path / "pets.csv").write_text(
+        "name,kind\nRex,dog\nTom,cat\nIda,cat\nBo,dog\n", encoding="utf-8"
+    )
+    desk = open_desk()
+    draw(desk, tmp_path / "pets.csv")
+    assert areas(desk) == pytest.approx([1, 1, 1, 1])
+    assert len(set(desk.look("studio.collage.items.map(item => item.shape)"))) == 2
+
+
+def test_a_table_that_is_none_is_refused_in_one_line(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    (tmp_path / "no.csv").write_bytes(b"\0\1\2\3" * 99)
+    desk = open_desk()
+    give(desk, tmp_path / "no.csv")
+    line = desk.page.locator(".toast.error").first
+    line.wait_for()
+    assert "no.csv" in line.inner_text()
+    assert not desk.page.locator("dialog.asking[open]").count()
+    # The browser notes each answer that refuses.
+    desk.faults = [one for one in desk.faults if "400" not in one]
+
+
+def test_the_dialog_of_a_table_fits_a_phone(open_desk: Callable[..., Desk], table: Path) -> None:
+    desk = open_desk(PHONE)
+    give(desk, table)
+    desk.page.locator("dialog.asking[open]").get_by_role("button", name="A chart").click()
+    box = desk.page.locator("dialog.asking").bounding_box()
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= PHONE["width"]
+    desk.picture("chart-asked-phone")
