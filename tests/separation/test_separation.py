@@ -12,7 +12,7 @@ import shapely
 import shapely.affinity
 
 from packwork.separation.ground import Ground
-from packwork.separation.kernels.field import draw_others, score_row
+from packwork.separation.kernels.field import MARGIN, draw_others, score_row
 from packwork.separation.kernels.moves import put_all
 from packwork.separation.shapes import Part, poles_of, rings_of, spare
 from packwork.separation.state import Problem, WorkerState
@@ -170,7 +170,7 @@ def test_scores_of_places_are_sums_of_the_image_below_the_part() -> None:
     draw = getattr(draw_others, "py_func", draw_others)
     draw(moved, problem.pixel, layout.arrays[0], layout.arrays[1], layout.weights, turns.span_at,
          turns.spans, image)  # fmt: skip
-    density = np.diff(image, axis=1)
+    density = np.diff(image[:, MARGIN:-MARGIN], axis=1)
     first, last = turns.span_at[-2], turns.span_at[-1]
     scores = np.zeros(30, np.float32)
     getattr(score_row, "py_func", score_row)(10, 8, 15, first, last, turns.spans, image, scores)

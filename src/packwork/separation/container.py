@@ -55,9 +55,8 @@ class ContainerSearch(StripSearch):
         super().__init__(parts, ground, seed=seed, workers=workers, work=WorkBound(), stop=stop)
         shapes, turns = self.problem.shapes, self.problem.turns
         # Obstacles have the last numbers, each one turn.
-        self._edge, self._pole = int(shapes.edge_at[len(parts)]), int(shapes.pole_at[len(parts)])
-        self._turn = int(turns.turn_at[len(parts)])
-        self._walls = shapes.edges[:, self._edge :].copy(), shapes.poles[:, self._pole :].copy()
+        self._edge, self._turn = int(shapes.edge_at[len(parts)]), int(turns.turn_at[len(parts)])
+        self._walls = shapes.edges[:, self._edge :].copy(), shapes.poles[len(parts) :].copy()
 
     def fallback(self) -> Strip:
         """The parts where they were given."""
@@ -73,7 +72,7 @@ class ContainerSearch(StripSearch):
         problem = self.problem
         edges, poles = (wall / factor for wall in self._walls)
         problem.shapes.edges[:, self._edge :] = edges
-        problem.shapes.poles[:, self._pole :] = poles
+        problem.shapes.poles[len(problem.parts) :] = poles
         at = problem.shapes.edge_at[len(problem.parts) :] - self._edge
         if len(at) > 1:
             walls = np.split(edges, at[1:-1], axis=1)

@@ -16,6 +16,7 @@ from packwork.compaction.kernels.outer_simplify import simplify_outward
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
+from packwork.separation.kernels.collision import POLES
 
 Floats = npt.NDArray[np.float64]
 
@@ -30,9 +31,6 @@ FREE_TURNS = 32
 
 POLE_CELLS = 100
 """Cells of the longer side of the grid on which poles are sought."""
-
-POLES = 16
-"""Poles of each part, a multiple of what a processor works out at once."""
 
 DECAY_SHARE = 0.01
 """Depth below which the price of an overlap falls off slowly, over a part's diameter."""
@@ -67,12 +65,14 @@ class Part:
 
 
 class ShapeTable(NamedTuple):
-    """Edges (ax, ay, bx, by) and poles (x, y, radius) of all shapes, and where each begins."""
+    """Edges (ax, ay, bx, by) of all shapes and where each one's begin; poles (x, y, radius).
+
+    ``poles``: ``(shapes, 3, POLES)``.
+    """
 
     edges: Floats
     poles: Floats
     edge_at: npt.NDArray[np.int64]
-    pole_at: npt.NDArray[np.int64]
 
 
 class TurnTable(NamedTuple):
@@ -222,7 +222,7 @@ def tables(parts: Sequence[Part], pixel: float) -> tuple[ShapeTable, TurnTable]:
         rows.append(np.hstack([found, found * [[1], [1], [1], [-1]]]) if part.mirrors else found)
         for c, s, _, side in rows[-1].T:
             spans.append(_spans_at(part.region, c, s, side, pixel))
-    shapes = ShapeTable(np.hstack(edges), np.hstack(poles), starts(edges), starts(poles))
+    shapes = ShapeTable(np.hstack(edges), np.stack(poles), starts(edges))
     turns = TurnTable(
         np.hstack(rows), starts(rows),
         np.array([part.turns is None for part in parts]), starts(spans), np.hstack(spans),

@@ -12,7 +12,8 @@ import numpy.typing as npt
 import shapely
 
 from packwork.separation.ground import Ground
-from packwork.separation.kernels.collision import DECAY, PENALTY, SIDE, X
+from packwork.separation.kernels.collision import DECAY, PENALTY, POLES, SHAPE, SIDE, X
+from packwork.separation.kernels.field import MARGIN
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
 from packwork.separation.shapes import DECAY_SHARE, Floats, Part, flattest, starts, tables
 
@@ -83,28 +84,26 @@ class WorkerState:
     @classmethod
     def of(cls, problem: Problem, length: float, poses: Floats, seed: int) -> WorkerState:
         """Parts at poses on a sheet of a length."""
-        edges, poles, edge_at, pole_at = problem.shapes
+        edges, poles, edge_at = problem.shapes
         # Obstacles have the last numbers; no move takes them up.
         obstacles = np.arange(len(problem.parts), len(edge_at) - 1)
         shape_of = np.concatenate([problem.shape_of, obstacles])
         count = len(shape_of)
         own = [edges[:, edge_at[s] : edge_at[s + 1]] for s in shape_of]
-        inner = [poles[:, pole_at[s] : pole_at[s + 1]] for s in shape_of]
-        items, index = np.zeros((count, SIDE + 1)), np.zeros((count, 6), np.int64)
-        items[:, PENALTY], items[:, DECAY] = problem.hulls.max() ** 0.25, problem.decays.max()
-        items[: len(problem), PENALTY] = problem.hulls**0.25
-        items[: len(problem), DECAY] = problem.decays
+        items, index = np.zeros((SIDE + 1, count)), np.zeros((count, 4), np.int64)
+        items[PENALTY], items[DECAY] = problem.hulls.max() ** 0.25, problem.decays.max()
+        items[PENALTY, : len(problem)] = problem.hulls**0.25
+        items[DECAY, : len(problem)] = problem.decays
         index[:, 0], index[:, 1] = starts(own)[:-1], starts(own)[1:]
-        index[:, 2], index[:, 3] = starts(inner)[:-1], starts(inner)[1:]
-        index[:, 4] = shape_of
-        most, many = np.diff(edge_at).max() + 1, np.diff(pole_at).max()
+        index[:, SHAPE] = shape_of
+        most = np.diff(edge_at).max() + 1
         layout = cls(
             problem, np.array([length, problem.height]),
-            (items, index, np.hstack(own), np.hstack(inner).astype(np.float32)),
+            (items, index, np.hstack(own), poles[shape_of].astype(np.float32)),
             np.ones((count, count)), np.zeros((count, count)),
-            (np.empty((4, most)), np.empty((3, many), np.float32)),
-            (np.empty((4, most)), np.empty((2, many), np.float32), np.empty(count, np.int64),
-             np.empty(count), np.empty(most, np.int64), np.empty(4)),
+            (np.empty((4, most)), np.empty((3, POLES), np.float32)),
+            (np.empty((4, most)), np.empty(POLES, np.float32), np.empty(most, np.int64),
+             np.empty(4), np.empty(count, np.bool_)),
             np.array([seed], np.uint64),
         )  # fmt: skip
         layout.set_length(length, poses)
@@ -115,8 +114,8 @@ class WorkerState:
         pixel = self.problem.pixel
         height = self.problem.ground.height_at(length)
         rows, columns = math.ceil(height / pixel), math.ceil(length / pixel)
-        if self.image.shape != (rows, columns + 1):
-            self.image = np.zeros((rows, columns + 1), np.float32)
+        if self.image.shape != (rows, columns + 1 + 2 * MARGIN):
+            self.image = np.zeros((rows, columns + 1 + 2 * MARGIN), np.float32)
             self.scores = np.zeros((3, columns + 2), np.float32)
         self.sheet[:] = length, height
         self.put(poses)
@@ -135,7 +134,7 @@ class WorkerState:
     @property
     def poses(self) -> Floats:
         """A copy of x, y, angle and side of all parts."""
-        return np.array(self.arrays[0][: len(self.problem), X:])
+        return np.array(self.arrays[0][X:, : len(self.problem)].T, order="C")
 
     @property
     def loss(self) -> float:

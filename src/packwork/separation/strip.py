@@ -195,8 +195,8 @@ class StripSearch:
 
     def keep(self, poses: Floats) -> Strip:
         """Remember a layout without overlaps, on a strip no longer than need be."""
-        boxes = self.layout.arrays[0][: len(self.problem)]
-        self.best = Strip(self.extent(boxes), poses, boxes[:, X0].copy())
+        boxes = self.layout.arrays[0][:, : len(self.problem)]
+        self.best = Strip(self.extent(boxes), poses, boxes[X0].copy())
         left = int(np.isnan(poses[:, 0]).sum())
         self.work.best_so_far = f"{left} parts left" if left else f"length {self.best.length:.5g}"
         return self.best
@@ -207,12 +207,12 @@ class StripSearch:
         last &= strip.lefts >= self.ground.start_at(strip.length)
         compaction = StripCompaction(self.problem, strip.poses, last, strip.length)
         self.put(strip.length, compaction.run(share))
-        shorter = self.extent(self.layout.arrays[0][: len(self.problem)]) < strip.length
+        shorter = self.extent(self.layout.arrays[0][:, : len(self.problem)]) < strip.length
         return self.keep(self.layout.poses) if shorter and self.layout.loss == 0.0 else strip
 
     def extent(self, boxes: Floats) -> float:
         """Length that parts with these boxes need."""
-        return float(boxes[:, [X1, Y1][: len(self.ground.axes)]].max())
+        return float(boxes[[X1, Y1][: len(self.ground.axes)]].max())
 
     def shorter(self, best: Strip, share: float) -> None:
         """Cut a share of the length out of the last sheet; what lies beyond the cut moves."""

@@ -8,13 +8,19 @@ import numpy as np
 
 from packwork.compiled import helper
 
-# Columns of ``items``: the box, and what enters the price of an overlap.
+# Rows of ``items``: the box, and what enters the price of an overlap.
 X0, Y0, X1, Y1, PENALTY, DECAY, X, Y, ANGLE, SIDE = range(10)
-# Columns of ``index``: edges and poles from and to, the shape, and the turn nearest to the angle.
-EDGE, EDGE_END, POLE, POLE_END, SHAPE, TURN = range(6)
+# Columns of ``index``: edges from and to, the shape, and the turn nearest to the angle.
+EDGE, EDGE_END, SHAPE, TURN = range(4)
+
+POLES = 16
+"""Poles of each part, a multiple of what a processor works out at once."""
 
 _SLIVER = 1e-4
 """Share of a part's box that any protrusion counts at least."""
+
+_LARGEST = 4
+"""Poles after which an overlap may be known to be too dear already. Chosen."""
 
 
 @helper
@@ -32,33 +38,32 @@ def outside_price(x0, y0, x1, y1, sheet, penalty):
 
 
 @helper
-def pole_overlap(x, y, turned_poles, count, poles, first, last, decay, lanes):
-    """Sum over pairs of poles of their depths, and the greatest depth, both to 32 bits.
+def pole_overlap(x, y, turned_poles, poles, decay, most, lanes):
+    """Sum over pairs of poles of their depths, to 32 bits; above ``most``: only that it is.
 
-    Depths below ``decay`` fall off as its square over the distance, never to 0. ``lanes``: two rows
-    of scratch; sums run beside one another in a fixed order, so that no machine rounds otherwise.
+    Depths below ``decay`` fall off as its square over the distance, never to 0. ``lanes``: scratch;
+    sums run beside one another in a fixed order, so that no machine rounds otherwise.
     """
-    wide = last - first
-    for q in range(wide):
-        lanes[0, q] = 0.0
-        lanes[1, q] = -np.inf
+    for q in range(POLES):
+        lanes[q] = 0.0
     shallow = np.float32(decay)
     square, twice = shallow * shallow, shallow + shallow
     left, top = np.float32(x), np.float32(y)
-    for p in range(count):
-        px, py, radius = left + turned_poles[0, p], top + turned_poles[1, p], turned_poles[2, p]
-        for q in range(wide):
-            dx, dy = px - poles[0, first + q], py - poles[1, first + q]
-            other = poles[2, first + q]
-            depth = radius + other - np.sqrt(dx * dx + dy * dy)
-            decayed = depth if depth >= shallow else square / (twice - depth)
-            lanes[0, q] += decayed * (min(other, radius))
-            lanes[1, q] = max(lanes[1, q], depth)
-    total, deepest = 0.0, -np.inf
-    for q in range(wide):
-        total += lanes[0, q]
-        deepest = max(deepest, lanes[1, q])
-    return math.pi * total + decay * decay, deepest
+    begin, end = 0, _LARGEST
+    while True:
+        for p in range(begin, end):
+            px, py, radius = left + turned_poles[0, p], top + turned_poles[1, p], turned_poles[2, p]
+            for q in range(POLES):
+                dx, dy = px - poles[0, q], py - poles[1, q]
+                depth = radius + poles[2, q] - np.sqrt(dx * dx + dy * dy)
+                decayed = depth if depth >= shallow else square / (twice - depth)
+                lanes[q] += decayed * min(poles[2, q], radius)
+        total = 0.0
+        for q in range(POLES):
+            total += lanes[q]
+        if end == POLES or math.pi * total > most:
+            return math.pi * total + decay * decay
+        begin, end = end, POLES
 
 
 @helper
@@ -131,10 +136,9 @@ def price(i, x, y, bound, row, layout, weights, turned, sheet, scratch):
     """
     items, index, edges, poles = layout
     own_edges, own_poles = turned
-    own, lanes, waiting, prices, close, box = scratch
+    own, lanes, close, box, near = scratch
     count = index[i, EDGE_END] - index[i, EDGE]
-    pole_count = index[i, POLE_END] - index[i, POLE]
-    penalty, keeps = items[i, PENALTY], len(row) > 0
+    penalty, keeps = items[PENALTY, i], len(row) > 0
     box[0], box[1] = x + own_edges[0, count], y + own_edges[1, count]
     box[2], box[3] = x + own_edges[2, count], y + own_edges[3, count]
     cost = outside_price(box[0], box[1], box[2], box[3], sheet, penalty * penalty)
@@ -144,37 +148,31 @@ def price(i, x, y, bound, row, layout, weights, turned, sheet, scratch):
         row[i] = cost
     if total > bound:
         return total
-    left = 0
-    for j in range(len(items)):
-        if items[j, X0] > box[2] or items[j, X1] < box[0] or j == i:
-            continue
-        if items[j, Y0] > box[3] or items[j, Y1] < box[1]:
-            continue
-        decay = max(items[i, DECAY], items[j, DECAY])
-        area, depth = pole_overlap(
-            x, y, own_poles, pole_count, poles, index[j, POLE], index[j, POLE_END], decay, lanes
+    for k in range(count):
+        own[0, k], own[1, k] = x + own_edges[0, k], y + own_edges[1, k]
+        own[2, k], own[3, k] = x + own_edges[2, k], y + own_edges[3, k]
+    x0, y0, x1, y1 = box[0], box[1], box[2], box[3]
+    for j in range(items.shape[1]):
+        near[j] = (
+            (items[X0, j] <= x1)
+            & (items[X1, j] >= x0)
+            & (items[Y0, j] <= y1)
+            & (items[Y1, j] >= y0)
         )
-        cost = math.sqrt(area) * penalty * items[j, PENALTY]
-        if depth <= decay:
-            # Not deep enough for poles to tell, rounded as they are.
-            waiting[left], prices[left] = j, cost
-            left += 1
+    near[i] = False
+    for j in range(items.shape[1]):
+        if not near[j]:
             continue
+        first, last = index[j, EDGE], index[j, EDGE_END]
+        if not _touch(own, count, box, edges, first, last, items[:, j], close):
+            continue
+        scale = penalty * items[PENALTY, j]
+        decay, room = max(items[DECAY, i], items[DECAY, j]), (bound - total) / scale / weights[i, j]
+        area = pole_overlap(x, y, own_poles, poles[j], decay, room * room, lanes)
+        cost = math.sqrt(area) * scale
         if keeps:
             row[j] = cost
         total += weights[i, j] * cost
         if total > bound:
             return total
-    if left > 0:
-        for k in range(count):
-            own[0, k], own[1, k] = x + own_edges[0, k], y + own_edges[1, k]
-            own[2, k], own[3, k] = x + own_edges[2, k], y + own_edges[3, k]
-    for k in range(left):
-        j = waiting[k]
-        if _touch(own, count, box, edges, index[j, EDGE], index[j, EDGE_END], items[j], close):
-            if keeps:
-                row[j] = prices[k]
-            total += weights[i, j] * prices[k]
-            if total > bound:
-                return total
     return total

@@ -9,49 +9,51 @@ import numpy as np
 from packwork.compiled import helper
 from packwork.separation.kernels.collision import PENALTY, TURN, X, Y
 
+MARGIN = 4
+"""Columns to either side of the image: a part that touches its edge is rounded to stick out by two
+pixels at most, and rows are summed without a look at where they end. Chosen."""
+
 
 @helper
 def draw_others(i, pixel, items, index, weights, span_at, spans, image):
     """Image of all parts but ``i``, each by its spans of rows, as running sums along each row.
 
-    ``image[r, c]``: the sum of weights of pixels ``0`` to before ``c`` of row r.
+    ``image[r, MARGIN + c]``: the sum of weights of pixels ``0`` to before ``c`` of row r.
     """
-    rows, columns = image.shape[0], image.shape[1] - 1
+    rows, columns = image.shape[0], image.shape[1] - 1 - 2 * MARGIN
     image[:] = 0.0
-    for j in range(len(items)):
-        if j == i or math.isnan(items[j, X]):
+    for j in range(items.shape[1]):
+        if j == i or math.isnan(items[X, j]):
             continue
-        weight = np.float32(weights[i, j] * items[i, PENALTY] * items[j, PENALTY])
-        row, column = math.floor(items[j, Y] / pixel), round(items[j, X] / pixel)
+        weight = np.float32(weights[i, j] * items[PENALTY, i] * items[PENALTY, j])
+        row, column = math.floor(items[Y, j] / pixel), round(items[X, j] / pixel)
         for s in range(span_at[index[j, TURN]], span_at[index[j, TURN] + 1]):
             r = row + spans[0, s]
             if 0 <= r < rows:
-                image[r, min(max(column + spans[1, s], 0), columns)] += weight
-                image[r, min(max(column + spans[2, s], 0), columns)] -= weight
+                image[r, MARGIN + min(max(column + spans[1, s], 0), columns)] += weight
+                image[r, MARGIN + min(max(column + spans[2, s], 0), columns)] -= weight
     for r in range(rows):
         height, before = np.float32(0.0), np.float32(0.0)
-        for c in range(columns + 1):
+        for c in range(MARGIN, MARGIN + columns + 1):
             height += image[r, c]
             image[r, c] = before
             before += height
+        image[r, MARGIN + columns + 1 :] = image[r, MARGIN + columns]
 
 
 @helper
 def score_row(row, column, wide, first, last, spans, image, scores):
     """Sum of the image below a part's spans, for ``wide`` columns from ``column`` on."""
-    rows, columns = image.shape[0], image.shape[1] - 1
-    for c in range(wide):
-        scores[c] = 0.0
+    rows, most = image.shape[0], image.shape[1] - wide
+    here = scores[:wide]
+    here[:] = 0.0
     for s in range(first, last):
         r = min(max(row + spans[0, s], 0), rows - 1)
-        begin, end = column + spans[1, s], column + spans[2, s]
-        if begin >= 0 and end + wide - 1 <= columns:
-            for c in range(wide):
-                scores[c] += image[r, end + c] - image[r, begin + c]
-        else:
-            for c in range(wide):
-                to, start = min(max(end + c, 0), columns), min(max(begin + c, 0), columns)
-                scores[c] += image[r, to] - image[r, start]
+        begin = min(max(MARGIN + column + spans[1, s], 0), most)
+        end = min(max(MARGIN + column + spans[2, s], 0), most)
+        starts, ends = image[r, begin : begin + wide], image[r, end : end + wide]
+        for c in range(wide):
+            here[c] += ends[c] - starts[c]
 
 
 @helper
@@ -107,6 +109,11 @@ def propose(i, turn, box, pixel, sheet, span_at, spans, image, scores, found, co
             continue
         # The row before, now that both its neighbours are known.
         middle, above = scores[(r - 1) % 3], scores[(r - 2) % 3]
+        limit, lower = (found[count - 1, 0] if count == len(found) else np.inf), 0
+        for c in range(wide):
+            lower += middle[c] < limit
+        if lower == 0:
+            continue
         y = top + min((r - 1) * pixel, room_y)
         for c in range(wide):
             score = middle[c]

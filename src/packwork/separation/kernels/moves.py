@@ -12,8 +12,7 @@ from packwork.separation.kernels.collision import (
     ANGLE,
     EDGE,
     EDGE_END,
-    POLE,
-    POLE_END,
+    POLES,
     SHAPE,
     SIDE,
     TURN,
@@ -59,7 +58,7 @@ def turn_part(shape, cosine, sine, side, shapes, turned):
 
     ``side``: -1 for a shape that is mirrored, left to right, before it is turned; else 1.
     """
-    shape_edges, shape_poles, edge_at, pole_at = shapes
+    shape_edges, shape_poles, edge_at = shapes
     edges, poles = turned
     first, count = edge_at[shape], edge_at[shape + 1] - edge_at[shape]
     x0, y0, x1, y1 = np.inf, np.inf, -np.inf, -np.inf
@@ -70,11 +69,10 @@ def turn_part(shape, cosine, sine, side, shapes, turned):
             edges[end, k], edges[end + 1, k] = qx, qy
             x0, x1, y0, y1 = min(x0, qx), max(x1, qx), min(y0, qy), max(y1, qy)
     edges[0, count], edges[1, count], edges[2, count], edges[3, count] = x0, y0, x1, y1
-    first = pole_at[shape]
-    for k in range(pole_at[shape + 1] - first):
-        px, py = side * shape_poles[0, first + k], shape_poles[1, first + k]
+    for k in range(POLES):
+        px, py = side * shape_poles[shape, 0, k], shape_poles[shape, 1, k]
         poles[0, k], poles[1, k] = cosine * px - sine * py, sine * px + cosine * py
-        poles[2, k] = shape_poles[2, first + k]
+        poles[2, k] = shape_poles[shape, 2, k]
 
 
 @helper
@@ -117,13 +115,12 @@ def _put(i, x, y, angle, side, turn, layout, turned):
     for k in range(count):
         edges[0, first + k], edges[1, first + k] = x + own_edges[0, k], y + own_edges[1, k]
         edges[2, first + k], edges[3, first + k] = x + own_edges[2, k], y + own_edges[3, k]
-    items[i, X0], items[i, Y0] = x + own_edges[0, count], y + own_edges[1, count]
-    items[i, X1], items[i, Y1] = x + own_edges[2, count], y + own_edges[3, count]
-    first = index[i, POLE]
-    for k in range(index[i, POLE_END] - first):
-        poles[0, first + k], poles[1, first + k] = x + own_poles[0, k], y + own_poles[1, k]
-        poles[2, first + k] = own_poles[2, k]
-    items[i, X], items[i, Y], items[i, ANGLE], items[i, SIDE] = x, y, angle, side
+    items[X0, i], items[Y0, i] = x + own_edges[0, count], y + own_edges[1, count]
+    items[X1, i], items[Y1, i] = x + own_edges[2, count], y + own_edges[3, count]
+    for k in range(POLES):
+        poles[i, 0, k], poles[i, 1, k] = x + own_poles[0, k], y + own_poles[1, k]
+        poles[i, 2, k] = own_poles[2, k]
+    items[X, i], items[Y, i], items[ANGLE, i], items[SIDE, i] = x, y, angle, side
     index[i, TURN] = turn
 
 
@@ -137,13 +134,13 @@ def put_all(poses, layout, shapes, table, weights, losses, sheet, turned, scratc
     items, index = layout[0], layout[1]
     moving = len(poses)
     turns = table[0]
-    for i in range(len(items)):
+    for i in range(items.shape[1]):
         shape, x, y, angle, side = index[i, SHAPE], 0.0, 0.0, 0.0, 1.0
         if i < moving:
             x, y, angle, side = poses[i, 0], poses[i, 1], poses[i, 2], poses[i, 3]
         if math.isnan(x):
-            items[i, X], items[i, Y], items[i, ANGLE], items[i, SIDE] = x, y, angle, side
-            items[i, X0], items[i, Y0], items[i, X1], items[i, Y1] = (
+            items[X, i], items[Y, i], items[ANGLE, i], items[SIDE, i] = x, y, angle, side
+            items[X0, i], items[Y0, i], items[X1, i], items[Y1, i] = (
                 np.inf,
                 np.inf,
                 -np.inf,
@@ -155,12 +152,12 @@ def put_all(poses, layout, shapes, table, weights, losses, sheet, turned, scratc
         _put(i, x, y, angle, side, turn, layout, turned)
     losses[:] = 0.0
     for i in range(moving):
-        if math.isnan(items[i, X]):
+        if math.isnan(items[X, i]):
             continue
-        _turn_to(index[i, SHAPE], items[i, ANGLE], index[i, TURN], shapes, turns, turned)
-        price(i, items[i, X], items[i, Y], np.inf, losses[i], layout, weights, turned, sheet,
+        _turn_to(index[i, SHAPE], items[ANGLE, i], index[i, TURN], shapes, turns, turned)
+        price(i, items[X, i], items[Y, i], np.inf, losses[i], layout, weights, turned, sheet,
               scratch)  # fmt: skip
-    for i in range(len(items)):
+    for i in range(items.shape[1]):
         for j in range(i):
             losses[i, j] = losses[j, i] = max(losses[i, j], losses[j, i])
 
@@ -234,7 +231,7 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
     is_free, first = free[shape], turn_at[shape]
     many = turn_at[shape + 1] - first
     count = index[i, EDGE_END] - index[i, EDGE]
-    side = min(items[i, X1] - items[i, X0], items[i, Y1] - items[i, Y0])
+    side = min(items[X1, i] - items[X0, i], items[Y1, i] - items[Y0, i])
     draw_others(i, pixel, items, index, weights, span_at, spans, image)
     kept = 0
     for k in range(min(many, TURNS_TRIED) if is_free else many):
@@ -248,9 +245,9 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
             turn = int(found[k, 3])
             x, y, angle = found[k, 1], found[k, 2], turns[2, turn]
         else:
-            x = items[i, X] + normal(state) * side * _NEAR_SPREAD
-            y = items[i, Y] + normal(state) * side * _NEAR_SPREAD
-            angle, turn = items[i, ANGLE], index[i, TURN]
+            x = items[X, i] + normal(state) * side * _NEAR_SPREAD
+            y = items[Y, i] + normal(state) * side * _NEAR_SPREAD
+            angle, turn = items[ANGLE, i], index[i, TURN]
             if is_free:
                 angle += normal(state) * _TURN_SPREAD
                 angle = min(max(angle, -reaches[shape]), reaches[shape])
@@ -297,7 +294,7 @@ def move_pass(moving, state, layout, weights, losses, shapes, table, sheet, pixe
         left -= 1
         order[chosen] = order[left]
         now = 0.0
-        for j in range(len(items)):
+        for j in range(items.shape[1]):
             now += weights[i, j] * losses[i, j]
         if now == 0.0:
             continue
@@ -313,7 +310,7 @@ def move_pass(moving, state, layout, weights, losses, shapes, table, sheet, pixe
         _put(i, best[0, 1], best[0, 2], angle, turns[3, turn], turn, layout, turned)
         price(i, best[0, 1], best[0, 2], np.inf, losses[i], layout, weights, turned, sheet,
               scratch)  # fmt: skip
-        for j in range(len(items)):
+        for j in range(items.shape[1]):
             losses[j, i] = losses[i, j]
     return tried
 
