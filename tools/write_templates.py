@@ -18,6 +18,7 @@ EXAMPLES = Path(__file__).parent.parent / "examples"
 OF_EXAMPLES = {
     "photos": EXAMPLES / "photos-fish" / "expected.png",
     "mosaic": EXAMPLES / "mosaic" / "expected.png",
+    "chart": EXAMPLES / "chart-coffee" / "expected.png",
 }
 """Templates of a person's own files are shown by examples."""
 
@@ -30,13 +31,13 @@ def drawn(name: str) -> Image.Image:
         return Image.open(OF_EXAMPLES[name])
     opening = template(name)
     layout = uses.fill(opening.recipe).layout if opening.recipe else opening.document.layout
-    options = {"pixels": 2 * SIZE[0], "show_container": name == "nest"}
+    options = {"pixels": 2 * SIZE[0], "show_container": name in {"nest", "jar"}}
     return Image.open(io.BytesIO(layout_bytes(layout, "png", options)))
 
 
 if __name__ == "__main__":
     PLACE.mkdir(exist_ok=True)
-    for one in TEMPLATES:
+    for one in (*TEMPLATES, "chart"):
         picture = drawn(one).convert("RGBA")
         picture.thumbnail(SIZE, Image.Resampling.LANCZOS)
         picture.save(PLACE / f"{one}.webp", quality=QUALITY, method=6)

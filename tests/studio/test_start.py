@@ -24,7 +24,7 @@ def test_a_desk_without_inputs_offers_templates(open_desk: Callable[..., Desk]) 
     desk = open_desk()
     dialog = desk.page.locator("dialog.start[open]")
     dialog.wait_for()
-    assert dialog.locator("img[src*=templates]").count() == 6
+    assert dialog.locator("img[src*=templates]").count() == 9
     desk.until("[...document.querySelectorAll('dialog.start img')].every(one => one.naturalWidth)")
     desk.picture("start")
     dialog.get_by_role("button", name="Parts on a sheet").click()
@@ -36,6 +36,39 @@ def test_a_desk_without_inputs_offers_templates(open_desk: Callable[..., Desk]) 
     dialog.get_by_role("button", name="heart 60 items").first.click()
     desk.until("studio.collage.scene?.title === 'heart'")
     desk.settled()
+
+
+def test_a_chart_is_begun_with_a_table_of_ones_own(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    table = tmp_path / "pets.csv"
+    table.write_text("name;kg\nRex;30,5\nTom;4,2\nIda;3,9\n", encoding="utf-8")
+    desk = open_desk()
+    if not desk.look("studio.start.dialog.open"):
+        desk.page.keyboard.press("Shift+N")
+    with desk.page.expect_file_chooser() as waiting:
+        desk.page.locator("dialog.start").get_by_role("button", name="A chart").click()
+    waiting.value.set_files(table)
+    desk.page.get_by_role("button", name="Draw the chart").click()
+    desk.until("studio.collage.scene?.kind === 'chart' && studio.collage.items.length === 3")
+    desk.settled()
+
+
+@pytest.mark.parametrize(
+    ("button", "kind", "count"), [("A jar", "pile", 64), ("A wall", "collage", 39)]
+)
+def test_a_template_begins_a_document(
+    open_desk: Callable[..., Desk], button: str, kind: str, count: int
+) -> None:
+    desk = open_desk()
+    if not desk.look("studio.start.dialog.open"):
+        desk.page.keyboard.press("Shift+N")
+    desk.page.locator("dialog.start").get_by_role("button", name=button).click()
+    desk.until(
+        f"studio.collage.scene?.kind === '{kind}' && studio.collage.items.length === {count}"
+    )
+    desk.settled()
+    desk.picture(f"template-{kind}")
 
 
 def test_photographs_of_ones_own_fill_a_heart(

@@ -20,6 +20,9 @@ from packwork.studio.wire import Message
 if TYPE_CHECKING:
     from packwork.studio.tab import Tab
 
+Template: TypeAlias = Literal[
+    "icons", "letters", "words", "names", "jar", "nest", "photos", "mosaic"
+]
 Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
 
 
@@ -91,7 +94,9 @@ class Begin(PageRequest):
     """Begin another document with a template, or go on with one that is kept."""
 
     type: Literal["begin"] = "begin"
-    template: Literal["icons", "letters", "words", "nest", "photos", "mosaic"] | None = None
+    template: (
+        Literal["icons", "letters", "words", "names", "jar", "nest", "photos", "mosaic"] | None
+    ) = None
     source: Name | None = None
     """Files of those templates that take some."""
     kept: Annotated[str, Field(pattern="^desk-[0-9]{1,2}$")] | None = None

@@ -33,6 +33,19 @@ CUT_MM, SHEET_MM, APART_MM = 44.0, (300.0, 200.0), 2.0
 PASSES = 60
 """Passes of the nest. More lay denser and take longer. Chosen."""
 
+IN_JAR, JAR_SIZE = 64, "10%"
+"""Icons that are heaped up in a jar, and the longer side of each. Chosen."""
+
+NAMES = (
+    "Ada", "Amélie", "Anouk", "Aras", "Björn", "Chloé", "Cosmin", "Dilan", "Emre", "Farah", "Freya",
+    "Greta", "Hugo", "Ines", "Ivo", "Jakub", "Jun", "Kemal", "Lena", "Lionel", "Maja", "Mateo",
+    "Mina", "Nadia", "Noah", "Olga", "Omar", "Paula", "Quinn", "Rosa", "Sanne", "Søren", "Tariq",
+    "Thea", "Uma", "Vera", "Wanda", "Yara", "Zoë",
+)  # fmt: skip
+"""Names on the wall."""
+
+WALL = "360x240mm"
+
 IN_PICTURE = 240
 """Icons that show a picture. Chosen."""
 
@@ -59,6 +72,18 @@ def _words() -> Opening:
     return Opening(recipe=recipe)
 
 
+def _jar() -> Opening:
+    recipe = uses.pile_recipe("jar", ["builtin:icons"], count=IN_JAR, size=JAR_SIZE)
+    return Opening(recipe=recipe)
+
+
+def _names() -> Opening:
+    """Names of three sizes, so that none stands out."""
+    weights = {name: float(2 + k % 3) for k, name in enumerate(NAMES)}
+    recipe = uses.words_recipe("page", weights, canvas=WALL, palette="ink", effort="draft")
+    return Opening(recipe=recipe, title="names")
+
+
 def _mosaic(folder: Path) -> Opening:
     picture = str(next(folder.iterdir()))
     recipe = make_recipe(
@@ -69,7 +94,8 @@ def _mosaic(folder: Path) -> Opening:
 
 
 _OWN: Mapping[str, Callable[[], Opening]] = {
-    "icons": lambda: opening_of([]), "letters": _letters, "words": _words, "nest": _cut
+    "icons": lambda: opening_of([]), "letters": _letters, "words": _words, "names": _names,
+    "jar": _jar, "nest": _cut
 }  # fmt: skip
 
 _OF_FILES: Mapping[str, Callable[[Path], Opening]] = {

@@ -9,7 +9,8 @@ import { tell } from "./toasts.js";
 /** Templates: name, what it is called, and what it takes of a person's own. */
 const TEMPLATES = /** @type {const} */ ([
   ["icons", "Icons in a heart", ""], ["letters", "A word of icons", ""], ["words", "A word cloud", ""],
-  ["photos", "Your photographs", "image/*"], ["mosaic", "A picture of icons", "image/*"], ["nest", "Parts on a sheet", ""],
+  ["names", "A wall of names", ""], ["jar", "A jar of icons", ""], ["nest", "Parts on a sheet", ""],
+  ["photos", "Your photographs", "image/*"], ["mosaic", "A mosaic of icons", "image/*"], ["chart", "A chart of your table", ".csv,.tsv,.json"],
 ]);
 const UNITS = /** @type {const} */ ([["day", 86400], ["hour", 3600], ["minute", 60]]);
 
@@ -56,8 +57,16 @@ export class Start {
 
   /** @param {typeof TEMPLATES[number][0]} name @param {string} accept */
   begin(name, accept) {
+    const { dropping } = this.studio;
+    if (name === "chart") return dropping.question(accept, false, ([file]) => this.chart(file));
     if (!accept) return this.send({ template: name });
-    this.studio.dropping.ask(accept, name === "photos", (batch) => this.send({ template: name, source: `file:${batch}` }));
+    dropping.ask(accept, name === "photos", (batch) => this.send({ template: name, source: `file:${batch}` }));
+  }
+
+  /** @param {File} file */
+  chart(file) {
+    this.dialog.close();
+    return this.studio.dropping.send([file], (batch) => this.studio.incoming.tables.ask(file.name, batch, true));
   }
 
   /** @param {Partial<import("./wire.js").Begin>} asked */
