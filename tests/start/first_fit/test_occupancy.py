@@ -148,12 +148,13 @@ def test_boxes_cover_a_mask_and_nothing_else(seed: int) -> None:
     rng = np.random.default_rng(seed)
     mask = rng.random(rng.integers(1, 40, size=2)) < rng.choice([0.5, 0.95, 1.0])
     found = np.zeros_like(mask)
-    for row, first, tall, wide, j, k in _kernels.boxes_of(mask, TALLEST):
+    for row, first, tall, wide, j, k in _kernels.boxes_of(mask, TALLEST, 4):
         found[row : row + tall, first : first + wide] = True
         # Two of these heights and widths cover the box.
         assert 2**j <= tall <= 2 ** (j + 1)
         assert j <= TALLEST
-        assert 2**k <= wide < 2 ** (k + 1)
+        assert 2**k <= wide <= 2 ** (k + 1)
+        assert k <= 4
     assert (found == mask).all()
 
 

@@ -20,18 +20,20 @@ def smear(rows, words, top, bottom):
     """Write whether any pixel of a box is taken, for rows from ``top`` to before ``bottom``.
 
     ``rows[y, j, k, x] = any(rows[y : y + 2**j, 0, 0, x : x + 2**k])`` in the first ``words``; all
-    is taken in the words after them, and free below the last row. Rows above ``top`` whose boxes
-    reach down there are written as well.
+    is taken in the word after them and beyond, and free below the last row. Rows above ``top``
+    whose boxes reach down there are written as well.
     """
     height, tall, levels = rows.shape[:3]
     for y in range(top, bottom):
         for k in range(1, levels):
             shift = 1 << (k - 1)
             whole, part = shift >> 6, np.uint64(shift & 63)
-            for i in range(words):
-                row = rows[y, 0, k - 1]
+            row = rows[y, 0, k - 1]
+            for i in range(words - whole):
                 ahead = (row[i + whole] >> part) | ((row[i + whole + 1] << ONE) << (LAST - part))
                 rows[y, 0, k, i] = row[i] | ahead
+            for i in range(max(words - whole, 0), words):
+                rows[y, 0, k, i] = ALL
     for j in range(1, tall):
         below = 1 << (j - 1)
         for y in range(max(top - 2 * below + 1, 0), bottom):
@@ -46,10 +48,19 @@ def smear(rows, words, top, bottom):
 def clear_taken(rows, boxes, height, top, before, free):
     """Clear bits of ``free`` where a box of the stencil, moved there, meets a taken pixel.
 
-    Its first row is row ``top`` of the image, ``before`` words of each row lie left of it.
+    Its first row is row ``top`` of the image, ``before`` words of each row lie left of it. Returns
+    whether any is left.
     """
-    words = free.shape[1]
+    across = 0
+    for r in range(len(boxes)):
+        across = max(across, boxes[r, 1] + boxes[r, 3])
+    # Words whose first bit is no place: beyond them all is taken.
+    inside = rows.shape[3] - 1 - before - -(-across // 64)
+    words = max(min(free.shape[1], inside + 1), 0)
+    is_left = False
     for y in range(free.shape[0]):
+        for i in range(words, free.shape[1]):
+            free[y, i] = np.uint64(0)
         if top + y + height > rows.shape[0]:
             free[y] = np.uint64(0)
             continue
@@ -63,32 +74,39 @@ def clear_taken(rows, boxes, height, top, before, free):
             row, first, tall, wide, j, k = boxes[r]
             last = first + wide - (1 << k)
             lowest = row + tall - (1 << j)
-            near = rows[top + y + row, j, k, before + begin :]
-            left = _without(near, first, last, free[y, begin:end])
+            left = _without(rows, top + y + row, j, k, first, last, before, free, y, begin, end)
             if lowest != row and left != np.uint64(0):
-                near = rows[top + y + lowest, j, k, before + begin :]
-                left = _without(near, first, last, free[y, begin:end])
+                left = _without(
+                    rows, top + y + lowest, j, k, first, last, before, free, y, begin, end
+                )
             if left == np.uint64(0):
+                begin = end
                 break
             while free[y, begin] == np.uint64(0):
                 begin += 1
             while free[y, end - 1] == np.uint64(0):
                 end -= 1
+        is_left |= begin < end
+    return is_left
 
 
 @helper
-def _without(smeared, first, last, free):
-    """Clear bits of ``free`` where ``smeared`` is taken so far on; what is left, 0 if nothing."""
-    # No branches: several words go through at once.
-    one, behind = smeared[first >> 6 :], smeared[(first >> 6) + 1 :]
-    other, beyond = smeared[last >> 6 :], smeared[(last >> 6) + 1 :]
+def _without(rows, at, j, k, first, last, before, free, y, begin, end):
+    """Clear bits of a row of ``free`` where a box from ``at`` on meets one; what is left of them.
+
+    ``first``, ``last``: columns at which boxes so wide begin that cover it.
+    """
+    one, other = before + (first >> 6), before + (last >> 6)
     near, far = np.uint64(first & 63), np.uint64(last & 63)
     left = np.uint64(0)
-    for i in range(len(free)):
-        taken = (one[i] >> near) | ((behind[i] << ONE) << (LAST - near))
-        taken |= (other[i] >> far) | ((beyond[i] << ONE) << (LAST - far))
-        here = free[i] & ~taken
-        free[i] = here
+    # No branches: several words go through at once.
+    for i in range(begin, end):
+        taken = rows[at, j, k, one + i] >> near
+        taken |= (rows[at, j, k, one + i + 1] << ONE) << (LAST - near)
+        taken |= rows[at, j, k, other + i] >> far
+        taken |= (rows[at, j, k, other + i + 1] << ONE) << (LAST - far)
+        here = free[y, i] & ~taken
+        free[y, i] = here
         left |= here
     return left
 
@@ -314,10 +332,10 @@ def mark_near(points, starts, reach, mask):
 
 
 @kernel
-def boxes_of(mask, tallest):
+def boxes_of(mask, tallest, widest):
     """Return boxes that cover a mask and nothing else, ``(r, 6)``.
 
-    Row, first column, height, width, and log2 of both rounded down, of the height ``tallest`` at
+    Row, first column, height, width, and log2 of both rounded down, ``tallest`` and ``widest`` at
     most. Each run of a row goes down as far as the mask has all of it; what is covered so begins no
     box.
     """
@@ -341,13 +359,15 @@ def boxes_of(mask, tallest):
             while tall < 2 << tallest and y + tall < height and mask[y + tall, first:x].all():
                 tall += 1
             is_covered[y : y + tall, first:x] = True
-            j, k = 0, 0
+            j = 0
             while j < tallest and (2 << j) <= tall:
                 j += 1
-            while (2 << k) <= x - first:
-                k += 1
-            boxes[found] = (y, first, tall, x - first, j, k)
-            found += 1
+            for begin in range(first, x, 2 << widest):
+                wide, k = min(x - begin, 2 << widest), 0
+                while k < widest and (2 << k) <= wide:
+                    k += 1
+                boxes[found] = (y, begin, tall, wide, j, k)
+                found += 1
     return boxes[:found].copy()
 
 

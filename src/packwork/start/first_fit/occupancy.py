@@ -36,6 +36,9 @@ TALLEST = 3
 """Log2 of the greatest height of boxes that are looked at in one step. Larger takes more memory and
 longer to keep up, smaller cuts stems of letters in more pieces. Chosen."""
 
+WIDEST = 7
+"""The same of their widths."""
+
 
 @dataclass(frozen=True, eq=False)
 class Stencil:
@@ -110,17 +113,13 @@ def covered(
 
 def stencil_of(mask: BoolArray, origin: tuple[int, int], reach: int) -> Stencil:
     """Stencil of pixels; ``reach`` is the width of its fringe."""
-    boxes = _kernels.boxes_of(mask, TALLEST)
+    boxes = _kernels.boxes_of(mask, TALLEST, WIDEST)
     boxes = boxes[np.argsort(-boxes[:, 2] * boxes[:, 3], kind="stable")]
     return Stencil(mask, origin, boxes, reach)
 
 
-LEVELS = 10
-"""Widths of boxes that are looked at in one step: powers of two up to 512, for stencils of less
-than 1,024 pixels."""
-
 MOST_FRINGE = 96
-"""The same unless more are asked for."""
+"""Pixels of a fringe that are looked at, unless more are asked for."""
 
 
 class Occupancy:
@@ -128,7 +127,6 @@ class Occupancy:
 
     ``free``: ``(rows, columns)`` the pixels that may be taken.
     ``margin``: pixels by which a fringe may reach out of a box.
-    ``levels``: number of widths of boxes: wider stencils need more.
     ``most_fringe``: pixels round a stencil that are looked at, at most: every so manieth of a
     longer fringe.
 
@@ -148,9 +146,7 @@ class Occupancy:
     0.83 0 2
     """
 
-    def __init__(
-        self, free: BoolArray, margin: int, most_fringe: int = MOST_FRINGE, levels: int = LEVELS
-    ) -> None:
+    def __init__(self, free: BoolArray, margin: int, most_fringe: int = MOST_FRINGE) -> None:
         height, width = free.shape
         self.shape = (height, width)
         self._margin, self._most_fringe = margin, most_fringe
@@ -158,9 +154,8 @@ class Occupancy:
         self.taken = np.ones((height + 2 * margin, width + 2 * margin), dtype=np.uint8)
         self.taken[margin : margin + height, margin : margin + width] = ~free
         self._words = -(-width // 64)
-        self._rows = np.full(
-            (height, TALLEST + 1, levels, 2 * self._words + 1), _kernels.ALL, dtype=np.uint64
-        )
+        boxes = TALLEST + 1, WIDEST + 1
+        self._rows = np.full((height, *boxes, self._words + 1), _kernels.ALL, dtype=np.uint64)
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: NearestTaken | None = None
         self._refresh(0, height)
@@ -198,12 +193,13 @@ class Occupancy:
         top, bottom = rows or (0, self.shape[0])
         free = self._free[top:bottom]
         free[...] = _kernels.ALL
-        _kernels.clear_taken(
+        is_left = _kernels.clear_taken(
             self._rows[top:bottom], stencil.boxes, stencil.mask.shape[0], 0, 0, free
         )
-        if keep is not None:
+        if is_left and keep is not None:
             keep(stencil, free)
-        if not free.any():
+            is_left = free.any()
+        if not is_left:
             return None
         fringe = stencil.fringe
         if len(fringe) > self._most_fringe:
@@ -223,12 +219,13 @@ class Occupancy:
         self.clear(stencil.boxes, stencil.mask.shape[0], free)
         return free
 
-    def clear(self, boxes: IntArray, height: int, free: Bits, top: int = 0, word: int = 0) -> None:
+    def clear(self, boxes: IntArray, height: int, free: Bits, top: int = 0, word: int = 0) -> bool:
         """Clear bits for the corner of a stencil so high where its boxes meet what is taken.
 
         ``free``: ``(rows, words)`` of 64 pixels each, from a row and a word on; changed in place.
+        Returns whether any is left.
         """
-        _kernels.clear_taken(self._rows, boxes, height, top, word, free)
+        return bool(_kernels.clear_taken(self._rows, boxes, height, top, word, free))
 
     def take(self, mask: BoolArray, row: int, column: int) -> None:
         """Take the pixels of a mask put there; what of it lies off the image is not kept."""
