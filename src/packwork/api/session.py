@@ -145,6 +145,8 @@ class Session(LiveSession):
     scale = edits.scale
     flip = edits.flip
     exchange = edits.exchange
+    align = edits.align
+    distribute = edits.distribute
     hold = edits.hold
     release = edits.release
     remove = edits.remove

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from packwork.live.commands.aligning import LineUp
 from packwork.live.commands.command import Command
 from packwork.live.commands.items import Replace
 from packwork.live.commands.placing import NEARLY, Arrange, Cover, Exchange, Move, Scale
@@ -129,6 +130,10 @@ class Requests:
         for one in commands:
             if isinstance(one, Move):
                 self._places[one.item] = one.x, one.y
+            elif isinstance(one, LineUp):
+                for number, row in ((n, after.index(n)) for n in one.items):
+                    if row is not None:
+                        self._places[number] = after.poses.x[row], after.poses.y[row]
             elif isinstance(one, Scale):
                 row, first = after.index(one.item), before.index(one.item)
                 if row is not None and first is not None:

@@ -11,12 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from numbers import Integral
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from packwork.errors import RecipeError
 
 if TYPE_CHECKING:
     from packwork.live.clips import Clip
+    from packwork.live.commands.aligning import Direction, Edge
     from packwork.live.document import Property
     from packwork.live.names import Coordinate, Which
     from packwork.live.session import Session
@@ -170,9 +171,7 @@ def turn(session: Session, which: Which, degrees: float) -> None:
 
 
 @_edit(Flag("--flip", "ITEM[=vertical]", "Turn items over, left to right.", of_many=True))
-def flip(
-    session: Session, which: Which, direction: Literal["horizontal", "vertical"] = "horizontal"
-) -> None:
+def flip(session: Session, which: Which, direction: Direction = "horizontal") -> None:
     """Turn items over where they are; vertically, what was above is below."""
     session.do("flip", items=session.find(which), direction=direction)
 
@@ -191,6 +190,29 @@ def move(session: Session, which: Which, x: Coordinate, y: Coordinate) -> None:
     document = session.document
     place = {"x": length_of(document, "x", x), "y": length_of(document, "y", y)}
     session.do("move", item=session.one(which), **place)
+
+
+@_edit(Flag("--align", "ITEM=EDGE", "Line items up, as leaf*=left.", "leaf*=left", of_many=True))
+def align(session: Session, which: Which, to: Edge) -> None:
+    """Line items up: ``left``, ``center``, ``right``, ``top``, ``middle`` or ``bottom``.
+
+    What is held stays, and the others come to its line; else to that of all.
+    """
+    session.do("align", items=session.find(which), to=to)
+
+
+@_edit(
+    Flag(
+        "--distribute",
+        "ITEM=WAY",
+        "Even out their distances, horizontal or vertical.",
+        "leaf*=vertical",
+        of_many=True,
+    )
+)
+def distribute(session: Session, which: Which, direction: Direction) -> None:
+    """Even out the distances between items, ``horizontal`` or ``vertical``; the ends stay."""
+    session.do("distribute", items=session.find(which), direction=direction)
 
 
 @_edit(

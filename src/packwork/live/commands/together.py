@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias, get_args
 
 from pydantic import Field, TypeAdapter
 
+from packwork.live.commands.aligning import Align, Distribute
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.container import (
     DrawContainer,
@@ -32,7 +33,7 @@ from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale
 from packwork.live.document import Document
 
 SingleCommand: TypeAlias = Annotated[
-    Move | Turn | Scale | Exchange | Cover | Arrange
+    Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
     | SetContainer | Reshape | PlaceContainer | SetOption | Entitle

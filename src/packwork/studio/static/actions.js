@@ -24,7 +24,7 @@ const LARGER = 1.08;
  * @returns {Action[]}
  */
 export function actionsOf(studio) {
-  return [...edits(studio), ...choosing(studio), ...items(studio), ...nudges(studio), ...views(studio), ...files(studio)];
+  return [...edits(studio), ...choosing(studio), ...items(studio), ...lines(studio), ...nudges(studio), ...views(studio), ...files(studio)];
 }
 
 /** @param {import("./studio.js").Studio} studio @returns {Action[]} */
@@ -86,6 +86,24 @@ function items(studio) {
     { id: "smaller", group: "Items", label: "Smaller", keys: ["-"], repeats: true, when: sizes, run: () => studio.resize(1 / LARGER) },
     { id: "clockwise", group: "Items", label: "Turn clockwise", keys: ["."], repeats: true, when: turns, run: () => studio.turn(TURN) },
     { id: "anticlockwise", group: "Items", label: "Turn anticlockwise", keys: [","], repeats: true, when: turns, run: () => studio.turn(-TURN) },
+  ];
+}
+
+/** What several items are lined up by, with the key beside alt. */
+const EDGES = /** @type {const} */ ([["left", "A", "Align left edges"], ["center", "H", "Align middles across"], ["right", "D", "Align right edges"],
+  ["top", "W", "Align top edges"], ["middle", "V", "Align middles down"], ["bottom", "S", "Align bottom edges"]]);
+const WAYS = /** @type {const} */ ([["horizontal", "H", "Even out distances across", "across"], ["vertical", "V", "Even out distances down", "down2"]]);
+export const LINES = [...EDGES.map(([to]) => `align-${to}`), ...WAYS.map(([way]) => `distribute-${way}`)];
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function lines(studio) {
+  const { choice, connection } = studio;
+  const chosen = () => [...choice.ids];
+  return [
+    ...EDGES.map(([to, key, label]) => ({ id: `align-${to}`, group: /** @type {const} */ ("Items"), label, keys: [`Alt+${key}`], icon: to,
+      when: () => choice.ids.size > 1, run: () => connection.do({ kind: "align", items: chosen(), to }) })),
+    ...WAYS.map(([direction, key, label, icon]) => ({ id: `distribute-${direction}`, group: /** @type {const} */ ("Items"), label, keys: [`Alt+Shift+${key}`], icon,
+      when: () => choice.ids.size > 2, run: () => connection.do({ kind: "distribute", items: chosen(), direction }) })),
   ];
 }
 

@@ -1,6 +1,7 @@
 // @ts-check
 /** The inspector: numbers, name, weight and colour of what is chosen, each to be typed or dragged. */
 
+import { LINES } from "./actions.js";
 import { h } from "./dom.js";
 import { together } from "./hand.js";
 import { kindOf } from "./kinds.js";
@@ -28,10 +29,12 @@ export class Inspector {
     this.weight = h("input", { type: "number", min: "0.01", step: "any", onchange: () => this.weigh() });
     this.colour = h("input", { type: "color", value: "#1f6f78", onchange: () => studio.recolour(this.colour.value) });
     this.unit = h("span", { class: "unit" });
+    this.lines = h("div", { class: "lines", role: "group", "aria-label": "Line up", hidden: true }, ...LINES.map((id) => studio.bar.button(id)));
     const fields = [...this.numbers.values()].map((field) => /** @type {HTMLElement} */ (field.parentElement));
     this.element = h("div", { class: "editor", role: "group", "aria-label": "What is chosen" },
       h("div", { class: "row" }, this.name, this.unit, ...["hold", "release"].map((id) => studio.bar.button(id))),
       h("div", { class: "numbers" }, ...fields, h("div", { class: "row" }, ...["flip", "flip-down"].map((id) => studio.bar.button(id)))),
+      this.lines,
       h("div", { class: "row" }, h("label", {}, "Weight", this.weight), h("label", { class: "colour" }, h("span", { class: "unseen" }, "Colour"), this.colour),
         h("button", { type: "button", onclick: () => studio.replacing.open() }, "Replace …")));
   }
@@ -69,6 +72,7 @@ export class Inspector {
     const own = collage.colour(first.id);
     const colour = own ?? this.colour.value;
     this.colour.classList.toggle("mixed", !own);
+    this.lines.hidden = items.length < 2;
     this.name.placeholder = `${items.length} items`;
     this.unit.textContent = collage.scene?.unit ?? "";
     const { sizes } = kindOf(collage);

@@ -12,8 +12,9 @@ const SHOWN = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: 
  * @param {KeyboardEvent} event
  */
 export function keyOf(event) {
-  const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
-  const isSign = event.key.length === 1 && !/[a-z0-9 ]/i.test(event.key);
+  // With alt a Mac's keys write other letters.
+  const key = event.altKey && event.code.startsWith("Key") ? event.code.slice(3) : event.key.length === 1 ? event.key.toUpperCase() : event.key;
+  const isSign = key.length === 1 && !/[a-z0-9 ]/i.test(key);
   const parts = [];
   if (event.ctrlKey || event.metaKey) parts.push("Mod");
   if (event.altKey) parts.push("Alt");

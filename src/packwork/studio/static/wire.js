@@ -6,6 +6,7 @@
  *
  * @typedef {{type: "ack", frame: number}} Ack
  * @typedef {{kind: "add", asset: string, x: number, y: number, area: number, angle?: number, weight?: (number | null)}} Add
+ * @typedef {{kind: "align", items: number[], to: ("left" | "center" | "right" | "top" | "middle" | "bottom")}} Align
  * @typedef {{type: "alike", source: string}} Alike
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{kind: "background", colour: string}} Background
@@ -16,7 +17,8 @@
  * @typedef {{type: "copy", items: number[]}} Copy
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} Drawn
  * @typedef {{kind: "drop"}} Drop
@@ -59,7 +61,7 @@
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer)[]}} Together
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant

@@ -1,0 +1,96 @@
+"""Commands that line items up by edges or middles; what is held stays where it is."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import replace
+from typing import Annotated, Literal, TypeAlias
+
+import numpy as np
+from pydantic import Field
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.live.commands.command import Command, ItemId, Library, index_of
+from packwork.live.document import PROPERTIES, Document
+
+Edge: TypeAlias = Literal["left", "center", "right", "top", "middle", "bottom"]
+
+Direction: TypeAlias = Literal["horizontal", "vertical"]
+
+
+class LineUp(Command):
+    """Base of those that move items along one axis, by the extents of their outlines."""
+
+    items: tuple[ItemId, ...]
+
+    @property
+    @abstractmethod
+    def axis(self) -> int:
+        """0 across, 1 down."""
+
+    @abstractmethod
+    def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
+        """Where each item begins on the axis then, of ``(n,)`` extents before."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the items there, but those whose place is held."""
+        rows = np.array([index_of(document, number, self.kind) for number in self.items])
+        low, high = _extents(document, rows, self.axis)
+        is_held = document.held[rows, PROPERTIES.index("place")]
+        by = np.where(is_held, 0.0, self.starts(low, high, is_held) - low)
+        name = "xy"[self.axis]
+        column = getattr(document.poses, name).copy()
+        column[rows] += by
+        return document.with_poses(replace(document.poses, **{name: column}))
+
+
+class Align(LineUp):
+    """Bring edges or middles of items to one line: that of what is held, else of all."""
+
+    kind: Literal["align"] = "align"
+    items: Annotated[tuple[ItemId, ...], Field(min_length=2)]
+    to: Edge
+
+    @property
+    def axis(self) -> int:
+        """As the edge says."""
+        return 0 if self.to in {"left", "center", "right"} else 1
+
+    def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
+        """At the outermost edge, or about the middle."""
+        leads = is_held if is_held.any() else ~is_held
+        first, last = low[leads].min(), high[leads].max()
+        if self.to in {"left", "top"}:
+            return np.full_like(low, first)
+        if self.to in {"right", "bottom"}:
+            return last - (high - low)
+        return (first + last) / 2.0 - (high - low) / 2.0
+
+
+class Distribute(LineUp):
+    """Even out the distances between items in a row or column, whose ends stay."""
+
+    kind: Literal["distribute"] = "distribute"
+    items: Annotated[tuple[ItemId, ...], Field(min_length=3)]
+    direction: Direction
+
+    @property
+    def axis(self) -> int:
+        """As the direction says."""
+        return 0 if self.direction == "horizontal" else 1
+
+    def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
+        """One after another in the order of their middles."""
+        order, sizes = np.argsort(low + high, kind="stable"), high - low
+        first, last = order[0], order[-1]
+        gap = (high[last] - low[first] - sizes.sum()) / (len(low) - 1)
+        starts = np.empty_like(low)
+        starts[order] = low[first] + np.concatenate(([0.0], np.cumsum(sizes[order] + gap)[:-1]))
+        return starts
+
+
+def _extents(document: Document, rows: IntArray, axis: int) -> tuple[FloatArray, FloatArray]:
+    bounds = np.array(
+        [document.items[k].outline.mapped(document.poses.matrix(k)).bounds for k in rows.tolist()]
+    )
+    return bounds[:, axis], bounds[:, axis + 2]
