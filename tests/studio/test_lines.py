@@ -47,3 +47,31 @@ def test_one_item_alone_is_not_lined_up(open_desk: Callable[..., Desk], key: str
     desk.page.keyboard.press(f"Alt+{key}")
     assert desk.look("studio.connection.count") == count
     assert desk.page.locator(".lines").is_hidden()
+
+
+MIDDLE = "(b => (b[0] + b[2]) / 2)(studio.collage.bounds(0))"
+
+
+def test_a_drag_snaps_to_the_middle_unless_ctrl_is_held(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.rested()
+    x, y = desk.place(0)
+    off = desk.look(f"(300 - {MIDDLE}) * studio.view.zoom") + 3
+    desk.page.mouse.move(x, y)
+    desk.page.mouse.down()
+    desk.page.mouse.move(x + off / 2, y)
+    desk.page.mouse.move(x + off, y)
+    assert desk.look(MIDDLE) == pytest.approx(300, abs=0.01)
+    assert desk.look("studio.stage.snapping.guides.map(guide => guide.at)")[0] == pytest.approx(300)
+    desk.page.keyboard.down("Control")
+    desk.page.mouse.move(x + off, y + 1)
+    assert desk.look(f"({MIDDLE} - 300) * studio.view.zoom") == pytest.approx(3, abs=0.1)
+    assert desk.look("studio.stage.snapping.guides.length") == 0
+    desk.page.keyboard.up("Control")
+    desk.page.keyboard.down("Shift")
+    desk.page.mouse.move(x + off, y + 20)
+    assert desk.look("studio.collage.target(0).y - studio.hand.began.get(0).y") == 0
+    desk.page.keyboard.up("Shift")
+    desk.page.keyboard.press("Escape")
+    desk.page.mouse.up()
+    desk.settled()

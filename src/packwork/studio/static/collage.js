@@ -2,6 +2,7 @@
 /** What there is to be seen: items, how they look, where they are, and where they are shown. */
 
 import { kindOf } from "./kinds.js";
+import { ringsOf } from "./rings.js";
 
 /** @typedef {import("./wire.js").Scene} Scene */
 /** @typedef {import("./wire.js").Shape} Shape */
@@ -9,7 +10,7 @@ import { kindOf } from "./kinds.js";
 /** @typedef {import("./wire.js").State} State */
 /** @typedef {import("./connection.js").Frame} Frame */
 /** @typedef {{x: number, y: number, angle: number, scale: number}} Pose */
-/** @typedef {Shape & {outlinePath: Path2D, inkPath: Path2D | null, extent: number}} Look */
+/** @typedef {Shape & {outlinePath: Path2D, inkPath: Path2D | null, extent: number, points?: [number, number][]}} Look */
 
 /** Time in which what is shown comes most of the way to where it is, ms. */
 const EASE = 38;
@@ -222,6 +223,25 @@ export class Collage {
       const point = matrix.transformPoint({ x, y });
       return [point.x, point.y];
     });
+  }
+
+  /**
+   * Box about the outline of an item, where it is.
+   * @param {number} id
+   * @returns {[number, number, number, number]}
+   */
+  bounds(id) {
+    const [item, pose] = [this.item(id), this.target(id)];
+    if (!item || !pose) return [0, 0, 0, 0];
+    const look = this.look(item);
+    look.points ??= ringsOf(look.outline).flat();
+    const { a, b, c, d, e, f } = matrixOf(pose, item.stretch);
+    const box = /** @type {[number, number, number, number]} */ ([Infinity, Infinity, -Infinity, -Infinity]);
+    for (const [px, py] of look.points) {
+      const [x, y] = [a * px + c * py + e, b * px + d * py + f];
+      [box[0], box[1], box[2], box[3]] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)];
+    }
+    return box;
   }
 
   /**

@@ -123,7 +123,7 @@ export class Gestures {
     clearTimeout(this.timer);
     if (!doing.moves) this.begin(doing);
     doing.moves = true;
-    this.follow(doing, at, event.shiftKey);
+    this.follow(doing, at, event.shiftKey, event.ctrlKey || event.metaKey);
     doing.at = at;
   }
 
@@ -132,6 +132,7 @@ export class Gestures {
     if (doing.act === "item" || doing.act === "turn" || doing.act === "scale") {
       if (doing.id !== undefined && !this.choice.has(doing.id)) this.choice.set([doing.id]);
       this.choice.isBusy = true;
+      this.stage.snapping.begin(this.choice.ids);
       this.hand.grab(this.choice.ids);
       if (doing.copies && kindOf(this.stage.collage).grows) this.hand.leaveCopies();
     }
@@ -140,9 +141,10 @@ export class Gestures {
   /**
    * @param {Doing} doing
    * @param {Point} at
-   * @param {boolean} snaps
+   * @param {boolean} snaps to an axis, or to round angles
+   * @param {boolean} isFree whether no line draws what is dragged
    */
-  follow(doing, at, snaps) {
+  follow(doing, at, snaps, isFree) {
     const { zoom } = this.view;
     const [x, y] = [at.x - doing.from.x, at.y - doing.from.y];
     if (doing.act === "pan") this.view.pan(at.x - doing.at.x, at.y - doing.at.y);
@@ -150,7 +152,14 @@ export class Gestures {
     else if (doing.act === "room") this.stage.room?.move(doing.from, at, snaps);
     else if (doing.act === "force") this.stage.forces?.draw(doing.from, at);
     else if (doing.act === "sketch") this.stage.sketch?.draw(at);
-    else if (doing.act === "item") this.hand.move(x / zoom, y / zoom);
+    else if (doing.act === "item") {
+      const alongX = Math.abs(x) >= Math.abs(y);
+      const way = snaps ? [alongX ? x : 0, alongX ? 0 : y] : [x, y];
+      const snapped = this.stage.snapping.snapped(way[0] / zoom, way[1] / zoom);
+      const [dx, dy] = isFree ? [way[0] / zoom, way[1] / zoom] : snapped;
+      if (isFree) this.stage.snapping.guides = [];
+      this.hand.move(snaps && !alongX ? 0 : dx, snaps && alongX ? 0 : dy);
+    }
     else this.pull(doing, at, snaps);
     this.hears.changed();
   }
@@ -224,6 +233,7 @@ export class Gestures {
     this.stage.forces?.drop();
     this.stage.sketch?.drop();
     this.hand.drop();
+    this.stage.snapping.end();
     this.choice.isBusy = false;
     this.hears.changed();
   }

@@ -26,7 +26,31 @@ export class ItemList {
       h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => studio.dropping.choosePicture() }, "Show a picture by their colours"),
       h("button", { type: "button", class: "wide", title: "By a table of vectors, such as a model of pictures gives: a row an item, or a first column of names", onclick: () => studio.ordering.chooseVectors() }, "Like beside like, by a table"),
       studio.ordering.element);
+    this.query = h("input", { type: "search", id: "find", placeholder: "Find by name", "aria-label": "Find items by name", spellcheck: "false",
+      oninput: () => this.refresh(), onkeydown: (/** @type {KeyboardEvent} */ event) => this.step(event) });
+    this.count = h("span", { class: "hint", role: "status" });
+    /** Groups of which each item has a row. @type {Set<string>} */
+    this.unfolded = new Set();
     this.listed = "";
+  }
+
+  /** Items by the name that is looked for, in the order of the list. */
+  get found() {
+    const text = this.query.value.trim().toLowerCase();
+    return this.studio.collage.items.filter((one) => one.name.toLowerCase().includes(text)).sort((a, b) => a.name.localeCompare(b.name));
+  }
+
+  /** Choose what is found: all of it, or one after another. @param {KeyboardEvent} event */
+  step(event) {
+    const { choice, canvas } = this.studio;
+    const ids = this.found.map((one) => one.id);
+    const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (event.key === "Escape" && !this.query.value) canvas.focus();
+    if (event.key === "Enter") choice.set(ids);
+    if (!way || !ids.length) return;
+    event.preventDefault();
+    const at = ids.findIndex((id) => choice.has(id));
+    choice.set([ids[(at < 0 && way < 0 ? ids.length - 1 : at + way + ids.length) % ids.length]]);
   }
 
   /** @param {HTMLElement} body */
@@ -37,7 +61,8 @@ export class ItemList {
       h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)))));
     body.replaceChildren(
       h("div", { class: "grows" }, this.incoming(), h("details", {}, h("summary", {}, "Add bundled ones"), grid)), this.orders,
-      h("label", { class: "row grows" }, "Items in all", this.counter), this.list);
+      h("label", { class: "row grows" }, "Items in all", this.counter),
+      h("div", { class: "row" }, this.query, this.count), this.list);
     body.after(this.inspector.element);
     this.listed = this.marked = "";
     this.refresh();
@@ -61,8 +86,10 @@ export class ItemList {
     const { orders, grows } = kindOf(collage);
     this.orders.hidden = !orders;
     for (const one of this.list.parentElement?.querySelectorAll(".grows") ?? []) /** @type {HTMLElement} */ (one).hidden = !grows;
-    const groups = [...grouped(collage.items).values()];
-    const key = JSON.stringify(groups.map((group) => [group[0].shape, group[0].name, group.map((one) => [one.id, one.held])]));
+    const found = this.found;
+    const groups = [...grouped(found).values()];
+    this.count.textContent = found.length < collage.items.length ? `${found.length} of ${collage.items.length}` : "";
+    const key = JSON.stringify([[...this.unfolded], kindOf(collage), groups.map((group) => [group[0].shape, group[0].name, group.map((one) => [one.id, one.held])])]);
     if (key !== this.listed) this.rewrite(groups);
     this.listed = key;
     if (document.activeElement !== this.counter) this.counter.value = String(collage.items.length);
@@ -72,7 +99,7 @@ export class ItemList {
 
   /** @param {Thing[][]} groups */
   rewrite(groups) {
-    this.list.replaceChildren(...groups.slice(0, MOST).map((group) => this.row(group)));
+    this.list.replaceChildren(...groups.slice(0, MOST).flatMap((group) => [this.row(group), ...(this.isUnfolded(group) ? group.map((one, k) => this.part(one, k)) : [])]));
     if (groups.length > MOST) this.list.append(h("li", { class: "hint" }, `and ${groups.length - MOST} more`));
   }
 
@@ -88,8 +115,46 @@ export class ItemList {
   }
 
   /** @param {Thing[]} group */
+  isUnfolded(group) {
+    return group.length > 1 && this.unfolded.has(keyOf(group[0]));
+  }
+
+  /**
+   * The row of one item among those that look alike.
+   * @param {Thing} item
+   * @param {number} k
+   */
+  part(item, k) {
+    return h("li", { class: "part" }, this.chooser([item.id], [h("span", { class: "name" }, `${item.name} #${k + 1}`), item.held.some(Boolean) && icon("pin")]));
+  }
+
+  /**
+   * A button that chooses items; with shift or Ctrl beside what is chosen.
+   * @param {number[]} ids
+   * @param {(Node | false)[]} shown
+   */
+  chooser(ids, shown) {
+    const { choice } = this.studio;
+    const choose = (/** @type {MouseEvent} */ event) => {
+      const isMore = event.shiftKey || event.ctrlKey || event.metaKey;
+      const rest = [...choice.ids].filter((id) => !ids.includes(id));
+      choice.set(!isMore ? ids : ids.every((id) => choice.has(id)) ? rest : [...rest, ...ids]);
+    };
+    return h("button", { type: "button", class: "item", "data-ids": ids.join(" "), "aria-pressed": "false", onclick: choose }, ...shown);
+  }
+
+  /** @param {Thing[]} group */
+  unfold(group) {
+    const key = keyOf(group[0]);
+    if (!this.unfolded.delete(key)) this.unfolded.add(key);
+    this.refresh();
+    const row = [...this.list.querySelectorAll("button.each")].find((one) => one.getAttribute("data-key") === key);
+    if (row instanceof HTMLElement) row.focus();
+  }
+
+  /** @param {Thing[]} group */
   row(group) {
-    const { connection, choice, collage } = this.studio;
+    const { connection, collage } = this.studio;
     const [first] = group;
     const ids = group.map((one) => one.id);
     const { grows } = kindOf(collage);
@@ -98,8 +163,8 @@ export class ItemList {
     less.disabled = collage.items.length < 2;
     const held = group.some((one) => one.held.some(Boolean));
     return h("li", {},
-      h("button", { type: "button", class: "item", "data-ids": ids.join(" "), "aria-pressed": "false", onclick: () => choice.set(ids) },
-        thumbOf(collage.look(first)), h("span", { class: "name" }, first.name), held && icon("pin")),
+      this.chooser(ids, [thumbOf(collage.look(first)), h("span", { class: "name" }, first.name), held && icon("pin")]),
+      group.length > 1 && button("down", `Each ${first.name}`, () => this.unfold(group), { class: "each", "aria-expanded": String(this.isUnfolded(group)), "data-key": keyOf(first) }),
       grows && h("span", { class: "stepper", role: "group", "aria-label": `${group.length} ${first.name}` }, less, h("span", {}, String(group.length)), more));
   }
 }
@@ -107,6 +172,11 @@ export class ItemList {
 /** @param {Element} row */
 function idsOf(row) {
   return /** @type {HTMLElement} */ (row).dataset.ids?.split(" ").map(Number) ?? [];
+}
+
+/** @param {Thing} item */
+function keyOf(item) {
+  return `${item.name}\n${item.shape}`;
 }
 
 /**
@@ -117,7 +187,7 @@ function grouped(items) {
   /** @type {Map<string, Thing[]>} */
   const groups = new Map();
   for (const item of items) {
-    const key = `${item.name}\n${item.shape}`;
+    const key = keyOf(item);
     const group = groups.get(key);
     if (group) group.push(item);
     else groups.set(key, [item]);

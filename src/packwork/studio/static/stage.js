@@ -4,6 +4,7 @@
 import { Backdrop } from "./backdrop.js";
 import { matrixOf } from "./collage.js";
 import { coloursOf } from "./colours.js";
+import { Snapping } from "./snapping.js";
 import { kindOf } from "./kinds.js";
 
 /** @typedef {import("./collage.js").Collage} Collage */
@@ -37,6 +38,7 @@ export class Stage {
     this.view = view;
     this.sprites = sprites;
     this.choice = choice;
+    this.snapping = new Snapping(collage, view);
     this.outline = { text: "", path: new Path2D() };
     /** Notes by their items. @type {{of: unknown, by: Map<number | null, import("./wire.js").Drawn[]>}} */
     this.noted = { of: null, by: new Map() };
@@ -255,6 +257,7 @@ export class Stage {
     this.room?.draw(this.pen);
     this.forces?.paint(this.pen);
     this.sketch?.paint(this.pen);
+    this.drawGuides();
     if (this.marquee) this.drawMarquee(this.marquee);
   }
 
@@ -375,6 +378,21 @@ export class Stage {
     pen.strokeStyle = colours.accent;
     pen.lineWidth = 1.75;
     pen.stroke();
+  }
+
+  /** Lines that a drag has snapped to. */
+  drawGuides() {
+    const { pen, view, colours } = this;
+    this.toWindow();
+    pen.strokeStyle = colours.accent;
+    pen.lineWidth = 1.25;
+    for (const { axis, at, from, to } of this.snapping.guides) {
+      const ends = [from, to].map((far) => point(axis ? view.toScreen(far, at) : view.toScreen(at, far)));
+      pen.beginPath();
+      pen.moveTo(...ends[0]);
+      pen.lineTo(...ends[1]);
+      pen.stroke();
+    }
   }
 
   /** @param {[number, number, number, number]} box */

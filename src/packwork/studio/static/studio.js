@@ -348,6 +348,13 @@ export class Studio {
     this.panels.items.inspector.focus();
   }
 
+  /** Look for items by name. */
+  async find() {
+    if (this.panels.current !== "items") await this.panels.toggle("items");
+    this.panels.items.query.focus();
+    this.panels.items.query.select();
+  }
+
   exchange() {
     const [first, second] = this.choice.ids;
     this.connection.do({ kind: "exchange", first, second });
