@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from packwork.errors import RecipeError
-from packwork.live.edits import EDITS, Edit, Flag
+from packwork.live.edit_flags import Edit, Flag
+from packwork.live.edits import EDITS
 from packwork.options import offered
 from packwork.recipe import Recipe
 from packwork.writers.options import DrawingOptions

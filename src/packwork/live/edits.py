@@ -8,12 +8,12 @@ What takes long to load is loaded by the edit: help of command lines is made of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 from numbers import Integral
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from packwork.errors import RecipeError
+from packwork.live.edit_flags import Edit, Flag, declared_in
 
 if TYPE_CHECKING:
     from packwork.live.clips import Clip
@@ -25,68 +25,13 @@ if TYPE_CHECKING:
     from packwork.scene.container import Container
     from packwork.scene.item import Item
 
-_Function = TypeVar("_Function", bound=Callable[..., Any])
-
-
-@dataclass(frozen=True)
-class Flag:
-    """Flag of ``packwork edit``.
-
-    Parameters
-    ----------
-    form
-        Of its text; None for one word. Where it begins with ``ITEM`` or ``FILE``, each text is an
-        edit of its own: ``ITEM=`` and the edit's other parameters, with commas between.
-    help
-        Empty for that of the option of a run that is called so.
-    example
-        Of the text, where its form alone does not tell.
-    of_many
-        Whether it is an edit of all items of a name.
-    is_repeated
-        Whether several texts go, as one value.
-    """
-
-    names: str
-    form: str | None = None
-    help: str = ""
-    example: str = ""
-    of_many: bool = False
-    is_repeated: bool = False
-
-    @property
-    def name(self) -> str:
-        """The long one of its names, without strokes."""
-        return self.names.rpartition("--")[2]
-
-    @property
-    def is_an_edit_each(self) -> bool:
-        """Whether each text is an edit of its own."""
-        return self.form is not None and self.form.startswith(("ITEM", "FILE"))
-
-
-@dataclass(frozen=True)
-class Edit:
-    """Edit with flags: one for each parameter, or one for an item and all that is asked of it."""
-
-    apply: Callable[..., Any]
-    flags: tuple[Flag, ...]
-
-
 EDITS: list[Edit] = []
 """In the order in which a command line does them."""
 
-
-def _edit(*flags: Flag) -> Callable[[_Function], _Function]:
-
-    def declared(function: _Function) -> _Function:
-        EDITS.append(Edit(function, flags))
-        return function
-
-    return declared
+edit = declared_in(EDITS)
 
 
-@_edit(Flag("--container", help="Fill another container, on that canvas."))
+@edit(Flag("--container", help="Fill another container, on that canvas."))
 def set_container(session: Session, container: Container) -> None:
     """Fill another container, on a canvas as large."""
     from packwork.live.commands.command import named_container
@@ -94,7 +39,7 @@ def set_container(session: Session, container: Container) -> None:
     session.do("set_container", asset=named_container(session.library, container))
 
 
-@_edit(
+@edit(
     Flag("--padding"),
     Flag(
         "--sizes",
@@ -116,13 +61,13 @@ def set(session: Session, /, **options: str | float | Sequence[str]) -> None:
     session.do_together(made(SetOption, name=name, value=value) for name, value in given.items())
 
 
-@_edit(Flag("--remove", "ITEM", "Take items away.", of_many=True))
+@edit(Flag("--remove", "ITEM", "Take items away.", of_many=True))
 def remove(session: Session, which: Which) -> None:
     """Take items away; their neighbours grow into the room."""
     session.do("remove", items=session.find(which))
 
 
-@_edit(Flag("--replace", "ITEM=FILE", "Put another item in an item's place."))
+@edit(Flag("--replace", "ITEM=FILE", "Put another item in an item's place."))
 def replace(session: Session, which: Which, item: Item) -> None:
     """Put another item in an item's place."""
     from packwork.live.commands.command import named_item
@@ -130,13 +75,13 @@ def replace(session: Session, which: Which, item: Item) -> None:
     session.do("replace", item=session.one(which), asset=named_item(session.library, item))
 
 
-@_edit(Flag("--recolor", "ITEM=COLOR", "Give items one colour.", of_many=True))
+@edit(Flag("--recolor", "ITEM=COLOR", "Give items one colour.", of_many=True))
 def recolor(session: Session, which: Which, color: str) -> None:
     """Give items one colour, any CSS colour."""
     session.do("recolour", items=session.find(which), colour=color)
 
 
-@_edit(Flag("--palette"))
+@edit(Flag("--palette"))
 def palette(session: Session, palette: str | Sequence[str] | None, shades: Shades = "tint") -> None:
     """Put the colours of a palette on all items, neighbours unlike ones; None: each its own again.
 
@@ -152,37 +97,37 @@ def palette(session: Session, palette: str | Sequence[str] | None, shades: Shade
     session.do("paint", palette=palette_colours(palette) if palette else (), shades=shades)
 
 
-@_edit(Flag("--background"))
+@edit(Flag("--background"))
 def background(session: Session, color: str) -> None:
     """Have a colour behind all, also in files that are written; ``none`` for none."""
     session.do("background", colour=color)
 
 
-@_edit(Flag("--exchange", "ITEM=ITEM", "Let two items change places."))
+@edit(Flag("--exchange", "ITEM=ITEM", "Let two items change places."))
 def exchange(session: Session, first: Which, second: Which) -> None:
     """Let two items change places."""
     session.do("exchange", first=session.one(first), second=session.one(second))
 
 
-@_edit(Flag("--turn", "ITEM=DEGREES", "Turn an item to that angle from upright."))
+@edit(Flag("--turn", "ITEM=DEGREES", "Turn an item to that angle from upright."))
 def turn(session: Session, which: Which, degrees: float) -> None:
     """Turn an item to an angle from upright, clockwise."""
     session.do("turn", item=session.one(which), angle=degrees)
 
 
-@_edit(Flag("--flip", "ITEM[=vertical]", "Turn items over, left to right.", of_many=True))
+@edit(Flag("--flip", "ITEM[=vertical]", "Turn items over, left to right.", of_many=True))
 def flip(session: Session, which: Which, direction: Direction = "horizontal") -> None:
     """Turn items over where they are; vertically, what was above is below."""
     session.do("flip", items=session.find(which), direction=direction)
 
 
-@_edit(Flag("--scale", "ITEM=FACTOR", "Make an item so many times as large."))
+@edit(Flag("--scale", "ITEM=FACTOR", "Make an item so many times as large."))
 def scale(session: Session, which: Which, factor: float) -> None:
     """Make an item so many times as large; it then keeps about that size."""
     session.do("scale", item=session.one(which), factor=factor)
 
 
-@_edit(Flag("--move", "ITEM=X,Y", "Put an item's middle there, as owl=50%,120.", "owl=50%,120"))
+@edit(Flag("--move", "ITEM=X,Y", "Put an item's middle there, as owl=50%,120.", "owl=50%,120"))
 def move(session: Session, which: Which, x: Coordinate, y: Coordinate) -> None:
     """Put an item's middle somewhere."""
     from packwork.live.names import length_of
@@ -192,7 +137,7 @@ def move(session: Session, which: Which, x: Coordinate, y: Coordinate) -> None:
     session.do("move", item=session.one(which), **place)
 
 
-@_edit(Flag("--align", "ITEM=EDGE", "Line items up, as leaf*=left.", "leaf*=left", of_many=True))
+@edit(Flag("--align", "ITEM=EDGE", "Line items up, as leaf*=left.", "leaf*=left", of_many=True))
 def align(session: Session, which: Which, to: Edge) -> None:
     """Line items up: ``left``, ``center``, ``right``, ``top``, ``middle`` or ``bottom``.
 
@@ -201,7 +146,7 @@ def align(session: Session, which: Which, to: Edge) -> None:
     session.do("align", items=session.find(which), to=to)
 
 
-@_edit(
+@edit(
     Flag(
         "--distribute",
         "ITEM=WAY",
@@ -215,7 +160,7 @@ def distribute(session: Session, which: Which, direction: Direction) -> None:
     session.do("distribute", items=session.find(which), direction=direction)
 
 
-@_edit(
+@edit(
     Flag(
         "--hold",
         "ITEM[=place,angle,size]",
@@ -238,7 +183,7 @@ def _of(properties: Sequence[Property]) -> dict[str, Any]:
     return {"properties": properties} if properties else {}
 
 
-@_edit(Flag("--add", "FILE[@X,Y]", "Bring an item more, there or where most room is."))
+@edit(Flag("--add", "FILE[@X,Y]", "Bring an item more, there or where most room is."))
 def add(
     session: Session,
     items: Sequence[Item],
@@ -343,7 +288,7 @@ def place_container(
     session.do("place_container", x=x, y=y, factor=factor, angle=angle)
 
 
-@_edit(Flag("--words", help="A text or a table: have its words, with its weights."))
+@edit(Flag("--words", help="A text or a table: have its words, with its weights."))
 def words(session: Session, source: object, **options: Any) -> None:
     """Have the words of another text or table, with its weights.
 
@@ -365,7 +310,7 @@ def words(session: Session, source: object, **options: Any) -> None:
     session.letters = letters
 
 
-@_edit(Flag("-n --count", help="Have so many items: copies come, or go."))
+@edit(Flag("-n --count", help="Have so many items: copies come, or go."))
 def count(session: Session, count: int) -> None:
     """Have so many items: copies of what is least there come, of what is most there go."""
     from packwork.live.macros import counted
@@ -376,7 +321,7 @@ def count(session: Session, count: int) -> None:
     session.do_together(counted(session, int(count)))
 
 
-@_edit(Flag("--cover", "SHARE", "Make all larger or smaller, to cover that."))
+@edit(Flag("--cover", "SHARE", "Make all larger or smaller, to cover that."))
 def cover(session: Session, share: str | float) -> None:
     """Make all larger or smaller, to cover a share of the container: ``.7`` or ``"70%"``."""
     from packwork.units import parse_share
@@ -390,7 +335,7 @@ def cover(session: Session, share: str | float) -> None:
     session.do("cover", share=asked)
 
 
-@_edit(Flag("--arrange"))
+@edit(Flag("--arrange"))
 def arrange(session: Session, way: str, *, seed: int = 0) -> None:
     """Put all anew in an order, as ``outwards by=weight``; what is held stays.
 
@@ -401,7 +346,7 @@ def arrange(session: Session, way: str, *, seed: int = 0) -> None:
     session.apply(poured_again(session.document, seed, arrange=way))
 
 
-@_edit(Flag("--embeddings"), Flag("--anchors", is_repeated=True))
+@edit(Flag("--embeddings"), Flag("--anchors", is_repeated=True))
 def embeddings(
     session: Session, source: str, anchors: Sequence[str] = (), *, seed: int = 0
 ) -> None:
@@ -411,7 +356,7 @@ def embeddings(
     session.apply(poured_again(session.document, seed, embeddings=source, anchors=anchors))
 
 
-@_edit(Flag("--picture", help="Show a picture: each item takes on its colour there."))
+@edit(Flag("--picture", help="Show a picture: each item takes on its colour there."))
 def picture(session: Session, source: str) -> None:
     """Give each item the colour of a picture under it; photographs keep theirs."""
     from packwork.live.macros import showing

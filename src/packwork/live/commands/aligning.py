@@ -59,7 +59,7 @@ class Align(LineUp):
     def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
         """At the outermost edge, or about the middle."""
         leads = is_held if is_held.any() else ~is_held
-        first, last = low[leads].min(), high[leads].max()
+        first, last = float(low[leads].min()), float(high[leads].max())
         if self.to in {"left", "top"}:
             return np.full_like(low, first)
         if self.to in {"right", "bottom"}:
