@@ -587,3 +587,29 @@ def test_items_are_put_in_an_order_and_by_a_table(
     )
     desk.settled()
     desk.picture("alike")
+
+
+def test_what_is_drawn_anew_while_dragging_is_all_that_has_changed(browser: Any) -> None:
+    server = Server("heart", "builtin:icons", "-n", "150").start()
+    desk = Desk(browser.new_page(viewport=WIDE), server.address)
+    desk.settled()
+    start, end = desk.place(0), desk.place(75)
+    desk.page.mouse.move(*start)
+    desk.page.mouse.down()
+    for step in range(40):
+        share = step / 39
+        desk.page.mouse.move(*(a + share * (b - a) for a, b in zip(start, end, strict=True)))
+        desk.page.wait_for_timeout(15)
+    off, was_partial = desk.look(
+        "(() => { const { stage, canvas } = studio; const seen = () => stage.pen.getImageData(0, 0,"
+        " canvas.width, canvas.height).data; stage.draw(true); const now = seen();"
+        " const { region } = stage.backdrop; stage.backdrop.key = []; stage.draw(true);"
+        " const anew = seen(); return [now.filter((value, k) => Math.abs(value - anew[k]) > 90)"
+        ".length / now.length, region !== null]; })()"
+    )
+    desk.page.mouse.up()
+    desk.settled()
+    assert was_partial
+    assert off < 1e-3
+    desk.page.close()
+    server.stop()

@@ -24,6 +24,10 @@ export class Backdrop {
     this.still = new Uint8Array(0);
     /** Which items are not in the picture. */
     this.loose = new Uint8Array(0);
+    /** Where each is in it. */
+    this.drawn = new Float32Array(0);
+    /** Part of it that is stale, canvas units: left, top, right, bottom; all of it unless one is told. @type {number[] | null} */
+    this.region = null;
   }
 
   /**
@@ -76,6 +80,8 @@ export class Backdrop {
    */
   loosen(moved, isMoving) {
     const { items, shown, hand } = this.collage;
+    const before = this.loose.slice();
+    this.region = null;
     for (let k = 0; k < items.length; k++) this.loose[k] = Number(isMoving && this.still[k] < QUIET);
     if (!isMoving) {
       this.still.fill(QUIET);
@@ -90,6 +96,38 @@ export class Backdrop {
         if (isNear) this.loose[k] = 1;
       }
     }
+    if (this.picture && this.isWhole && this.drawn.length === shown.length) this.region = this.changed(before);
+  }
+
+  /**
+   * Box about the items that are in the picture and no longer are to be, or the other way round.
+   * @param {Uint8Array} before which were not in it
+   */
+  changed(before) {
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    this.collage.items.forEach((item, k) => {
+      if (before[k] === this.loose[k]) return;
+      const [x, y, , scale] = (this.loose[k] ? this.drawn : this.collage.shown).subarray(4 * k, 4 * k + 4);
+      const reach = scale * (this.collage.looks.get(item.shape)?.extent ?? 1);
+      [x - reach, y - reach].forEach((value, axis) => (box[axis] = Math.min(box[axis], value)));
+      [x + reach, y + reach].forEach((value, axis) => (box[axis + 2] = Math.max(box[axis + 2], value)));
+    });
+    return box;
+  }
+
+  /** Whether an item is to be in the stale part of the picture. @param {number} k */
+  isStale(k) {
+    if (this.loose[k]) return false;
+    const { items, looks, shown } = this.collage;
+    const [x, y, , scale] = shown.subarray(4 * k, 4 * k + 4);
+    const [reach, box] = [scale * (looks.get(items[k].shape)?.extent ?? 1), this.region];
+    return !box || (x + reach > box[0] && y + reach > box[1] && x - reach < box[2] && y - reach < box[3]);
+  }
+
+  /** Note that the picture shows what is to be in it. @param {boolean} isWhole */
+  done(isWhole) {
+    this.isWhole = isWhole;
+    this.drawn = this.collage.shown.slice();
   }
 
   /**

@@ -2,7 +2,7 @@
 /** Drawings of items as pictures of a few sizes, made when they are first needed. */
 
 /** @typedef {import("./collage.js").Look} Look */
-/** @typedef {OffscreenCanvas | HTMLCanvasElement} Sprite */
+/** @typedef {ImageBitmap} Sprite never changed: what can be is copied each time it is drawn */
 
 /** Longer side of the smallest and largest picture, px. */
 const SMALLEST = 32;
@@ -72,7 +72,7 @@ export class Sprites {
       pen.fillStyle = look.fill;
       pen.fill(/** @type {Path2D} */ (look.inkPath), "evenodd");
     }
-    return sprite;
+    return sprite.transferToImageBitmap();
   }
 
   /**

@@ -32,7 +32,7 @@ export class Stage {
   constructor(canvas, collage, view, sprites, choice) {
     this.canvas = canvas;
     /** @type {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} */
-    this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { alpha: false }));
     this.backdrop = new Backdrop(collage);
     this.collage = collage;
     this.view = view;
@@ -83,6 +83,7 @@ export class Stage {
       if (found === "stale") this.drawBackdrop(width, height);
       this.pen.resetTransform();
       this.pen.drawImage(/** @type {OffscreenCanvas} */ (backdrop.picture), 0, 0);
+      this.pen.imageSmoothingQuality = "low";
       if (isMoving) this.drawItems((k) => backdrop.loose[k] === 1);
     }
     this.drawMarks();
@@ -98,9 +99,20 @@ export class Stage {
     const { backdrop, pen, sprites } = this;
     this.pen = backdrop.pen(width, height);
     sprites.lacks = false;
-    this.drawGround((k) => !backdrop.loose[k], false);
+    this.pen.save();
+    if (backdrop.region) this.clip(backdrop.region);
+    this.drawGround((k) => backdrop.isStale(k), false);
+    this.pen.restore();
     this.pen = pen;
-    backdrop.isWhole = !sprites.lacks;
+    backdrop.done(!sprites.lacks);
+  }
+
+  /** Have nothing drawn but in a box. @param {number[]} box canvas units */
+  clip([left, top, right, bottom]) {
+    const path = new Path2D();
+    path.rect(left, top, right - left, bottom - top);
+    this.toCanvas();
+    this.pen.clip(path);
   }
 
   /**
