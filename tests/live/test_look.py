@@ -9,6 +9,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.live.face.exporting import check, layout_bytes
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.readers.builtin import icon_names
@@ -88,3 +89,16 @@ def test_what_is_no_colour_is_refused(drawn: pw.Layout) -> None:
         session.background("mud")
     session.background("none")
     assert session.layout.ground == ""
+
+
+def test_a_file_with_a_free_edge_holds_the_same_layout(drawn: pw.Layout, tmp_path: Path) -> None:
+    side = drawn.container.side
+    (tmp_path / "a.svg").write_bytes(layout_bytes(drawn, "svg", {"margin": "5%"}))
+    found = pw.Layout.load(tmp_path / "a.svg")
+    assert found.container.width == pytest.approx(drawn.container.width + 0.1 * side)
+    assert found.poses.x == pytest.approx(drawn.poses.x + 0.05 * side, abs=1e-3)
+    assert found.edit().settle().certified
+    for wrong in ("wide", "-1%", 7, True):
+        with pytest.raises(RecipeError, match="margin"):
+            check("png", {"margin": wrong})
+    check("film.gif", {"loop": "false"})

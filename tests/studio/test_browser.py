@@ -206,18 +206,24 @@ def test_an_export_is_shown_as_it_will_be(open_desk: Callable[..., Desk]) -> Non
         drawn.drawImage(image, 0, 0);
         return [...drawn.getImageData(2, made.height - 3, 1, 1).data].join(" ");
     })()"""
-    desk.until(f"{corner} === '255 255 255 255'")
+    desk.until(f"{corner} === '0 0 0 0'")
     desk.page.locator("dialog.export input[value=png]").check()
+    desk.until(f"{corner} === '255 255 255 255'")
     desk.page.get_by_label("Black").click()
     desk.until(f"{corner} === '23 23 23 255'")
     desk.page.get_by_label("Transparent").click()
     desk.until(f"{corner} === '0 0 0 0'")
     desk.page.get_by_label("Size by name").select_option("A3, 300 dpi")
+    desk.page.get_by_label("Free edge").select_option("5%")
     with desk.page.expect_download() as waiting:
         desk.page.locator("dialog.export button[type=submit]").click()
     with Image.open(waiting.value.path()) as made:
         assert max(made.size) == 4961
         assert made.getpixel((2, made.height - 3))[3] == 0
+        left, top, right, bottom = made.getbbox()
+        edge = 0.05 / 1.1 * 4961
+        assert min(left, top, made.width - right, made.height - bottom) > 0.98 * edge
+        assert min(left, top, made.width - right, made.height - bottom) < 1.2 * edge
 
 
 def test_files_are_brought_and_what_fails_is_a_line(

@@ -164,7 +164,28 @@ def on_canvas(container: Container, size: CanvasSize | None) -> Container:
         width, height = size.width, size.height
         scale = min(width / container.width, height / container.height)
     x, y = (width - container.width * scale) / 2, (height - container.height * scale) / 2
-    place = affine.similarity(x, y, 0.0, scale)
+    return _mapped(container, affine.similarity(x, y, 0.0, scale), width, height, size.unit)
+
+
+def with_margin(container: Container, margin: float) -> Container:
+    """Container on a canvas with a free edge all round, canvas units.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Container("tile", "tile", Outline.box(0.0, 0.0, 4.0, 3.0), 4.0, 3.0)
+    >>> wide = with_margin(tile, 1.0)
+    >>> wide.width, wide.height, wide.outline.bounds
+    (6.0, 5.0, (1.0, 1.0, 5.0, 4.0))
+    """
+    width, height = container.width + 2 * margin, container.height + 2 * margin
+    place = affine.similarity(margin, margin, 0.0, 1.0)
+    return _mapped(container, place, width, height, container.unit)
+
+
+def _mapped(
+    container: Container, place: FloatArray, width: float, height: float, unit: Unit
+) -> Container:
     behind = container.backdrop
     if behind is not None:
         behind = replace(behind, matrix=affine.compose(place, behind.matrix))
@@ -173,7 +194,7 @@ def on_canvas(container: Container, size: CanvasSize | None) -> Container:
         walls = tuple(affine.apply(place, line) for line in walls)
     return replace(
         container, outline=container.outline.mapped(place), width=width, height=height,
-        unit=size.unit, backdrop=behind, walls=walls,
+        unit=unit, backdrop=behind, walls=walls,
     )  # fmt: skip
 
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
+from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.scene.container import Container
+from packwork.scene.container import Container, with_margin
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.scene.track import Leaving, Track
@@ -100,6 +101,15 @@ class Layout:
         """Area of each item in place, squared canvas units."""
         own = np.array([item.outline.area for item in self.items])
         return np.asarray(own * self.poses.scale**2)
+
+
+def framed(layout: Layout, margin: float) -> Layout:
+    """Layout on a canvas with a free edge all round, canvas units; without its film."""
+    place = affine.similarity(margin, margin, 0.0, 1.0)
+    notes = (replace(one, matrix=affine.compose(place, one.matrix)) for one in layout.notes)
+    poses = replace(layout.poses, x=layout.poses.x + margin, y=layout.poses.y + margin)
+    container = with_margin(layout.container, margin)
+    return replace(layout, container=container, poses=poses, notes=tuple(notes), track=None)
 
 
 def ground_in(manifest: Mapping[str, Any]) -> str:

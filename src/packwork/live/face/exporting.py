@@ -18,8 +18,9 @@ from packwork.live.file.things import Things
 from packwork.live.history import SessionState
 from packwork.live.session import Session
 from packwork.recipe.verbs import film_options
-from packwork.scene.layout import Layout
+from packwork.scene.layout import Layout, framed
 from packwork.temporary import TemporaryFolder
+from packwork.units import parse_share
 from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.registry import check_extra
@@ -66,11 +67,20 @@ LINES = (
 def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
     """A layout in a format.
 
-    ``kind``: one of :data:`FORMATS`.
+    Parameters
+    ----------
+    kind
+        One of :data:`FORMATS`.
+    options
+        Of drawings, as on the command line, and ``margin``: a free edge all round, as a share of
+        the canvas' longer side.
     """
     if kind not in FORMATS:
         raise WriteError(kind[:20], f"is no format; use one of {', '.join(FORMATS)}")
-    return encoded(layout, f"layout.{kind}", _drawing(options))
+    drawing, margin = _drawing(options), _margin(options)
+    if margin:
+        layout = framed(layout, margin * layout.container.side)
+    return encoded(layout, f"layout.{kind}", drawing)
 
 
 def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
@@ -94,6 +104,7 @@ def check(kind: str, options: Mapping[str, Any]) -> None:
         _filming(options)
     else:
         _drawing(options)
+        _margin(options)
 
 
 def _filming(options: Mapping[str, Any]) -> tuple[FilmOptions, str, bool]:
@@ -134,11 +145,18 @@ def recipe_zip(document: Document, name: str) -> bytes:
 def _drawing(options: Mapping[str, Any]) -> WriteOptions:
     """Options of drawings, or a refusal that names the first that is wrong."""
     try:
-        return write_options(**options)
+        return write_options(**{k: v for k, v in options.items() if k != "margin"})
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         key = ".".join(str(part) for part in first["loc"])
         raise RecipeError(key[:40], first["msg"]) from None
+
+
+def _margin(options: Mapping[str, Any]) -> float:
+    margin = parse_share(options.get("margin", 0.0))
+    if isinstance(margin, bool) or not isinstance(margin, int | float) or not 0 <= margin <= 1:
+        raise RecipeError("margin", f"must be a share from 0 to 100%, not {str(margin)[:40]!r}")
+    return float(margin)
 
 
 def kept_bytes(kept: SessionState) -> bytes:

@@ -8,17 +8,17 @@ import { tell } from "./toasts.js";
 /** @typedef {import("./connection.js").Connection} Connection */
 /** @typedef {import("./collage.js").Collage} Collage */
 
-const FILMED = /** @type {const} */ (["seconds", "film_pixels", "background", "show_container"]);
+const FILMED = /** @type {const} */ (["seconds", "film_pixels", "loop", "background", "show_container"]);
 
 /** Formats: ending, name, what it is for, which options it has. */
 const FORMATS = /** @type {const} */ ([
-  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "show_container", "text", "flatten"]],
-  ["pdf", "PDF", "for printing", ["background", "show_container", "bleed"]],
-  ["png", "PNG", "a picture", ["pixels", "background", "show_container"]],
+  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "margin", "show_container", "text", "flatten"]],
+  ["pdf", "PDF", "for printing", ["background", "margin", "show_container", "bleed"]],
+  ["png", "PNG", "a picture", ["pixels", "background", "margin", "show_container"]],
   ["packwork", "Session", "all of it, with all that undo leads to", []],
-  ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "show_container"]],
-  ["webp", "WebP", "a small picture for the web", ["pixels", "background", "show_container"]],
-  ["tif", "TIFF", "a picture for printers", ["pixels", "background", "show_container"]],
+  ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "margin", "show_container"]],
+  ["webp", "WebP", "a small picture for the web", ["pixels", "background", "margin", "show_container"]],
+  ["tif", "TIFF", "a picture for printers", ["pixels", "background", "margin", "show_container"]],
   ["dxf", "DXF", "for cutters and CAD, in mm", []],
   ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
   ["recipe", "Recipe", "a folder to run again, from the command line or Python", ["lines"]],
@@ -26,6 +26,9 @@ const FORMATS = /** @type {const} */ ([
   ["film.mp4", "Film, MP4", "the same, for players and posts", FILMED],
   ["film.svg", "Film, SVG", "the same, sharp at any size", FILMED],
 ]);
+
+/** Those on nothing, where no background is asked for. */
+const CLEAR = new Set(["svg", "pdf"]);
 
 /** How many of them stand first; the others are a press away. */
 const FIRST = 4;
@@ -35,6 +38,9 @@ const SIZES = /** @type {const} */ ([
   ["for the screen", 2400], ["Instagram, square", 1080], ["Story, 9 : 16", 1920], ["4K", 3840],
   ["A5, 300 dpi", 2480], ["A4, 300 dpi", 3508], ["A3, 300 dpi", 4961],
 ]);
+
+/** Free edges all round, as shares of the longer side. */
+const MARGINS = /** @type {const} */ ([["", "none"], ["2%", "narrow"], ["5%", "as of a print"], ["12%", "as of a passe-partout"]]);
 
 /** Longer side of the preview, in pixels; how long the form has to be still for a new one. */
 const PREVIEW = 900, STILL_MS = 350;
@@ -75,7 +81,9 @@ export class Exporting {
   choose(kind) {
     this.kind = kind;
     const options = FORMATS.find(([ending]) => ending === kind)?.[3] ?? [];
-    this.fields.replaceChildren(...options.map((name) => FIELDS[name]()));
+    // Places of parts on a sheet are a machine's.
+    const shown = options.filter((name) => name !== "margin" || this.collage.scene?.kind !== "nest");
+    this.fields.replaceChildren(...shown.map((name) => FIELDS[name]()));
     this.changed();
   }
 
@@ -87,8 +95,10 @@ export class Exporting {
 
   async show() {
     const asked = ++this.asked;
-    const { background = null, show_container = null } = /** @type {Record<string, any>} */ (this.options);
-    const options = Object.fromEntries(Object.entries({ background, show_container, pixels: PREVIEW }).filter(([, value]) => value !== null));
+    // What is drawn on nothing, where no background is asked for, is shown so.
+    const isClear = CLEAR.has(this.kind) && !this.collage.scene?.ground;
+    const { background = isClear ? "none" : null, show_container = null, margin = null } = /** @type {Record<string, any>} */ (this.options);
+    const options = Object.fromEntries(Object.entries({ background, show_container, margin, pixels: PREVIEW }).filter(([, value]) => value !== null));
     this.dialog.setAttribute("aria-busy", "true");
     const made = await this.make("png", options).catch(() => null);
     if (asked !== this.asked) return;
@@ -179,6 +189,8 @@ const FIELDS = {
   lines: () => h("p", { class: "note" }, "In the folder: ", h("code", {}, "packwork run recipe.toml -o collage.svg"), ", or in Python: ", h("code", {}, 'packwork.run("recipe.toml").save("collage.svg")')),
   pixels: sizes,
   background: ground,
+  margin: () => h("label", {}, "Free edge", h("select", { name: "margin" }, ...MARGINS.map(([value, label]) => h("option", { value }, label)))),
+  loop: () => h("label", {}, "At its end", h("select", { name: "loop" }, h("option", { value: "true" }, "it begins again"), h("option", { value: "false" }, "it stays"))),
   show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),
   flatten: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "flatten" }), "Repeat drawings in place, for tools that choke on <use>"),
   bleed: () => h("label", {}, "Bleed", h("input", { type: "text", name: "bleed", placeholder: "3mm" })),
