@@ -22,7 +22,8 @@ from packwork.live.session import Session
 from packwork.metrics.violations import violations
 from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.photos import read_photos
-from packwork.scene.item import PhotoArt, mirrored
+from packwork.scene.item import PhotoArt
+from packwork.scene.mapped import mirrored
 
 Same = Callable[[pw.Poses, pw.Poses], bool]
 

@@ -147,6 +147,7 @@ class Session(LiveSession):
     exchange = edits.exchange
     align = edits.align
     distribute = edits.distribute
+    crop = edits.crop
     hold = edits.hold
     release = edits.release
     remove = edits.remove

@@ -103,6 +103,12 @@ def background(session: Session, color: str) -> None:
     session.do("background", colour=color)
 
 
+@edit(Flag("--crop", "ITEM=ZOOM[,X,Y]", "Enlarge a photograph in its frame.", "pier=1.5,.2,0"))
+def crop(session: Session, which: Which, zoom: float, x: float = 0.0, y: float = 0.0) -> None:
+    """Enlarge a photograph in its frame, and move it by shares of the frame; 1 shows all of it."""
+    session.do("crop", item=session.one(which), zoom=zoom, x=x, y=y)
+
+
 @edit(Flag("--exchange", "ITEM=ITEM", "Let two items change places."))
 def exchange(session: Session, first: Which, second: Which) -> None:
     """Let two items change places."""

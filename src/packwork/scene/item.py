@@ -5,15 +5,12 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any, Protocol, TypeAlias
 from urllib.parse import urlsplit
 
-import shapely
-
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
-from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline, OutlineLike
 
@@ -226,26 +223,27 @@ class PhotoArt:
 
     ``preview``: the small copy, for screens.
     ``original``: where a writer gets as many pixels as the print needs.
+    ``crop``: how much of it the frame shows; None for all.
     """
 
     preview: VectorArt
     original: Original
+    crop: Crop | None = None
 
 
 @dataclass(frozen=True, eq=False)
-class MappedOriginal:
-    """A photograph on disk in other item units, opened anew each time it is printed.
+class Crop:
+    """Part of a photograph that its frame shows.
 
-    ``matrix``: 2 x 3 map from the item units of ``original``.
+    ``whole``: the photograph as it was before.
+    ``zoom``: how many times as large it is in its frame, 1 at least.
+    ``x``, ``y``: of its middle from the frame's, in widths and heights of the frame.
     """
 
-    original: Original
-    matrix: FloatArray
-
-    def printed(self, px_per_unit: float) -> VectorArt:
-        """The photograph with that many pixels per item unit before it was mapped."""
-        art = self.original.printed(px_per_unit)
-        return replace(art, matrix=affine.compose(self.matrix, art.matrix))
+    whole: PhotoArt
+    zoom: float
+    x: float
+    y: float
 
 
 Art: TypeAlias = FlatArt | VectorArt | PictureArt | PhotoArt
@@ -345,37 +343,6 @@ class Item:
         )  # fmt: skip
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
-
-
-def mirrored(item: Item) -> Item:
-    """The item turned over, left to right about its origin; what it says is curves then.
-
-    >>> flag = Item("flag", outline=[(-1, -1), (2, -1), (-1, 2)])
-    >>> mirrored(flag).outline.bounds
-    (-2.0, -1.0, 1.0, 2.0)
-    """
-    turned = affine.mirrored()
-
-    def over(outline: Outline) -> Outline:
-        return Outline.of(
-            shapely.transform(outline.region, lambda points: affine.apply(turned, points))
-        )
-
-    outline = over(item.outline)
-    ink = outline if item.ink is item.outline else over(item.ink)
-    art, own = mapped_art(item.art, turned), item.own_art
-    own = None if own is None else mapped_art(own, turned)
-    return replace(item, outline=outline, ink=ink, art=art, text=None, own_art=own)
-
-
-def mapped_art(art: Art, matrix: FloatArray) -> Art:
-    """A drawing in other item units, by their 2 x 3 map; a colour as it is."""
-    if isinstance(art, FlatArt):
-        return art
-    if isinstance(art, PhotoArt):
-        preview = replace(art.preview, matrix=affine.compose(matrix, art.preview.matrix))
-        return PhotoArt(preview, MappedOriginal(art.original, matrix))
-    return replace(art, matrix=affine.compose(matrix, art.matrix))
 
 
 def _known_colour(text: str) -> str:

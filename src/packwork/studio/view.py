@@ -15,7 +15,7 @@ from packwork.live.kinds import COLLAGE, Kind
 from packwork.live.notes import Attached
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
-from packwork.scene.item import Item
+from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import ground_in
 from packwork.scene.pose import Poses
 from packwork.studio.wire import Drawn, LeftOut, Scene, Shape, Thing
@@ -180,6 +180,7 @@ class Scenes:
             count=counted(item),
             is_word=item.text is not None,
             held=(place, angle, size),
+            crop=_crop_of(item.art),
         )
 
     def _drawing(self, item: Item) -> Drawing:
@@ -195,6 +196,12 @@ class Scenes:
             path = path_of(container.outline, INK_FINENESS)
             self._outline = (container, path)
         return self._outline[1]
+
+
+def _crop_of(art: Art) -> tuple[float, float, float] | None:
+    if not isinstance(art, PhotoArt):
+        return None
+    return (1.0, 0.0, 0.0) if art.crop is None else (art.crop.zoom, art.crop.x, art.crop.y)
 
 
 def left_out_of(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:

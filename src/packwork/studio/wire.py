@@ -38,6 +38,8 @@ class Shape(Message):
     fill: str
     ink: str
     svg: str
+    whole: str
+    """Of a cropped photograph all of it, as ``svg``; else empty."""
 
 
 class Shapes(Message):
@@ -59,6 +61,8 @@ class Thing(Message):
     stretch: float
     is_word: bool
     held: tuple[bool, bool, bool]
+    crop: tuple[float, float, float] | None
+    """Zoom, x and y of a photograph in its frame; None of what is none."""
 
 
 class Drawn(Message):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass, replace
+from typing import cast
 
 import shapely
 
@@ -10,9 +12,19 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered, intersection, polygon_parts
+from packwork.geometry.overlay import buffered, difference, intersection, polygon_parts
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.scene.item import Art, FlatArt, Item, Original, PhotoArt, PictureArt, VectorArt
+from packwork.scene.item import (
+    Art,
+    Crop,
+    FlatArt,
+    Item,
+    Original,
+    PhotoArt,
+    PictureArt,
+    VectorArt,
+)
+from packwork.scene.mapped import mapped_art
 
 PART = 0.05
 """Share of an item below which a part that is cut off from the rest is left out. Larger leaves
@@ -141,6 +153,49 @@ def _seen_through(
     return replace(
         item, outline=outline.mapped(window.place), ink=ink.mapped(window.place), art=art
     )
+
+
+NOTHING = 1e-9
+"""Share of a frame that may be bare and is not seen. Derived: rounding."""
+
+
+def cropped(art: PhotoArt, frame: Outline, zoom: float, x: float, y: float) -> PhotoArt:
+    """A photograph enlarged in its frame and moved, no farther than it still fills it.
+
+    ``zoom``, ``x``, ``y``: as those of a :class:`~packwork.scene.item.Crop`, of the whole of it.
+    """
+    whole = art if art.crop is None else art.crop.whole
+    if zoom <= 1.0:
+        return whole
+    left, top, right, bottom = frame.bounds
+    width, height = right - left, bottom - top
+
+    def moved(share: float) -> FloatArray:
+        across = (1.0 - zoom) * (left + right) / 2.0 + share * x * width
+        down = (1.0 - zoom) * (top + bottom) / 2.0 + share * y * height
+        return affine.similarity(across, down, 0.0, zoom)
+
+    def fills(share: float) -> bool:
+        bare = difference(frame.region, frame.mapped(moved(share)).region)
+        return bool(bare.area <= NOTHING * width * height)
+
+    low, high = 0.0, 1.0
+    if fills(1.0):
+        low = 1.0
+    else:
+        for _ in range(30):
+            middle = (low + high) / 2.0
+            low, high = (middle, high) if fills(middle) else (low, middle)
+    drawn = cast(PhotoArt, mapped_art(whole, moved(low)))
+    rings = "".join(
+        "M" + " ".join(f"{v:.9g}" for v in ring.ravel().tolist()) + "Z" for ring in frame.rings
+    )
+    clip = f'<path clip-rule="evenodd" d="{rings}"/>'
+    told = f"{whole.preview.markup}{rings}{zoom!r} {x!r} {y!r}".encode()
+    name = f"crop-{hashlib.sha256(told).hexdigest()[:12]}"
+    window = Window(name, clip, affine.similarity(0.0, 0.0, 0.0, 1.0), is_traced=False)
+    original = CutOriginal(drawn.original, window)
+    return PhotoArt(window.over(drawn.preview), original, Crop(whole, zoom, low * x, low * y))
 
 
 def _cut_line(region: Region, share: float) -> float:

@@ -22,8 +22,9 @@ from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.scene.container import Container
-from packwork.scene.item import Item, mirrored
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.mapped import mirrored
 from packwork.scene.pose import Poses
 from packwork.separation.shapes import Floats
 from packwork.units import Unit

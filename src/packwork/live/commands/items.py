@@ -30,7 +30,8 @@ from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.colour import hex_colour, parse_colour
-from packwork.scene.item import MAX_LENGTH, Item, Label, mirrored
+from packwork.scene.item import MAX_LENGTH, Item, Label
+from packwork.scene.mapped import mirrored
 from packwork.scene.pose import Poses
 from packwork.scene.recolour import recoloured, with_own_art
 

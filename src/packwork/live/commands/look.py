@@ -1,4 +1,4 @@
-"""Commands that change how all of a layout looks, and move nothing."""
+"""Commands that change how a layout looks, and move nothing."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from packwork.live.commands.command import Command, Library
+from packwork.errors import RecipeError
+from packwork.live.commands.command import Command, ItemId, Library, Number, index_of
 from packwork.live.document import Document
 from packwork.live.file.records import Text
 from packwork.recipe.pictures import Shades, known_palette
@@ -16,6 +17,7 @@ from packwork.scene.item import Item, PhotoArt
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, in_own_colours, with_own_art
 from packwork.steps.appearance import given_out
+from packwork.uses.cutting import cropped
 from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
 
@@ -75,3 +77,27 @@ class Background(Command):
         channels = parse_colour("background", self.colour or "none")
         ground = hex_colour(channels) if channels[3] else ""
         return replace(document, manifest={**document.manifest, "ground": ground})
+
+
+class CropPhoto(Command):
+    """Enlarge a photograph in its frame and move it there; the frame stays as it is."""
+
+    kind: Literal["crop"] = "crop"
+    item: ItemId
+    zoom: Annotated[Number, Field(ge=1, le=20)]
+    """How many times as large as it was at first; 1 shows all of it."""
+    x: Annotated[Number, Field(ge=-20, le=20)] = 0.0
+    """Of its middle from the frame's, in widths of the frame; no farther than it fills it."""
+    y: Annotated[Number, Field(ge=-20, le=20)] = 0.0
+    """As above, in heights."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the photograph so."""
+        k = index_of(document, self.item, "crop")
+        items = list(document.items)
+        art = items[k].art
+        if not isinstance(art, PhotoArt):
+            raise RecipeError("crop", f"is for photographs, and {items[k].name} is a drawing")
+        made = cropped(art, items[k].outline, self.zoom, self.x, self.y)
+        items[k] = replace(items[k], art=made)
+        return replace(document, items=tuple(items))

@@ -28,7 +28,7 @@ from packwork.live.commands.items import (
     Replace,
     Weigh,
 )
-from packwork.live.commands.look import Background, Paint
+from packwork.live.commands.look import Background, CropPhoto, Paint
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
 
@@ -37,7 +37,7 @@ SingleCommand: TypeAlias = Annotated[
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
     | SetContainer | Reshape | PlaceContainer | SetOption | Entitle
-    | Paint | Background | DrawContainer,
+    | Paint | CropPhoto | Background | DrawContainer,
     Field(discriminator="kind"),
 ]  # fmt: skip
 """Any command that is one edit by itself."""

@@ -30,7 +30,7 @@ from packwork.readers.tables.table import read_table
 from packwork.recipe import Recipe
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
-from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.notation import decimals, matrix_text, path_data
 from packwork.scene.palette import PALETTES
 
@@ -221,6 +221,8 @@ class Drawing:
         What is drawn, as path data; empty where ``svg`` tells.
     svg
         A whole document, cleaned, of the size of ``box``; empty where the ink in one colour is all.
+    whole
+        As ``svg``, all of a photograph that is cropped; else empty.
     """
 
     key: str
@@ -230,6 +232,7 @@ class Drawing:
     fill: str
     ink: str
     svg: str
+    whole: str = ""
 
 
 def drawing_of(item: Item) -> Drawing:
@@ -247,16 +250,20 @@ def drawing_of(item: Item) -> Drawing:
     edge = MARGIN * max(right - left, bottom - top)
     box = (left - edge, top - edge, right + edge, bottom + edge)
     art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
+    crop = item.art.crop if isinstance(item.art, PhotoArt) else None
     fill = ink = svg = ""
     if isinstance(art, FlatArt):
         fill, ink = _seen(art.fill), path_of(item.ink, INK_FINENESS)
     else:
-        svg = _document(f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g>', box)
+        svg = _drawn(art, box)
+    whole = "" if crop is None else _drawn(crop.whole.preview, box)
     parts = "\0".join((outline, fill, ink, svg)).encode()
     key = hashlib.sha256(parts).hexdigest()[:24]
     x0, y0, x1, y1 = item.outline.bounds
     size = (x1 - x0, y1 - y0)
-    return Drawing(key=key, outline=outline, size=size, box=box, fill=fill, ink=ink, svg=svg)
+    return Drawing(
+        key=key, outline=outline, size=size, box=box, fill=fill, ink=ink, svg=svg, whole=whole
+    )
 
 
 def path_of(outline: Outline, fineness: float) -> str:
@@ -275,6 +282,10 @@ def path_of(outline: Outline, fineness: float) -> str:
 
 def _seen(colour: str) -> str:
     return "#" + "".join(f"{channel:02x}" for channel in css_colour(colour))
+
+
+def _drawn(art: VectorArt | PictureArt, box: tuple[float, float, float, float]) -> str:
+    return _document(f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g>', box)
 
 
 def _document(inside: str, box: tuple[float, float, float, float]) -> str:

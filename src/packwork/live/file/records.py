@@ -138,6 +138,8 @@ class PhotoRecord(Options):
     kind: Literal["photo"] = "photo"
     preview: VectorRecord
     printed: VectorRecord
+    crop: tuple[Number, Number, Number] | None = None
+    """Zoom, x and y in its frame, of a photograph of which a part is seen."""
 
 
 ArtRecord: TypeAlias = Annotated[

@@ -38,6 +38,7 @@ from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.scene.colour import css_colour
 from packwork.scene.item import Art, FlatArt, LineArt, PhotoArt, PictureArt, VectorArt
+from packwork.uses.cutting import cropped
 
 LINES_OFF = 1e-4
 """How far lines for a machine may lie beyond their part's outline, as a share of its extent."""
@@ -138,14 +139,18 @@ def art_record(art: Art, extent: float) -> ArtRecord:
 
 def photo_record(art: PhotoArt, extent: float) -> PhotoRecord:
     """A photograph as plain values, its large copy no larger than the gate lets pass."""
-    share = min(1.0, LONGEST_PRINT / extent)
+    share, crop = min(1.0, LONGEST_PRINT / extent), None
+    if (part := art.crop) is not None:
+        art, crop = part.whole, (part.zoom, part.x, part.y)
     printed = art.original.printed(share)
     for _ in range(HALVES):
         if len(printed.markup) < MAX_BYTES - 1_000:
             break
         share /= 2
         printed = art.original.printed(share)
-    return PhotoRecord(preview=_vector_record(art.preview), printed=_vector_record(printed))
+    return PhotoRecord(
+        preview=_vector_record(art.preview), printed=_vector_record(printed), crop=crop
+    )
 
 
 def art_of(record: ArtRecord, outline: Outline) -> Art:
@@ -160,7 +165,8 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
     if isinstance(record, VectorRecord):
         return _vector_of(record)
     if isinstance(record, PhotoRecord):
-        return photo_of(record)
+        photo = photo_of(record)
+        return photo if record.crop is None else cropped(photo, outline, *record.crop)
     png = bytes_of(record.png)
     with opened(png) as image:
         if image.format != "PNG" or image.size != (record.width, record.height):

@@ -76,6 +76,7 @@ function items(studio) {
     { id: "inspect", group: "Items", label: "Its numbers: place, size and angle", keys: ["I"], icon: "options", when, run: () => studio.inspect() },
     { id: "flip", group: "Items", label: "Flip left and right", keys: ["Shift+F"], icon: "flip", when, run: () => studio.flip("horizontal") },
     { id: "flip-down", group: "Items", label: "Flip top and bottom", keys: ["Shift+V"], icon: "flipDown", when, run: () => studio.flip("vertical") },
+    { id: "crop", group: "Items", label: "Move the photograph in its frame, or keep it", keys: ["Enter"], icon: "crop", when: () => studio.crops, run: () => studio.crop() },
     { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
     { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: orders, run: () => studio.dropping.choosePicture() },
     { id: "order", group: "Items", label: "Put them in an order …", keys: ["O"], when: orders, run: () => studio.ordering.open() },

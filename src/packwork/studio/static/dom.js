@@ -26,6 +26,7 @@ const ICONS = {
   bottom: "M4 20h16M7 4v12h3V4zM14 9v7h3V9z",
   across: "M4 4v16M20 4v16M10.500 7h3v10h-3z",
   down2: "M4 4h16M4 20h16M7 10.500h10v3H7z",
+  crop: "M6 2v16h16M2 6h16v16",
   flip: "M12 3v18M9 7v10H3zM15 7v10h6z",
   flipDown: "M3 12h18M7 9h10V3zM7 15h10v6z",
   items: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",

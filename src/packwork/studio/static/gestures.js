@@ -51,6 +51,7 @@ export class Gestures {
     canvas.addEventListener("pointercancel", (event) => this.up(event));
     canvas.addEventListener("pointerleave", () => this.hover(null));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    canvas.addEventListener("dblclick", (event) => this.stage.cropping?.begin(this.stage.itemAt(event.offsetX, event.offsetY)) && this.hears.changed());
     canvas.addEventListener("contextmenu", (event) => this.menu(event));
   }
 
@@ -81,6 +82,11 @@ export class Gestures {
     if (room?.isOn) {
       room.down(at, REACH[kind]);
       return { act: "room", from: at, at, kind };
+    }
+    const { cropping } = this.stage;
+    if (cropping?.isOn) {
+      if (this.stage.itemAt(at.x, at.y) === cropping.id) return { act: "crop", from: at, at, kind };
+      cropping.end(true);
     }
     const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
     if (handle) return { act: handle.kind, from: at, at, kind, about: this.about(handle), wide: false };
@@ -148,6 +154,7 @@ export class Gestures {
     const { zoom } = this.view;
     const [x, y] = [at.x - doing.from.x, at.y - doing.from.y];
     if (doing.act === "pan") this.view.pan(at.x - doing.at.x, at.y - doing.at.y);
+    else if (doing.act === "crop") this.stage.cropping?.drag(at.x - doing.at.x, at.y - doing.at.y);
     else if (doing.act === "marquee") this.marquee(doing, at);
     else if (doing.act === "room") this.stage.room?.move(doing.from, at, snaps);
     else if (doing.act === "force") this.stage.forces?.draw(doing.from, at);
@@ -279,6 +286,10 @@ export class Gestures {
     event.preventDefault();
     const { x, y } = point(event);
     const lines = event.deltaMode === 1 ? 30 : 1;
+    if (this.stage.cropping?.isOn) {
+      this.stage.cropping.zoom(Math.exp(Math.min(Math.max((-lines * event.deltaY) / 500, -NOTCH), NOTCH)));
+      return this.hears.changed();
+    }
     const isZoom = event.ctrlKey || event.metaKey || !isTrackpad(event);
     // A pinch on a pad comes as a wheel with ctrl, in small steps.
     const step = (-lines * event.deltaY) / (event.ctrlKey && isTrackpad(event) ? 120 : 500);
@@ -336,7 +347,7 @@ export class Gestures {
 }
 
 /**
- * @typedef {{act: "pan" | "force" | "sketch" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ * @typedef {{act: "pan" | "force" | "sketch" | "crop" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, base?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */

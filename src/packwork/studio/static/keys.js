@@ -77,5 +77,6 @@ function isTaken(event) {
   const target = event.target instanceof HTMLElement ? event.target : null;
   // A menu's own way to close is Escape: what is chosen stays chosen.
   if (target?.closest("[role=menu]") && event.key === "Escape") return true;
+  if (event.key === "Enter" && target?.closest("button, a, summary, input")) return true;
   return Boolean(target?.closest("[role=listbox], [role=menu], input[type=range]")) && event.key.startsWith("Arrow");
 }

@@ -4,6 +4,7 @@
 import { Backdrop } from "./backdrop.js";
 import { matrixOf } from "./collage.js";
 import { coloursOf } from "./colours.js";
+import { Cropping } from "./cropping.js";
 import { Snapping } from "./snapping.js";
 import { kindOf } from "./kinds.js";
 
@@ -50,6 +51,8 @@ export class Stage {
     this.sketch = null;
     /** The container in the hand. @type {import("./room.js").Room | null} */
     this.room = null;
+    /** A photograph in the hand within its frame. @type {Cropping | null} */
+    this.cropping = null;
     /** @type {null | [number, number, number, number]} */
     this.marquee = null;
     this.colours = coloursOf(canvas);
@@ -266,6 +269,7 @@ export class Stage {
     for (const id of choice.ids) this.outlineOf(id, colours.accent, 2);
     for (const item of collage.items) if (item.held.some(Boolean)) this.drawPin(item.id);
     this.drawHandles();
+    this.cropping?.draw(this.pen);
     this.room?.draw(this.pen);
     this.forces?.paint(this.pen);
     this.sketch?.paint(this.pen);
@@ -353,7 +357,7 @@ export class Stage {
   }
 
   drawHandles() {
-    if (this.choice.isBusy) return;
+    if (this.choice.isBusy || this.cropping?.isOn) return;
     const { pen, colours } = this;
     const frame = this.frame();
     const handles = this.handles();

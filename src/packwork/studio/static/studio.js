@@ -8,6 +8,7 @@ import { Choice } from "./choice.js";
 import { Clipboard } from "./clipboard.js";
 import { Collage } from "./collage.js";
 import { Connection } from "./connection.js";
+import { Cropping } from "./cropping.js";
 import { byId } from "./dom.js";
 import { Dropping } from "./dropping.js";
 import { Exporting } from "./exporting.js";
@@ -58,6 +59,7 @@ export class Studio {
     this.sprites = new Sprites(() => this.redraw());
     this.stage = new Stage(this.canvas, this.collage, this.view, this.sprites, this.choice);
     this.room = this.stage.room = new Room(this.stage, this.connection);
+    this.cropping = this.stage.cropping = new Cropping(this.stage, this.connection);
     this.hand = new Hand(this.collage, this.connection);
     this.gestures = new Gestures(this.stage, this.view, this.choice, this.hand, {
       changed: () => this.redraw(),
@@ -301,7 +303,24 @@ export class Studio {
     this.choice.set(this.collage.items.filter((item) => names.has(item.name)).map((item) => item.id));
   }
 
+  /** Have the photograph that is chosen in the hand within its frame, or keep it as it is there. */
+  crop() {
+    if (this.cropping.isOn) this.cropping.end(true);
+    else this.cropping.begin([...this.choice.ids][0] ?? null);
+    this.redraw();
+  }
+
+  /** Whether one photograph is chosen, or in the hand within its frame. */
+  get crops() {
+    const [id] = this.choice.ids;
+    return this.cropping.isOn || (this.choice.ids.size === 1 && Boolean(this.collage.item(id)?.crop));
+  }
+
   escape() {
+    if (this.cropping.isOn) {
+      this.cropping.end(false);
+      return this.redraw();
+    }
     if (this.gestures.cancel()) return;
     if (byId("panel").contains(document.activeElement)) this.canvas.focus();
     else if (this.room.isOn) this.editRoom();
@@ -372,6 +391,10 @@ export class Studio {
 
   /** @param {number} factor */
   resize(factor) {
+    if (this.cropping.isOn) {
+      this.cropping.zoom(factor);
+      return this.redraw();
+    }
     if (this.room.isOn) return this.room.change({ factor });
     this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "scale", item, factor }))));
   }
@@ -393,6 +416,10 @@ export class Studio {
   nudge(x, y) {
     const { width, height } = this.view.whole;
     const side = Math.max(width, height);
+    if (this.cropping.isOn) {
+      this.cropping.move(x, y);
+      return this.redraw();
+    }
     if (this.room.isOn) return this.room.nudge(side * x, side * y);
     if (!this.choice.ids.size) return this.view.pan(-10 * side * x * this.view.zoom, -10 * side * y * this.view.zoom);
     const moves = [...this.choice.ids].map((item) => {

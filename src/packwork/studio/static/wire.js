@@ -17,8 +17,9 @@
  * @typedef {{type: "copy", items: number[]}} Copy
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
+ * @typedef {{kind: "crop", item: number, zoom: number, x?: number, y?: number}} CropPhoto
  * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} Drawn
  * @typedef {{kind: "drop"}} Drop
@@ -55,13 +56,13 @@
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
- * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
+ * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
  * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
- * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | Background | DrawContainer)[]}} Together
+ * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null)}} Thing
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | CropPhoto | Background | DrawContainer)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant

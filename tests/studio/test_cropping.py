@@ -1,0 +1,73 @@
+"""A photograph is moved in its frame by hand and by keys, as one command."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+
+import pytest
+from PIL import Image
+
+import packwork as pw
+from studio.browsing import Desk, Server, in_browser
+
+pytestmark = in_browser
+
+CROP = "JSON.stringify(studio.collage.item(0).crop)"
+WHOLE = json.dumps([1, 0, 0], separators=(",", ":"))
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    folder = tmp_path_factory.mktemp("album")
+    for k in range(3):
+        Image.effect_noise((90, 60), 60 + k).convert("RGB").save(folder / f"{k}.png")
+    pw.photos("square", [folder], effort="draft", levels="50").save(folder / "album.packwork")
+    made = Server(str(folder / "album.packwork")).start()
+    yield made
+    made.stop()
+
+
+def test_a_photograph_is_dragged_in_its_frame(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    before = desk.rested()
+    x, y = desk.place(0)
+    desk.page.mouse.dblclick(x, y)
+    assert desk.look("studio.cropping.isOn")
+    sent = desk.look("studio.connection.count")
+    desk.page.mouse.wheel(0, -200)
+    desk.until("studio.cropping.now.zoom > 1.2")
+    desk.drag((x, y), (x + 900, y))
+    zoom, at = desk.look("[studio.cropping.now.zoom, studio.cropping.now.x]")
+    assert at == pytest.approx((zoom - 1) / 2)
+    desk.picture("cropping")
+    desk.page.keyboard.press("Enter")
+    desk.until(f"{CROP} !== '{WHOLE}'")
+    assert desk.look("studio.connection.count") == sent + 1
+    desk.settled()
+    assert desk.look("JSON.stringify([...studio.collage.poses])") == before
+    assert desk.look("studio.collage.look(studio.collage.item(0)).whole.length") > 0
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"{CROP} === '{WHOLE}'")
+
+
+def test_keys_crop_and_escape_leaves_all_as_it_was(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    keys = desk.page.keyboard
+    desk.page.locator("#canvas").focus()
+    keys.press("n")
+    sent = desk.look("studio.connection.count")
+    keys.press("Enter")
+    for key in ("+", "+", "ArrowLeft", "Escape"):
+        keys.press(key)
+    assert not desk.look("studio.cropping.isOn")
+    assert desk.look("studio.connection.count") == sent
+    keys.press("Enter")
+    keys.press("+")
+    keys.press("ArrowLeft")
+    assert desk.look("studio.cropping.now.x") < 0
+    keys.press("Enter")
+    assert desk.look("studio.connection.count") == sent + 1
+    desk.until(f"{CROP} !== '{WHOLE}'")
+    keys.press("Control+z")
+    desk.until(f"{CROP} === '{WHOLE}'")
