@@ -72,8 +72,9 @@ class Arrival:
     ``shuffle``: logarithm of size within which items without a place come in random order and not
     the largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
     ``about``: ``(m, 2)`` points that all begin near to; None for their lowest places.
-    ``rounds``: the items that are there, and where their origins are, in each round of their way to
-    where their poses have them; None for items that are there one after another.
+    ``rounds``: the items that are there, and ``(m, 3)`` where their origins are and how far they
+    are turned from their poses, in each round of their way there; None for items that are there one
+    after another.
     ``is_round``: whether the pack is to lie in a small circle, where forces draw all items to one
     point alike.
     """
@@ -217,7 +218,7 @@ class _Pile:
         for items, points in self._arrival.rounds:
             self._rounds += 1
             places = self._places(items)
-            places[:, :2] = points
+            places[:, :3] = points
             self._tell(items, places)
 
     def round_off(self, room: Outline) -> None:

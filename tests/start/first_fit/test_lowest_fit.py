@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -53,6 +55,16 @@ def test_items_come_to_lie_low_and_close() -> None:
     left, _, right, bottom = square_container().outline.bounds
     heap = shapely.box(left, min(region.bounds[1] for region in regions), right, bottom)
     assert sum(region.area for region in regions) > 0.4 * heap.area
+
+
+def test_items_lie_on_each_other_and_not_on_pixels() -> None:
+    tiles = [box(-8.0, -8.0, 8.0, 8.0)] * 5
+    container = square_container()
+    tall = replace(container, outline=box(40.0, 5.0, 60.0, 95.0))
+    force = FieldForce(DOWN, np.ones(5))
+    falling = Falling(tiles, np.ones(5), [np.zeros(1)] * 5, np.arange(5), [force], 1e-6)
+    poses, _ = lowest_fit(tall, falling, np.random.default_rng(0), never)
+    assert np.abs(np.sort(poses.y)[::-1] - (87.0 - 16.0 * np.arange(5))).max() < 0.5
 
 
 def test_an_item_comes_into_the_bay_of_another() -> None:

@@ -3,7 +3,8 @@
 On pixels, as in :mod:`packwork.start.first_fit.first_fit`, but of given sizes and for any height:
 B. Baker, E. Coffman and R. Rivest, "Orthogonal packings in two dimensions", SIAM Journal on
 Computing 9 (1980), 846-855, doi:10.1137/0209064, go down, then left; ours weighs how low a place
-is against how much of what is round it is taken.
+is against how much of what is round it is taken. From its place on pixels each goes down exactly,
+as far as it is free, so that what pixels leave between items does not add up.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ from typing import NamedTuple
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.compaction.arrangement import FINE, Detail
+from packwork.compaction.kernels import distances, slide
+from packwork.compaction.options import HAIR
 from packwork.forces.forces import FieldForce
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
@@ -33,6 +37,22 @@ SIDE_PX = 1_000
 LEAST_EACH, MOST_EACH = 10.0, 28.0
 """Pixels of the side of the square of an item's mean area, at least and at most. More waste less
 room at the edges of pixels and take longer. Tried."""
+
+ROUGH = 0.02
+"""Tolerance of the outlines that go down exactly, shares of an item's extent: that of the settling
+that follows."""
+
+AWAY = 1e3
+"""Where items wait, in sides of the container's box: far from all others. Chosen."""
+
+STEP, HALVINGS = 0.1, 3
+"""First step on the way down from a place on pixels, sides of an item's square, and how often it is
+halved. Tried."""
+
+WAYS = np.array(
+    [(aside, turn) for aside in (0.0, 0.8, -0.8, 1.2, -1.2) for turn in (0.0, 1.0, -1.0)]
+)
+"""Steps that are tried in this order: rad off the way down, and turns. Tried."""
 
 PULL = 1.0
 """Score, of 1 for a place that touches others all round, for lying lower by the side of an item's
@@ -81,6 +101,40 @@ class Place(NamedTuple):
     angle: float
 
 
+class _Exact:
+    """Outlines of what lies on a board, among which one more goes down as far as it is free."""
+
+    def __init__(
+        self, container: Outline, falling: Falling, corner_cu: tuple[float, float]
+    ) -> None:
+        count = len(falling.scales)
+        self._falling, self._corner = falling, np.array(corner_cu)
+        x, y, angle = np.zeros((3, count))
+        poses = Poses(x, y, angle, falling.scales)
+        detail = Detail(falling.outlines, container, poses).covers(FINE).covers(ROUGH)
+        left, top, right, bottom = container.bounds
+        # All wait far away.
+        places = np.tile([left - AWAY * (right - left + bottom - top), 0.0, 0.0, 0.0], (count, 1))
+        self._board = detail.arrangement(places).board
+        areas = [one.area for one in falling.outlines] * falling.scales**2
+        self._step = STEP * math.sqrt(float(np.mean(areas)))
+        # Without a gap nothing would be too near.
+        self._gap = max(2 * falling.margin_cu, HAIR * self._step)
+
+    def slid(self, item: int, place: FloatArray) -> FloatArray:
+        """``(3,)`` x, y and angle of an item that went down from such a place, which is free."""
+        point, one = (place[:2] + self._corner)[None], np.array([item])
+        distances.put(self._board, one, np.append(place, 0.0)[None])
+        slopes = [
+            force.strengths[item] * force.field(point)[1][0] for force in self._falling.fields
+        ]
+        slope = np.sum(slopes, axis=0) if slopes else np.zeros(2)
+        if slope.any():
+            down = -slope / np.hypot(*slope)
+            slide.slide(self._board, one, down, WAYS, self._step, HALVINGS, self._gap)
+        return self._board.places[item, :3].copy()
+
+
 class FallingBoard:
     """A container as pixels, and the poses of what lies on it.
 
@@ -107,6 +161,7 @@ class FallingBoard:
         heights = heights_on(fields, image.shape, self.px_per_cu, corner_cu)
         self._heights = [unit * one for one in heights]
         self._strongest = max((float(np.abs(one.strengths).max()) for one in fields), default=1.0)
+        self._exact = _Exact(container.outline, falling, corner_cu)
         self._stencils: dict[tuple[Outline, float, float], Stencil] = {}
         self._full = set[tuple[Outline, float]]()
         self._pulls, self._worth = np.zeros(len(fields)), self._noise
@@ -152,17 +207,24 @@ class FallingBoard:
         return self._worth
 
     def take(self, item: int, place: Place) -> None:
-        """Put an item to its place."""
-        stencil = self.stencil(item, place.angle)
-        self.occupancy.take(stencil.mask, place.row, place.column)
-        y, x = place.row + stencil.origin[0], place.column + stencil.origin[1]
-        self.poses.x[item] = x / self.px_per_cu + self._corner[0]
-        self.poses.y[item] = y / self.px_per_cu + self._corner[1]
-        self.poses.angle[item] = place.angle
+        """Put an item to its place, and from there as far down as it is free."""
+        x, y, angle = self._exact.slid(item, self.origin(item, place))
+        column, row = math.floor(x * self.px_per_cu), math.floor(y * self.px_per_cu)
+        off_px = x * self.px_per_cu - column, y * self.px_per_cu - row
+        stencil = self._cut(item, angle, off_px)
+        self.occupancy.take(stencil.mask, row - stencil.origin[0], column - stencil.origin[1])
+        self.poses.x[item], self.poses.y[item] = x + self._corner[0], y + self._corner[1]
+        self.poses.angle[item] = angle
         if self._row_heights is not None:
             rows, columns = self._heights[0].shape
-            here = self._heights[0][min(max(y, 0), rows - 1), min(max(x, 0), columns - 1)]
+            here = self._heights[0][min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)]
             self._top = max(self._top, float(here))
+
+    def origin(self, item: int, place: Place) -> FloatArray:
+        """``(3,)`` x and y on the image, canvas units, of an item at a place, and its angle."""
+        origin = self.stencil(item, place.angle).origin
+        corner = np.array([place.column + origin[1], place.row + origin[0]])
+        return np.append(corner / self.px_per_cu, place.angle)
 
     def rows(self) -> tuple[int, int] | None:
         """Rows of pixels in which an item can touch what lies there; None for all."""
@@ -174,10 +236,12 @@ class FallingBoard:
 
     def stencil(self, item: int, angle: float) -> Stencil:
         """Pixels that an item takes at an angle; cut once."""
-        outline, scale = self._falling.outlines[item], float(self._falling.scales[item])
-        key = outline, scale, float(angle)
+        key = self._falling.outlines[item], float(self._falling.scales[item]), float(angle)
         if key not in self._stencils:
-            posed = outline.mapped(similarity(0.0, 0.0, key[2], scale * self.px_per_cu))
-            margin_px = self._falling.margin_cu * self.px_per_cu
-            self._stencils[key] = cut(posed, REACH, margin_px)
+            self._stencils[key] = self._cut(item, angle)
         return self._stencils[key]
+
+    def _cut(self, item: int, angle: float, off_px: tuple[float, float] = (0.0, 0.0)) -> Stencil:
+        scale = float(self._falling.scales[item]) * self.px_per_cu
+        posed = self._falling.outlines[item].mapped(similarity(*off_px, angle, scale))
+        return cut(posed, REACH, self._falling.margin_cu * self.px_per_cu)

@@ -59,7 +59,8 @@ class Flight:
     """An item on its way from a source to its place.
 
     ``start``: round in which it comes in.
-    ``points``: ``(k, 2)`` where it is in each round from then on, canvas units.
+    ``points``: ``(k, 3)`` where it is in each round from then on, canvas units, and how far it is
+    still turned from its last angle, rad.
     """
 
     item: int
@@ -67,7 +68,7 @@ class Flight:
     points: FloatArray
 
     def at(self, rounds: IntArray) -> FloatArray:
-        """``(m, 2)`` where it is in some rounds from its start on."""
+        """``(m, 3)`` where it is in some rounds from its start on."""
         return self.points[np.minimum(rounds - self.start, len(self.points) - 1)]
 
 
@@ -84,7 +85,7 @@ class Poured:
         return np.array([flight.item for flight in self.flights], dtype=np.int64)
 
     def rounds(self) -> Iterator[tuple[IntArray, FloatArray]]:
-        """For each round the items that are in by then, and where they are."""
+        """For each round the items that are in by then, and their ``(m, 3)`` points."""
         landed = max((one.start + len(one.points) for one in self.flights), default=0)
         for now in range(landed):
             there = [one for one in self.flights if one.start <= now]
@@ -141,10 +142,15 @@ class _Pouring:
             place, way = self._reached(item, None)
         if place is None or way is None:
             return
+        origin = self.board.origin(item, place)
         self.board.take(item, place)
         steps = np.arange(len(way) - 1, 0, -self._stride_px)[::-1].astype(int)
+        poses = self.board.poses
+        landed = poses.x[item], poses.y[item], poses.angle[item]
         points = way[np.append(steps, len(way) - 1)] / self._px_per_cu - self._corner
-        self.flights.append(self._timed(item, points))
+        turns = np.full(len(points), origin[2] - landed[2])
+        on_way = np.column_stack([points, turns])
+        self.flights.append(self._timed(item, np.vstack([on_way, [*landed[:2], 0.0]])))
 
     def _reached(
         self, item: int, rows: tuple[int, int] | None
@@ -230,6 +236,6 @@ class _Pouring:
         rounds = np.arange(flight.start, other.start + len(other.points) - 1)
         if len(rounds) == 0:
             return False
-        apart = np.hypot(*(flight.at(rounds) - other.at(rounds)).T)
+        apart = np.hypot(*(flight.at(rounds) - other.at(rounds))[:, :2].T)
         least = self._radii[flight.item] + self._radii[other.item] + self._gap
         return bool((apart < least).any())
