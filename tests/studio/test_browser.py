@@ -104,7 +104,7 @@ def test_a_reload_lets_go_of_what_is_dragged(open_desk: Callable[..., Desk]) -> 
     desk.drag(desk.place(1), desk.place(4))
     desk.settled()
     assert desk.look("studio.collage.pose(1).x") != before
-    assert desk.page.locator(".toast").count() == 0
+    assert desk.page.locator(".toast.error").count() == 0
     for _ in range(2):
         desk.page.keyboard.press("Control+z")
     desk.settled()
