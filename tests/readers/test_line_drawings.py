@@ -126,6 +126,30 @@ def test_a_plate_of_hairlines_is_a_plate(tmp_path: Path) -> None:
     assert len(item.art.engraved) == 3
 
 
+@pytest.mark.parametrize(
+    "layer",
+    ['inkscape:label="Gravur" id="layer2"', 'id="Engrave_fine"', 'id="g7" data-name="score"'],
+)
+def test_lines_of_layers_to_engrave_are_not_cut(tmp_path: Path, layer: str) -> None:
+    namespace = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
+    style = "fill:none;stroke:#00f;stroke-width:.1;stroke-dasharray:none"
+    drawn = (
+        f'<g {HAIRLINE} id="cut"><rect x="1" y="1" width="90" height="60"/></g>'
+        f'<g {namespace} {layer}><circle cx="40" cy="30" r="12" style="{style}"/>'
+        f'<g><path d="M60 20h10v9z" style="{style}"/></g></g>'
+    )
+    (item,) = parts(tmp_path, drawn)
+    assert isinstance(item.art, LineArt)
+    assert (len(item.art.cut), len(item.art.engraved)) == (1, 2)
+    assert item.outline.area / MM**2 == pytest.approx(90 * 60, rel=1e-4)
+
+
+def test_groups_that_programs_name_are_cut(tmp_path: Path) -> None:
+    inner = '<g id="text12"><circle r="9" cx="40" cy="30"/></g>'
+    (item,) = parts(tmp_path, f'<g {HAIRLINE}><rect width="90" height="60"/>{inner}</g>')
+    assert len(cut(item)) == 2
+
+
 def test_each_outline_of_lines_is_a_part(tmp_path: Path) -> None:
     three = "".join(f'<rect x="{20 * k}" width="15" height="{9 + k}"/>' for k in range(3))
     assert len(parts(tmp_path, f"<g {HAIRLINE}>{three}</g>")) == 3

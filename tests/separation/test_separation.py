@@ -15,6 +15,7 @@ from packwork.separation.ground import Ground
 from packwork.separation.kernels.field import MARGIN, draw_others, score_row
 from packwork.separation.kernels.moves import put_all
 from packwork.separation.shapes import Part, poles_of, rings_of, spare
+from packwork.separation.square import SquareGround, SquareSearch
 from packwork.separation.state import Problem, WorkerState
 from packwork.separation.strip import Strip, StripSearch, WorkBound
 
@@ -224,3 +225,15 @@ def test_a_search_that_is_stopped_at_once_has_a_strip_all_the_same() -> None:
     polygons = placed(one.problem, strip.poses)
     assert overlap(polygons) < 1e-9
     assert shapely.total_bounds(np.array(polygons))[3] < 14.0 + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("kind", "ground", "name"),
+    [(StripSearch, Ground(14.0), "length"), (SquareSearch, SquareGround(), "side")],
+)
+def test_progress_tells_what_gets_shorter(
+    kind: type[StripSearch], ground: Ground, name: str
+) -> None:
+    work = WorkBound(passes=4)
+    found = kind([Part(region=L_SHAPE, count=6, turns=QUARTERS)], ground, work=work).run()
+    assert work.best_so_far == f"{name} {found.length:.5g}"

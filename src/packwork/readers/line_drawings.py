@@ -7,8 +7,10 @@ an SVG of filled shapes is one part, whose edges are the paths that lie on them.
 from __future__ import annotations
 
 import contextlib
+import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -22,13 +24,15 @@ from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import symmetric_difference, valid
 from packwork.geometry.polygon import polygon_parts, signed_area
 from packwork.readers.dxf.entities import CURVES, CadDrawing, CadLine
+from packwork.readers.dxf.item import ENGRAVED as ENGRAVED_LAYER
 from packwork.readers.dxf.item import cad_part, cad_parts, items_of
 from packwork.readers.dxf.rings import Ring, RingPart, rings_of
 from packwork.readers.files import read_bytes, stem
-from packwork.readers.gate.door import MAX_BYTES, serialised
+from packwork.readers.gate.door import MAX_BYTES, parse_xml, serialised, unpacked
 from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.svg.container import name_of, tag_of
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg.ink import PaintedInk
 from packwork.readers.svg.item import item_of_svg
@@ -66,6 +70,7 @@ def read_line_drawing(path: str | Path, holes: Holes) -> list[Read]:
     """
     data, name = read_bytes(path, MAX_BYTES), stem(path)
     with reading_file(str(path)), one_budget():
+        data = _with_engraved_layers(data)
         drawing = read_drawing(data, is_on_paper=True)
         is_plain = isinstance(drawing.ink, PaintedInk) and not any(
             shape.clips for shape in drawing.shapes
@@ -83,6 +88,21 @@ def read_line_drawing(path: str | Path, holes: Holes) -> list[Read]:
         with reading_file(str(path)):
             item = _with_true_curves(item, item.art, drawing, holes)
     return [Read(item, str(path))]
+
+
+def _with_engraved_layers(data: bytes) -> bytes:
+    """Document whose layers to engrave, by their names, have dashed lines, as what is scored.
+
+    Names of layers do not come through the gate.
+    """
+    root = parse_xml(unpacked(data))
+    groups = [
+        one for one in root.iter() if tag_of(one) == "g" and ENGRAVED_LAYER.search(name_of(one))
+    ]
+    for element in chain.from_iterable(group.iter() for group in groups):
+        # A style that is important outdoes sheets and what is inherited.
+        element.set("style", f"{element.get('style', '')};stroke-dasharray:1!important".lstrip(";"))
+    return ET.tostring(root) if groups else data
 
 
 def _lines_to_cut(drawing: PaintedDrawing) -> CadDrawing | None:

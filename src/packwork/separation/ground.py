@@ -48,6 +48,8 @@ class Ground:
     obstacles: tuple[Region, ...] = ()
     axes: tuple[int, ...] = (0,)
     """Along which a shorter one is shorter: x, y."""
+    measure: str = "length"
+    """Name of what gets shorter, as progress tells it."""
 
     def height_at(self, length: float) -> float:
         """Height of what is cut off at a length."""

@@ -16,6 +16,7 @@ class SquareGround(Ground):
 
     height: float = math.inf
     axes: tuple[int, ...] = (0, 1)
+    measure: str = "side"
 
     def height_at(self, length: float) -> float:
         """The same as the length."""

@@ -198,7 +198,8 @@ class StripSearch:
         boxes = self.layout.arrays[0][:, : len(self.problem)]
         self.best = Strip(self.extent(boxes), poses, boxes[X0].copy())
         left = int(np.isnan(poses[:, 0]).sum())
-        self.work.best_so_far = f"{left} parts left" if left else f"length {self.best.length:.5g}"
+        told = f"{self.ground.measure} {self.best.length:.5g}"
+        self.work.best_so_far = f"{left} parts left" if left else told
         return self.best
 
     def compacted(self, strip: Strip, share: float) -> Strip:

@@ -273,11 +273,11 @@ def named_parts(data: bytes) -> list[tuple[str, bytes]]:
     root = parse_xml(unpacked(data))
     way = [root]
     while True:
-        children = [child for child in way[-1] if _tag(child) in _SHAPES]
-        found = [(name, child) for child in children if (name := _name(child))]
+        children = [child for child in way[-1] if tag_of(child) in _SHAPES]
+        found = [(name, child) for child in children if (name := name_of(child))]
         if len(found) > 1:
             break
-        groups = [child for child in children if _tag(child) in {"g", "a"}]
+        groups = [child for child in children if tag_of(child) in {"g", "a"}]
         if len(groups) != 1:
             return []
         way.append(groups[0])
@@ -290,15 +290,20 @@ def _alone(way: list[ET.Element], part: ET.Element) -> bytes:
     for element in reversed(way):
         outer = copy.copy(element)
         for child in list(outer):
-            if _tag(child) not in _UNSEEN:
+            if tag_of(child) not in _UNSEEN:
                 outer.remove(child)
         outer.append(inner)
         inner = outer
     return ET.tostring(inner, encoding="unicode").encode()
 
 
-def _name(element: ET.Element) -> str:
-    titles = [child.text for child in element if _tag(child) == "title"]
+def name_of(element: ET.Element) -> str:
+    """Name of a part or a layer: its title, or what a program keeps beside it; empty without.
+
+    >>> name_of(ET.Element("g", {"id": "Engrave"})), name_of(ET.Element("g", {"id": "g12"}))
+    ('Engrave', '')
+    """
+    titles = [child.text for child in element if tag_of(child) == "title"]
     said = [*titles, *(element.get(key) for key in _NAMES), _own(element.get("id", ""))]
     plain = (" ".join((text or "").split()) for text in said)
     return next((text for text in plain if 0 < len(text) <= LONGEST), "")
@@ -313,5 +318,6 @@ def _own(name: str) -> str:
     return "" if _GIVEN_BY_PROGRAMS.fullmatch(name) else name.replace("_", " ")
 
 
-def _tag(element: ET.Element) -> str:
+def tag_of(element: ET.Element) -> str:
+    """Name of an element without its namespace; empty for a comment."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
