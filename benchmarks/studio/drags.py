@@ -14,6 +14,9 @@ SECONDS = 1.2
 
 FIRST_LAYOUTS = 3
 
+LATE_MS = {100: "50 ms", 300: "50 ms", 1_000: "80 ms"}
+"""When neighbours are to be drawn anew after the pointer has moved, by the count of items."""
+
 WATCH = """() => {
   const seen = globalThis.seen = { drawn: [], frames: [], asked: new Map(), late: [] };
   const { connection } = studio;
@@ -144,7 +147,7 @@ def _rows(
         [
             f"pointer event to redrawn neighbours, {count:,} items, p95",
             f"{high(late):.0f} ms (median {statistics.median(late):.0f})",
-            "50 ms" if few else "-",
+            LATE_MS[count],
         ],
         [
             f"certified after a drop, {count:,} items, p95",

@@ -21,6 +21,8 @@ MOST_MESSAGE = 3_000
 
 TOLD = "studio.connection.count === 0 || studio.known >= studio.connection.count"
 
+COVERED = "studio.collage.state.covered"
+
 KNOWN = """() => {
   studio.known = 0;
   const frame = studio.connection.hears.frame;
@@ -76,6 +78,26 @@ def _gesture(desk: Any, rng: random.Random) -> None:
         key = "Delete" if count > 30 else "d"
     press(key)
     desk.until(TOLD)
+
+
+def density(browser: Any, drags: int) -> Row:
+    """Share that is covered before and after drags across the layout, one once the last lies."""
+    rng = random.Random(11)
+    server, desk = opened(browser, "heart", "builtin:icons", "-n", "60")
+    desk.rested()
+    before = desk.look(COVERED)
+    for _ in range(drags):
+        desk.drag(desk.place(_any(desk, rng)), desk.place(_any(desk, rng)))
+        desk.settled()
+    desk.rested()
+    after = desk.look(COVERED)
+    desk.page.close()
+    server.stop()
+    return [
+        f"covered before and after {drags} drags across the layout",
+        f"{before:.3f}, {after:.3f}",
+        "0.015 less at most",
+    ]
 
 
 def malformed(count: int) -> list[Row]:

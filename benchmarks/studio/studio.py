@@ -26,7 +26,7 @@ from benchmarks.kit.manifests import (
 )
 from benchmarks.kit.measuring import markdown_table
 from benchmarks.studio.drags import SECONDS, dragging, first_layout
-from benchmarks.studio.enduring import crashes, malformed, memory
+from benchmarks.studio.enduring import crashes, density, malformed, memory
 
 ASKED = {"drags": 12.0, "gestures": 1_000.0, "messages": 10_000.0, "minutes": 10.0}
 
@@ -89,12 +89,14 @@ def measured(asked: dict[str, int], minutes: float) -> tuple[list[list[str]], di
     with chromium() as browser:
         rows = [first_layout(browser)]
         rates: dict[str, float] = {}
-        for count, drags in ((100, asked["drags"]), (1_000, max(asked["drags"] // 3, 2))):
+        few = max(asked["drags"] // 3, 2)
+        for count, drags in ((100, asked["drags"]), (300, few), (1_000, few)):
             more, found = dragging(browser, count, drags)
             rows, rates = [*rows, *more], {**rates, **found}
             print(more, flush=True)
+        rows.append(density(browser, max(asked["gestures"] // 10, 1)))
         rows.append(crashes(browser, asked["gestures"]))
-        print(rows[-1], flush=True)
+        print(rows[-2:], flush=True)
         if minutes > 0:
             rows.append(memory(browser, minutes))
     rows += malformed(asked["messages"])
