@@ -17,7 +17,7 @@ from packwork.separation.kernels.field import MARGIN
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
 from packwork.separation.shapes import DECAY_SHARE, Floats, Part, flattest, starts, tables
 
-PIXELS = 8
+PIXELS = 11
 """Pixels of the image that proposes places, to the side of a square as large as the middle part's
 hull. More find narrower gaps and take longer, with their cube."""
 
