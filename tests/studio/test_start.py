@@ -71,6 +71,30 @@ def test_a_template_begins_a_document(
     desk.picture(f"template-{kind}")
 
 
+def test_a_jar_is_heaped_anew_and_what_comes_falls(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    if not desk.look("studio.start.dialog.open"):
+        desk.page.keyboard.press("Shift+N")
+    desk.page.locator("dialog.start").get_by_role("button", name="A jar").click()
+    desk.until("studio.collage.scene?.kind === 'pile'")
+    desk.settled()
+    assert desk.page.get_by_text("Put them in an order").is_hidden()
+    desk.page.locator("summary:has-text('Add bundled ones')").click()
+    desk.page.get_by_role("button", name="Add donut").click()
+    desk.until("studio.collage.items.length === 65")
+    desk.settled()
+    # Nothing hangs in the air: below the newest one there is another, or the ground.
+    newest = desk.look("studio.collage.items[64].id")
+    top = desk.look("Math.min(...studio.collage.items.map(one => studio.collage.pose(one.id).y))")
+    assert top > desk.look("studio.collage.scene.height") / 5
+    before = desk.look(f"studio.collage.pose({newest}).x")
+    desk.page.get_by_role("button", name="Heap anew").click()
+    desk.until("studio.collage.state.busy === 'Pouring'")
+    desk.until(f"!studio.collage.state.busy && studio.collage.pose({newest}).x !== {before}")
+    desk.settled()
+    desk.picture("jar-anew")
+
+
 def test_photographs_of_ones_own_fill_a_heart(
     open_desk: Callable[..., Desk], tmp_path: Path
 ) -> None:

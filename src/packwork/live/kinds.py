@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Literal, TypeAlias, final
 
 import numpy as np
@@ -14,6 +14,7 @@ from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.options import SizeMode
+from packwork.recipe.piles import PileOptions, parse_emitter
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 
@@ -34,6 +35,8 @@ class Kind:
     """Sentence about sizes that are not for the hand; empty where they are."""
     shows_shape: ClassVar[bool] = True
     """Whether items are to tell the container's shape."""
+    keeps_all: ClassVar[bool] = False
+    """Whether a gesture for which there is no room at these sizes is taken back."""
     has_parts: ClassVar[bool] = False
     """Whether items are parts of true size, which separation takes apart."""
 
@@ -149,16 +152,46 @@ class ChartKind(Kind):
     sizes = "shared"
     refusal = "marks of a chart are as large as their numbers say; change those"
     shows_shape = False
+    keeps_all = True
 
 
 @final
 @dataclass(frozen=True)
 class PileKind(Kind):
-    """Items of given sizes that forces have heaped up."""
+    """Items of given sizes that forces have heaped up.
+
+    ``pouring``: how they come in, as recipes say it: ``open``, ``emit`` and ``release``.
+    """
 
     name = "pile"
     shows_shape = False
+    keeps_all = True
 
+    pouring: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def stated_in(cls, said: Mapping[str, Any]) -> PileKind:
+        """Kind of what a manifest, which may hold anything, says; no file of it is read again.
+
+        Examples
+        --------
+        >>> PileKind.stated_in({"open": ["top"], "emit": "top", "size": "9%"}).pouring
+        {'open': ('top',), 'emit': 'top', 'release': 0}
+        >>> PileKind.stated_in({"emit": "curve.svg"}).pouring
+        {}
+        """
+        try:
+            asked = PileOptions.model_validate({k: said.get(k) for k in POURING if said.get(k)})
+            emitter = None if asked.emit is None else parse_emitter(asked.emit)
+        except (RecipeError, ValueError):
+            return cls()
+        if emitter is not None and (emitter.file or emitter.region):
+            return cls()
+        return cls(pouring={name: getattr(asked, name) for name in POURING})
+
+
+POURING = ("open", "emit", "release")
+"""Options of a pile that say how its items come in."""
 
 COLLAGE = Kind()
 
@@ -178,8 +211,8 @@ def kind_of(manifest: Mapping[str, Any], *, has_numbers: bool = False) -> Kind:
         return NestKind.stated_in(said)
     if has_numbers:
         return ChartKind()
-    if isinstance(recipe, Mapping) and isinstance(recipe.get("pile"), Mapping):
-        return PileKind()
+    if isinstance(recipe, Mapping) and isinstance(heaped := recipe.get("pile"), Mapping):
+        return PileKind.stated_in(heaped)
     return COLLAGE
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -44,6 +44,7 @@ class LocalSolver:
         """Numbers of what is in the hand."""
         self.news: tuple[str, ...] = ()
         """Sentences about what the last settle did to all items."""
+        self.on_fall: Callable[[Document], object] = lambda _: None
         self._levels = LevelCache()
         self._flow = Flow(document, self._levels)
         self._certificate = Certificate()
@@ -179,7 +180,12 @@ class LocalSolver:
             self.news = ()
             self._finish_touched(near, len(wrong), stop)
         if self.document.options.force and self.document is not self.base and not stop():
-            self._turn_to(fallen(self.document, self.shapes, stop))
+            self._turn_to(fallen(self.document, self.shapes, stop, self._fell))
+        is_over, is_wrong = stop() or not self.marks.touched, bool(self.violations)
+        back = None if is_over else taken_back(self.base, self.document, is_wrong=is_wrong)
+        if back is not None:
+            self.news = (back.message,)
+            self._turn_to(back.document)
         moved = differing(before.poses, self.document.poses)
         self.marks.unpolished |= set(self.document.ids[moved].tolist())
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
@@ -259,10 +265,7 @@ class LocalSolver:
         return set(now.ids[near].tolist())
 
     def _finish_touched(self, near: set[int], wrong: int, stop: Stop) -> None:
-        """Finish what was touched near where it is; else pour all anew, or make all smaller.
-
-        A gesture that would ruin the rest is taken back.
-        """
+        """Finish what was touched near where it is; else pour all anew, or make all smaller."""
         self._bring_inside()
         if self.document.kind.has_parts and self._separate(stop):
             return
@@ -274,14 +277,13 @@ class LocalSolver:
                 if not is_clean and sizes_are_common(strict):
                     smaller, _ = made_smaller(strict, self.shapes, stop)
                     self._turn_to(self.document.with_poses(smaller))
-                if len(self.violations) > wrong:
-                    # Nothing is better than something worse.
+                if len(self.violations) > wrong:  # Nothing is better than something worse.
                     self._turn_to(asked)
-        if (
-            back := taken_back(self.base, self.document, is_wrong=bool(self.violations))
-        ) is not None:
-            self.news = (back.message,)
-            self._turn_to(back.document)
+
+    def _fell(self, document: Document) -> None:
+        if self._frames is not None:
+            self._frames.keep(document)
+        self.on_fall(document)
 
     def _separate(self, stop: Stop) -> bool:
         """Take apart parts of true size: from where all others lay before they gave way.

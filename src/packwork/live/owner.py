@@ -7,7 +7,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, TypeAlias, TypeVar
 
@@ -160,6 +160,7 @@ class Owner:
         """How many commands, leaps and calls were taken."""
         self.frame = self._framed(0, session.in_the_way)
         """The newest; replaced as a whole, so that it may be read at any time."""
+        session.watch(self._show_fall)
         self._thread = threading.Thread(target=self._run, name="session", daemon=True)
 
     def __enter__(self) -> Owner:
@@ -314,6 +315,14 @@ class Owner:
 
     def _show(self, in_the_way: tuple[str, ...] | None) -> None:
         self.frame = self._framed(self.frame.number + 1, in_the_way)
+        self._on_frame()
+
+    def _show_fall(self, document: Document) -> None:
+        """Show items on their way, of a settle that has not ended."""
+        number = self.frame.number + 1
+        self.frame = replace(
+            self.frame, number=number, document=document, in_the_way=None, refused=()
+        )
         self._on_frame()
 
     def _framed(self, number: int, in_the_way: tuple[str, ...] | None) -> Frame:

@@ -107,17 +107,18 @@ def refilled(
 def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled | None:
     """Layout without a gesture for which all items would become much smaller; None if none would.
 
-    Marks of a chart do not become smaller at all, for their keys say how large they are: where
-    those that are held leave them no room (``is_wrong``), that is taken back too.
+    Marks of a chart do not become smaller at all, for their keys say how large they are. Where
+    items that keep their sizes find no room (``is_wrong``), that is taken back too.
     """
-    if now.options.sizes != "shared" or before.container is not now.container:
+    has_no_room = is_wrong and now.kind.keeps_all
+    is_shared = now.options.sizes == "shared"
+    if not (is_shared or has_no_room) or before.container is not now.container:
         return None
     # Other letters do not lie where those before did.
     if _has_other_outlines(before, now) or not np.array_equal(before.ids, now.ids):
         return None
     share = [100 * covered(one) for one in (before, now)]
     least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
-    has_no_room = is_wrong and bool(now.kind.refusal)
     if share[1] >= share[0] * least and not has_no_room:
         return None
     columns = {name: getattr(before, name) for name in ("poses", "weights", "smallest", "largest")}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,14 @@ import numpy as np
 from packwork import threads, uses
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, valid
 from packwork.live.commands.command import Command, Library, made, named_container, named_item
 from packwork.live.commands.container import SetContainer, SetOption
 from packwork.live.commands.items import Add, Remove
 from packwork.live.commands.placing import Arrange
-from packwork.live.document import Document
+from packwork.live.document import PROPERTIES, Document
+from packwork.live.kinds import PileKind
 from packwork.live.nested_again import nested_again
 from packwork.live.options import LiveOptions
 from packwork.pipeline import run
@@ -27,6 +30,7 @@ from packwork.precompile import warm_up_once
 from packwork.progress import Step, Stop, never
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.order import FROM_TEXT
+from packwork.recipe.piles import PileOptions
 from packwork.recipe.rules import Pin, Rule
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -57,6 +61,8 @@ def poured_again(
     """
     if document.kind.has_parts:
         return _nested(document, seed, shown, stop, asked)
+    if isinstance(document.kind, PileKind):
+        return _heaped(document, document.kind, seed, shown, stop, asked)
     is_by_text = asked.get("embeddings") == BY_TEXT
     job = job_again(document, seed, {} if is_by_text else asked)
     if is_by_text:
@@ -87,6 +93,52 @@ def _nested(
         ))  # fmt: skip
 
     return nested_again(document, seed, show, stop)
+
+
+def _heaped(
+    document: Document,
+    kind: PileKind,
+    seed: int,
+    shown: Shown,
+    stop: Stop,
+    asked: Mapping[str, Any],
+) -> Arrange:
+    """A pile heaped up anew about what is held, every item as large as it is."""
+    if asked:
+        raise RecipeError(next(iter(asked)), "items of a pile lie as they fall, in no order")
+    container, poses = document.container, document.poses
+    rows = np.flatnonzero(~document.held[:, PROPERTIES.index("place")])
+    held = np.setdiff1d(np.arange(len(document)), rows)
+    if not len(rows):
+        raise RecipeError("pile", "all items are held; release some")
+    region = container.outline.region
+    for k in held.tolist():
+        region = difference(region, document.items[k].outline.mapped(poses.matrix(k)).region)
+    room = container
+    if len(held):
+        room = replace(container, outline=Outline.from_region(valid(region)), walls=None)
+    # Of an item of weight 1 the longer side is that of the canvas: weights say all sizes.
+    extents = np.array([document.items[k].outline.extent for k in rows])
+    weights = np.square(poses.scale[rows] * extents / container.side).tolist()
+    items = [
+        replace(document.items[k], weight=w) for k, w in zip(rows.tolist(), weights, strict=True)
+    ]
+    whole = PileOptions(size=f"{container.side:.17g}{container.unit}", **kind.pouring)
+    recipe = _recipe(document, seed, {"pile": whole, "count": len(rows)})
+
+    def show(moment: Moment) -> None:
+        # What has not come yet is far above.
+        there = poses.with_some(rows, replace(poses.subset(rows), y=np.full(len(rows), FAR_ABOVE)))
+        if moment.poses is not None:
+            there = there.with_some(rows[moment.rows], moment.poses)
+        shown(replace(moment, items=document.items, poses=there))
+
+    layout, kept = run_shown(uses.read(recipe, items, room), show, stop)
+    return arranged(document.ids[rows[kept]].tolist(), layout.poses)
+
+
+FAR_ABOVE = -1e6
+"""Where items are that have not come in yet, canvas units: out of sight. Chosen."""
 
 
 def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
@@ -157,7 +209,6 @@ def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
     return make_recipe(
         container="page",
         items=["circle"],
-        count=len(document),
         effort="draft",
         seed=seed,
         canvas=canvas_of(document),
@@ -166,7 +217,7 @@ def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
         size_ratio=options.size_ratio,
         rotate=options.rotate,
         force=options.force,
-        **asked,
+        **{"count": len(document), **asked},
     )
 
 
@@ -186,6 +237,8 @@ class Moment:
         From 0 to 1.
     stage
         Which part of the run this is, as steps name it.
+    rows
+        ``(m,)`` items that are there by then, of those of the run.
     """
 
     container: Container
@@ -193,6 +246,7 @@ class Moment:
     poses: Poses | None
     progress: float
     stage: str
+    rows: IntArray = field(default_factory=lambda: np.arange(0))
 
 
 Shown = Callable[[Moment], object]
@@ -217,10 +271,10 @@ class _Watcher:
 
     def on_step(self, step: Step) -> None:
         """Show it, unless other items are there by now than were read."""
-        count = len(self._job.items)
-        poses = step.poses if step.ids is None and len(step.poses) == count else None
-        if poses is not None:
-            self._shown(_moment(self._job, poses, step.progress, step.stage))
+        rows = np.arange(len(self._job.items)) if step.ids is None else step.ids
+        if len(step.poses) == len(rows):
+            moment = _moment(self._job, step.poses, step.progress, step.stage)
+            self._shown(replace(moment, rows=rows))
 
 
 def _moment(job: Job, poses: Poses | None, progress: float, stage: str) -> Moment:

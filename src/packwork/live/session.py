@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, replace
 from itertools import groupby
 from numbers import Integral
-from types import TracebackType
 from typing import Any, Self
 
 from packwork.errors import RecipeError
@@ -77,12 +76,7 @@ class Session:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if kind is None:
             self.finish()
 
@@ -312,6 +306,10 @@ class Session:
     def redo(self) -> bool:
         """Go forward again; whether there was anything to go forward to."""
         return self._leap("redo")
+
+    def watch(self, on_fall: Callable[[Document], object]) -> None:
+        """Have somebody told of items that fall, on their way."""
+        self._solver.on_fall = on_fall
 
     def begin_film(self) -> None:
         """Keep the way of the items from now on."""

@@ -73,11 +73,12 @@ class View:
     @classmethod
     def of_moment(cls, moment: Moment) -> View:
         """View of a run on its way."""
-        count = len(moment.items) if moment.poses is not None else 0
+        rows = moment.rows
+        count = len(rows)
         return cls(
             container=moment.container,
-            items=moment.items[:count],
-            ids=np.arange(count),
+            items=tuple(moment.items[k] for k in rows),
+            ids=rows,
             weights=np.ones(count),
             held=np.zeros((count, len(PROPERTIES)), dtype=bool),
             poses=moment.poses,

@@ -36,6 +36,9 @@ PASSES = 60
 IN_JAR, JAR_SIZE = 64, "10%"
 """Icons that are heaped up in a jar, and the longer side of each. Chosen."""
 
+RELEASE = 2
+"""Rounds between one icon that comes in from above and the next. Chosen."""
+
 NAMES = (
     "Ada", "Amélie", "Anouk", "Aras", "Björn", "Chloé", "Cosmin", "Dilan", "Emre", "Farah", "Freya",
     "Greta", "Hugo", "Ines", "Ivo", "Jakub", "Jun", "Kemal", "Lena", "Lionel", "Maja", "Mateo",
@@ -73,7 +76,15 @@ def _words() -> Opening:
 
 
 def _jar() -> Opening:
-    recipe = uses.pile_recipe("jar", ["builtin:icons"], count=IN_JAR, size=JAR_SIZE)
+    recipe = uses.pile_recipe(
+        "jar",
+        ["builtin:icons"],
+        count=IN_JAR,
+        size=JAR_SIZE,
+        open="top",
+        emit="top",
+        release=RELEASE,
+    )
     return Opening(recipe=recipe)
 
 

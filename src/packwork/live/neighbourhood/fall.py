@@ -5,10 +5,12 @@ Compaction down a potential (:mod:`packwork.settle.settle`) without a search for
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
+from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import FINE, Detail
 from packwork.compaction.objective import turn_ranges
 from packwork.compaction.options import HAIR
@@ -25,10 +27,16 @@ LOOSE = 0.7
 no room for that, smaller leaves loose items hanging. Tried."""
 
 
-def fallen(document: Document, shapes: ShapeCache, stop: Stop = never) -> Document:
+def fallen(
+    document: Document,
+    shapes: ShapeCache,
+    stop: Stop = never,
+    on_fall: Callable[[Document], object] = lambda _: None,
+) -> Document:
     """Document at rest under its forces; what is held in place is a wall.
 
     The same document where items touch and have no room to part, or if it was stopped.
+    ``on_fall``: told of the items on their way.
     """
     movable = np.flatnonzero(~document.held[:, 0])
     room = room_of(document, movable, shapes) if len(movable) else None
@@ -54,12 +62,17 @@ def fallen(document: Document, shapes: ShapeCache, stop: Stop = never) -> Docume
         arrangement, document.forces(movable), document.areas[movable],
         turn_ranges(poses.angle, options), gap, hair, side,
     )  # fmt: skip
-    settling.settle(lambda _: None, stop, (FIRST_TRUST, LAST_TRUST))
-    if stop():
-        return document
-    x, y, turn, _ = arrangement.places.T
-    made = replace(poses, x=x, y=y, angle=poses.angle + turn)
-    return document.with_poses(document.poses.with_some(movable, made))
+
+    def at(places: FloatArray) -> Document:
+        x, y, turn, _ = places.T.copy()
+        made = replace(poses, x=x, y=y, angle=poses.angle + turn)
+        return document.with_poses(document.poses.with_some(movable, made))
+
+    def tell(places: FloatArray) -> None:
+        on_fall(at(places))
+
+    settling.settle(tell, stop, (FIRST_TRUST, LAST_TRUST))
+    return document if stop() else at(arrangement.places)
 
 
 def is_full(document: Document) -> bool:
