@@ -210,3 +210,24 @@ def test_a_part_that_is_turned_over_is_named_as_such() -> None:
     assert session.settle().certified
     edits.flip(session, [6])
     assert session.layout.manifest["nest"]["mirrored"] == []
+
+
+def test_parts_that_were_in_the_way_stay_near_where_they_can() -> None:
+    corner = [(0, 0), (60, 0), (60, 15), (15, 15), (15, 45), (0, 45)]
+    disc = [(15 * math.cos(k / 9), 15 * math.sin(k / 9)) for k in range(56)]
+    (sheet,) = pw.nest("300x200mm", [(corner, 9), (disc, 6)], kerf=2, passes=80).layouts
+    farthest = []
+    for dragged, onto in ((2, 7), (9, 10), (10, 2)):
+        session = session_of(sheet)
+        before = session.document.poses
+        session.apply(Grab(items=(dragged,)))
+        x, y = (float(each[[dragged, onto]].mean()) for each in (before.x, before.y))
+        session.apply(Move(item=dragged, x=x, y=y))
+        session.flow(epochs=6)
+        session.apply(Drop())
+        assert session.settle().certified
+        after = session.document.poses
+        moved = np.hypot(after.x - before.x, after.y - before.y)
+        farthest.append(np.delete(moved, dragged).max())
+    # Where room was looked for anywhere at once, it was 150 mm.
+    assert 0.0 < np.median(farthest) < 120.0

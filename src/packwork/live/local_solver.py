@@ -17,7 +17,7 @@ from packwork.live.neighbourhood.fall import fallen
 from packwork.live.neighbourhood.flow import LINGER, Flow
 from packwork.live.neighbourhood.places import brought_inside
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
-from packwork.live.nested_again import separated
+from packwork.live.nested_again import separated, ways_apart
 from packwork.live.refilling import is_other_cloud, refilled, taken_back
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop
@@ -304,11 +304,8 @@ class LocalSolver:
         clear = ~np.isin(
             now.ids, [k for one in wrong for k in (one.item, one.other) if k is not None]
         )
-        none = np.zeros_like(placed)
-        for start, still in (
-            (poses, placed | clear), (poses, placed), (now.poses, placed), (poses, none)
-        ):  # fmt: skip
-            found = separated(now.with_poses(start), still, stop)
+        for start, still, near in ways_apart(now, poses, placed, clear):
+            found = separated(now.with_poses(start), still, stop, near)
             if found is not None and not self._certificate.in_the_way(now.with_poses(found)):
                 self._turn_to(now.with_poses(found))
                 return True

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,8 @@ import shapely
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
-from packwork.geometry.overlay import buffered, difference, polygon_parts
+from packwork.geometry.overlay import buffered, difference, intersection, polygon_parts
+from packwork.geometry.polygon import Region
 from packwork.live.commands.command import made
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import PROPERTIES, Document
@@ -35,18 +37,59 @@ SECONDS = 6.0
 """Time to lay all anew. Longer lays denser, shorter answers sooner. Chosen."""
 
 
-def separated(document: Document, still: BoolArray, stop: Stop = never) -> Poses | None:
+REACHES = (1.0, 2.0)
+"""How far about parts that overlap room is looked for first, in sides of a square as large as the
+largest of them. Larger leaves fewer layouts to be laid anew, smaller keeps parts nearer. Tried."""
+
+
+def ways_apart(
+    now: Document, poses: Poses, placed: BoolArray, clear: BoolArray
+) -> Iterator[tuple[Poses, BoolArray, Region | None]]:
+    """Places to begin at, parts that stay, and where room is looked for: what moves least first.
+
+    Parameters
+    ----------
+    poses
+        As all others lay before the hand came.
+    placed, clear
+        ``(n,)`` what the hand has put somewhere, and what overlaps nothing in those poses.
+    """
+    before = now.with_poses(poses)
+    met = [_region(before, k) for k in np.flatnonzero(~clear).tolist()]
+    bounds, side = shapely.total_bounds(met), math.sqrt(max(region.area for region in met))
+    near = [shapely.box(*(bounds + np.array([-1, -1, 1, 1]) * side * far)) for far in REACHES]
+    yield from ((poses, placed | clear, one) for one in near)
+    yield poses, placed, near[0]
+    yield poses, placed | clear, None
+    yield poses, placed, None
+    yield now.poses, placed, None
+    yield poses, np.zeros_like(placed), None
+
+
+def separated(
+    document: Document, still: BoolArray, stop: Stop = never, near: Region | None = None
+) -> Poses | None:
     """Poses in which no part of a nest overlaps another; None where none were found.
 
     Only parts that overlap move, to wherever there is room.
 
-    ``still``: ``(n,)`` parts that stay, beside those that are held.
+    Parameters
+    ----------
+    still
+        ``(n,)`` parts that stay, beside those that are held.
+    near
+        What lies in it alone may move, and stays in it; None for all.
     """
     container, poses = document.container, document.poses
+    if near is not None:
+        inside = [near.covers(_region(document, k)) for k in range(len(document))]
+        still = still | ~np.array(inside)
     least = document.options.padding + 2.0 * HAIR * container.side
     fixed = still | document.held[:, PROPERTIES.index("place")]
     walls = [spare(_region(document, k), least) for k in np.flatnonzero(fixed).tolist()]
     room = buffered(container.outline.region, -least / 2.0, join_style="mitre")
+    if near is not None:
+        room = intersection(room, near)
     for wall in walls:
         room = difference(room, wall)
     alike = _alike(document, ~fixed)
