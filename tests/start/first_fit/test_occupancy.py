@@ -137,10 +137,10 @@ def test_smeared_rows_tell_of_any_pixel_within_their_box(seed: int, width: int) 
     rows = occupancy._rows[..., : -(-width // 64)].copy()
     bits = np.unpackbits(rows.view(np.uint8), axis=-1, bitorder="little")[..., :width]
     for tall in range(TALLEST + 1):
-        for level in range(bits.shape[2]):
+        for level in range(bits.shape[1]):
             y, x = rng.integers(12), rng.integers(width)
             want = beyond[y : y + 2**tall, x : x + 2**level].any()
-            assert bool(bits[y, tall, level, x]) == want
+            assert bool(bits[tall, level, y, x]) == want
 
 
 @given(st.integers(0, 2**32))

@@ -19,37 +19,37 @@ SHARP = 0.5
 def smear(rows, words, top, bottom):
     """Write whether any pixel of a box is taken, for rows from ``top`` to before ``bottom``.
 
-    ``rows[y, j, k, x] = any(rows[y : y + 2**j, 0, 0, x : x + 2**k])`` in the first ``words``; all
+    ``rows[j, k, y, x] = any(rows[0, 0, y : y + 2**j, x : x + 2**k])`` in the first ``words``; all
     is taken in the word after them and beyond, and free below the last row. Rows above ``top``
     whose boxes reach down there are written as well.
     """
-    height, tall, levels = rows.shape[:3]
+    tall, levels, height = rows.shape[:3]
     for y in range(top, bottom):
         for k in range(1, levels):
             shift = 1 << (k - 1)
             whole, part = shift >> 6, np.uint64(shift & 63)
-            row = rows[y, 0, k - 1]
+            row = rows[0, k - 1, y]
             for i in range(words - whole):
                 ahead = (row[i + whole] >> part) | ((row[i + whole + 1] << ONE) << (LAST - part))
-                rows[y, 0, k, i] = row[i] | ahead
+                rows[0, k, y, i] = row[i] | ahead
             for i in range(max(words - whole, 0), words):
-                rows[y, 0, k, i] = ALL
+                rows[0, k, y, i] = ALL
     for j in range(1, tall):
         below = 1 << (j - 1)
-        for y in range(max(top - 2 * below + 1, 0), bottom):
-            for k in range(levels):
+        for k in range(levels):
+            for y in range(max(top - 2 * below + 1, 0), bottom):
                 for i in range(words):
-                    rows[y, j, k, i] = rows[y, j - 1, k, i]
+                    rows[j, k, y, i] = rows[j - 1, k, y, i]
                     if y + below < height:
-                        rows[y, j, k, i] |= rows[y + below, j - 1, k, i]
+                        rows[j, k, y, i] |= rows[j - 1, k, y + below, i]
 
 
 @kernel
-def clear_taken(rows, boxes, height, top, before, free):
+def clear_taken(rows, boxes, height, top, bottom, before, free):
     """Clear bits of ``free`` where a box of the stencil, moved there, meets a taken pixel.
 
-    Its first row is row ``top`` of the image, ``before`` words of each row lie left of it. Returns
-    whether any is left.
+    Its first row is row ``top`` of the image, in which a stencil ends above row ``bottom``, and
+    ``before`` words of each row lie left of it. Returns whether any is left.
     """
     across = 0
     for r in range(len(boxes)):
@@ -61,7 +61,7 @@ def clear_taken(rows, boxes, height, top, before, free):
     for y in range(free.shape[0]):
         for i in range(words, free.shape[1]):
             free[y, i] = np.uint64(0)
-        if top + y + height > rows.shape[0]:
+        if top + y + height > bottom:
             free[y] = np.uint64(0)
             continue
         # Only from the first to the last word in which something is free.
@@ -101,10 +101,10 @@ def _without(rows, at, j, k, first, last, before, free, y, begin, end):
     left = np.uint64(0)
     # No branches: several words go through at once.
     for i in range(begin, end):
-        taken = rows[at, j, k, one + i] >> near
-        taken |= (rows[at, j, k, one + i + 1] << ONE) << (LAST - near)
-        taken |= rows[at, j, k, other + i] >> far
-        taken |= (rows[at, j, k, other + i + 1] << ONE) << (LAST - far)
+        taken = rows[j, k, at, one + i] >> near
+        taken |= (rows[j, k, at, one + i + 1] << ONE) << (LAST - near)
+        taken |= rows[j, k, at, other + i] >> far
+        taken |= (rows[j, k, at, other + i + 1] << ONE) << (LAST - far)
         here = free[y, i] & ~taken
         free[y, i] = here
         left |= here

@@ -155,7 +155,7 @@ class Occupancy:
         self.taken[margin : margin + height, margin : margin + width] = ~free
         self._words = -(-width // 64)
         boxes = TALLEST + 1, WIDEST + 1
-        self._rows = np.full((height, *boxes, self._words + 1), _kernels.ALL, dtype=np.uint64)
+        self._rows = np.full((*boxes, height, self._words + 1), _kernels.ALL, dtype=np.uint64)
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: NearestTaken | None = None
         self._refresh(0, height)
@@ -165,7 +165,7 @@ class Occupancy:
         inner = self.taken[self._margin : self._margin + height, self._margin :][:, :width]
         bits = np.ones((bottom - top, self._words * 64), dtype=np.uint8)
         bits[:, :width] = inner[top:bottom]
-        self._rows[top:bottom, 0, 0, : self._words] = np.packbits(
+        self._rows[0, 0, top:bottom, : self._words] = np.packbits(
             bits, axis=1, bitorder="little"
         ).view("<u8")
         _kernels.smear(self._rows, self._words, top, bottom)
@@ -194,7 +194,7 @@ class Occupancy:
         free = self._free[top:bottom]
         free[...] = _kernels.ALL
         is_left = _kernels.clear_taken(
-            self._rows[top:bottom], stencil.boxes, stencil.mask.shape[0], 0, 0, free
+            self._rows, stencil.boxes, stencil.mask.shape[0], top, bottom, 0, free
         )
         if is_left and keep is not None:
             keep(stencil, free)
@@ -225,7 +225,8 @@ class Occupancy:
         ``free``: ``(rows, words)`` of 64 pixels each, from a row and a word on; changed in place.
         Returns whether any is left.
         """
-        return bool(_kernels.clear_taken(self._rows, boxes, height, top, word, free))
+        bottom = self.shape[0]
+        return bool(_kernels.clear_taken(self._rows, boxes, height, top, bottom, word, free))
 
     def take(self, mask: BoolArray, row: int, column: int) -> None:
         """Take the pixels of a mask put there; what of it lies off the image is not kept."""

@@ -51,6 +51,7 @@ class TileBoard:
         edge: Occupancy,
         inside: BoolArray,
         compared: int,
+        again: float,
         rng: np.random.Generator,
     ) -> None:
         height, width = inside.shape
@@ -69,8 +70,8 @@ class TileBoard:
         self._left = np.array([float(self._part(inside, *tile).sum()) for tile in self._tiles])
         self._free = np.empty((TILE_PX, TILE_WORDS), dtype=np.uint64)
         self._noise = NOISE * rng.random((TILE_PX, 64 * TILE_WORDS))
-        # Smallest item that found no place in each: larger ones are not tried there.
-        self._compared = compared
+        self._compared, self._again = compared, again
+        # Smallest item that found no place in each: larger ones are tried there last.
         self._failed = np.full(len(self._tiles), np.inf)
         self._clearance: NearestTaken | None = None
         self._roomiest = np.zeros(len(self._tiles))
@@ -104,7 +105,9 @@ class TileBoard:
             order = np.argsort(-self._left * (1 + LOT * self._rng.random(len(self._left))))
         else:
             order = np.argsort(-self._roomiest)
-        for tiles in (order[self._failed[order] > area], order):
+        is_fresh = self._again * self._failed[order] > area
+        rest = order[~is_fresh]
+        for tiles in (order[is_fresh], rest[np.argsort(-self._failed[rest])]):
             found = list[tuple[float, int, int]]()
             for t in tiles.tolist():
                 place = self._best_in(self._tiles[t], stencil, boxes, lowest, steps)

@@ -2,8 +2,8 @@
 
 First-fit decreasing where most is touched, as in ``first_fit``; but an item looks at a few tiles,
 drawn by lot, in place of the whole image, so that pixels may be so fine that no exact search has to
-follow. Tiles in which a smaller item found no place are passed over. Room between two items goes by
-the smaller one of them, which is the later one, and the edge asks for none of it.
+follow. Tiles in which a smaller item found no place come last. Room between two items goes by the
+smaller one of them, which is the later one, and the edge asks for none of it.
 """
 
 from __future__ import annotations
@@ -46,6 +46,11 @@ times items. More take longer. Tried."""
 COMPARED = 5
 """Such tiles of more items at the last size; sizes before are sought with the first tile that has a
 place, in a third of the time. More take longer. Tried."""
+
+AGAIN = 0.9
+"""Area of one of more items, over the smallest that found no place in a tile, up to which it is
+tried there before all else. Larger looks at three times as many full tiles, smaller packs less.
+Tried."""
 
 FIRST_SHARE, STEEPER = 0.4, 0.052
 """Share of the container that the first try's items cover, and how much more for each e times that
@@ -187,6 +192,7 @@ class _TiledSearch:
         self._margin_px = margin_cu / 2 * self._px_per_cu + GRAZED
         self._urgency = self._areas.copy()
         self.compared = OF_FEW // len(outlines) if len(outlines) <= FEW else 1
+        self._again = 1.0 if len(outlines) <= FEW else AGAIN
         self._attempts = max(1, min(attempts, FEW // len(outlines)))
 
     def best_at(self, factor: float, stop: Stop) -> Tried | None:
@@ -227,7 +233,7 @@ class _TiledSearch:
         return tight
 
     def _board(self) -> TileBoard:
-        return TileBoard(self._edge, self._inside, self.compared, self._rng)
+        return TileBoard(self._edge, self._inside, self.compared, self._again, self._rng)
 
     def _put_all(self, factor: float, stop: Stop) -> Tried | None:
         """Items put one after another at one size; None if stopped."""
