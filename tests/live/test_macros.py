@@ -12,7 +12,7 @@ from packwork.errors import RecipeError
 from packwork.live.commands.items import Duplicate
 from packwork.live.commands.placing import Move
 from packwork.live.commands.together import COMMANDS, Together
-from packwork.live.face.offers import counted
+from packwork.live.document import counted_weight
 
 QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
 
@@ -135,11 +135,27 @@ def test_words_tell_how_often_they_were_counted_last(cloud: pw.Layout) -> None:
     session = cloud.edit()
     colours = {item.name: item.art for item in session.document.items}
     session.words({"bear": 4, "fox": 3, "owl": 5, "ant": 1.5, "wren": 2})
-    found = {item.name: counted(item) for item in session.document.items}
+    found = {item.name: counted_weight(item) for item in session.document.items}
     assert found == {"bear": 4, "fox": 3, "owl": 5, "ant": 1.5, "wren": 2}
     assert all(colours.get(item.name, item.art) is item.art for item in session.document.items)
     session.rename("fox", "vixen")
-    assert counted(next(item for item in session.document.items if item.name == "vixen")) is None
+    assert (
+        counted_weight(next(item for item in session.document.items if item.name == "vixen"))
+        is None
+    )
+
+
+def test_words_that_leave_are_kept_as_left_out_until_they_come_back(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    session.words({"fox": 3, "owl": 2, "snail": 1})
+    assert session.document.left_out == {"bear": 4, "ant": 1}
+    session.words({"fox": 3, "owl": 2, "bear": 4})
+    assert session.document.left_out == {"ant": 1, "snail": 1}
+    session.undo()
+    assert session.document.left_out == {"bear": 4, "ant": 1}
+    # Another text has left out nothing.
+    session.words({"fox": 3, "whale": 2})
+    assert session.document.left_out == {}
 
 
 def test_in_shares_all_become_smaller_where_one_finds_no_room(cloud: pw.Layout) -> None:

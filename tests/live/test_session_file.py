@@ -154,6 +154,13 @@ def test_the_words_of_a_reopened_session_are_text(tmp_path: Path) -> None:
     assert again.layout.to_svg(text="live") == session.layout.to_svg(text="live")
 
 
+def test_words_that_were_left_out_come_back_with_the_file(tmp_path: Path) -> None:
+    session = words().edit()
+    session.words({"Grüße": 3, "سلام": 2})
+    session.save(tmp_path / "a.packwork")
+    assert pw.Session.open(tmp_path / "a.packwork").document.left_out == {"fill & <b>": 1}
+
+
 KILLED = """
 import os, signal, sys
 import packwork as pw

@@ -53,6 +53,10 @@ def test_words_are_counted_left_out_and_brought_back(
     # What is left is as large as before, in the room of what has gone.
     assert desk.look("studio.collage.state.covered") > 0.9 * covered
     desk.picture("words-table")
+    # The document keeps it, whoever opens it.
+    desk.page.reload()
+    desk.until("studio.collage?.items.length === 11")
+    desk.page.locator("#tab-words").click()
     desk.page.get_by_role("button", name="stone ×").click()
     desk.until("studio.collage.items.some(item => item.name === 'stone')")
     desk.settled()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
@@ -122,6 +123,12 @@ class Document:
         """Title that a person has given, or its container's name."""
         given = self.manifest.get("title")
         return given if isinstance(given, str) and given else self.container.name
+
+    @property
+    def left_out(self) -> dict[str, float]:
+        """Words that a person left out, with how often they were there."""
+        kept = self.manifest.get("left_out")
+        return dict(kept) if isinstance(kept, Mapping) else {}
 
     @cached_property
     def kind(self) -> Kind:
@@ -262,3 +269,22 @@ def differing(before: Poses, after: Poses) -> BoolArray:
     """
     columns = [getattr(before, c.name) != getattr(after, c.name) for c in fields(Poses)]
     return np.asarray(np.logical_or.reduce(columns))
+
+
+def counted_weight(item: Item) -> float | None:
+    """Weight that a word's tooltip tells; None of what is no word, or was renamed.
+
+    Examples
+    --------
+    >>> from packwork.readers.builtin import builtin_item
+    >>> counted_weight(builtin_item("star")) is None
+    True
+    """
+    name, sign, weight = item.label.title.rpartition(": ")
+    if item.text is None or not sign or name != item.name:
+        return None
+    try:
+        found = float(weight)
+    except ValueError:
+        return None
+    return found if 0 < found < math.inf else None

@@ -12,9 +12,10 @@ import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, made, named_item, true_scale
+from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut
 from packwork.live.commands.items import Add, Recolour, Remove, Replace, Weigh
 from packwork.live.commands.together import Together
-from packwork.live.document import Document
+from packwork.live.document import Document, counted_weight
 from packwork.live.neighbourhood.places import widest_places
 from packwork.phrasing import enumerated
 from packwork.readers.target import read_target
@@ -171,6 +172,23 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
     yield from weighed(session, zip(new, weights, strict=True))
     if gone:
         yield made(Remove, items=tuple(int(document.ids[k]) for k in gone))
+    left_out = _left_out(document, gone, set(now))
+    if left_out != document.left_out:
+        yield made(LeaveOut, words=left_out)
+
+
+def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[str, float]:
+    """Words left out with how often they were there; none where there are others than before."""
+    before, words = document.left_out, [item.name for item in document.items]
+    if not now <= {*before, *words}:
+        return {}
+    kept = {name: count for name, count in before.items() if name not in now}
+    share = 100 / float(document.weights.max())
+    for k in gone:
+        item, weight = document.items[k], share * float(document.weights[k])
+        if item.name not in now:
+            kept[item.name] = counted_weight(item) or float(f"{weight:.3g}")
+    return dict(list(kept.items())[-MOST_LEFT_OUT:])
 
 
 def is_word(document: Document, k: int) -> bool:

@@ -9,8 +9,8 @@ from typing import Any, cast
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.live.document import PROPERTIES, Document
-from packwork.live.face.offers import INK_FINENESS, Drawing, counted, drawing_of, path_of
+from packwork.live.document import PROPERTIES, Document, counted_weight
+from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
 from packwork.live.kinds import COLLAGE, Kind
 from packwork.live.notes import Attached
 from packwork.live.relayout import Moment
@@ -49,6 +49,7 @@ class View:
     palette: tuple[str, ...] = ()
     ground: str = ""
     notes: tuple[Attached, ...] = ()
+    left_out: Mapping[str, float] = field(default_factory=dict)
     poses: Poses | None
 
     @classmethod
@@ -67,6 +68,7 @@ class View:
             palette=document.palette,
             ground=ground_in(document.manifest),
             notes=document.notes,
+            left_out=document.left_out,
             poses=poses or document.poses,
         )
 
@@ -103,6 +105,7 @@ class View:
             and (self.kind, self.title) == (other.kind, other.title)
             and (self.palette, self.ground) == (other.palette, other.ground)
             and self.notes is other.notes
+            and self.left_out == other.left_out
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
             and _same(self.held, other.held)
@@ -165,6 +168,7 @@ class Scenes:
             title=view.title or container.name,
             palette=view.palette,
             ground=view.ground,
+            left_out=dict(view.left_out),
         )
         self._last = (view, scene)
         return scene
@@ -178,7 +182,7 @@ class Scenes:
             name=item.name,
             weight=float(view.weights[k]),
             stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
-            count=counted(item),
+            count=counted_weight(item),
             is_word=item.text is not None,
             held=(place, angle, size),
             crop=_crop_of(item.art),

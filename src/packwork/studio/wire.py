@@ -101,6 +101,8 @@ class Scene(Message):
     """Colours put on all items; none where each has its own."""
     ground: str = ""
     """Colour behind all; empty for none."""
+    left_out: dict[str, float] = Field(default_factory=dict)
+    """Words that a person left out, with how often they were there."""
 
 
 class LeftOut(Message):

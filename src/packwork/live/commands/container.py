@@ -118,6 +118,21 @@ class PlaceContainer(Command):
         return replace(document, container=_outlined(container, container.outline.mapped(place)))
 
 
+MOST_LEFT_OUT = 500
+"""Words that are kept as left out, the last ones. Chosen."""
+
+
+class LeaveOut(Command):
+    """Keep which words of a cloud are left out, and how often they were there; moves nothing."""
+
+    kind: Literal["leave_out"] = "leave_out"
+    words: Annotated[dict[Text, float], Field(max_length=MOST_LEFT_OUT)]
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with these left out, and no other."""
+        return replace(document, manifest={**document.manifest, "left_out": self.words})
+
+
 class Entitle(Command):
     """Give the document a title."""
 

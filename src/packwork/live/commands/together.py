@@ -12,6 +12,7 @@ from packwork.live.commands.command import Command, Library
 from packwork.live.commands.container import (
     DrawContainer,
     Entitle,
+    LeaveOut,
     PlaceContainer,
     Reshape,
     SetContainer,
@@ -36,7 +37,7 @@ SingleCommand: TypeAlias = Annotated[
     Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
-    | SetContainer | Reshape | PlaceContainer | SetOption | Entitle
+    | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut
     | Paint | CropPhoto | Background | DrawContainer,
     Field(discriminator="kind"),
 ]  # fmt: skip

@@ -171,25 +171,6 @@ def only_file(folder: Path) -> Path:
     return files[0]
 
 
-def counted(item: Item) -> float | None:
-    """Weight that a word's tooltip tells; None of what is no word, or was renamed.
-
-    Examples
-    --------
-    >>> from packwork.readers.builtin import builtin_item
-    >>> counted(builtin_item("star")) is None
-    True
-    """
-    name, sign, weight = item.label.title.rpartition(": ")
-    if item.text is None or not sign or name != item.name:
-        return None
-    try:
-        found = float(weight)
-    except ValueError:
-        return None
-    return found if 0 < found < math.inf else None
-
-
 FINENESS = 1e-3
 """By how much a silhouette may be off on the page, as a share of its extent: it is clicked on and
 marked by, not measured. Larger shows corners, smaller is longer on its way. Chosen."""

@@ -19,7 +19,7 @@
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{kind: "crop", item: number, zoom: number, x?: number, y?: number}} CropPhoto
  * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} Drawn
  * @typedef {{kind: "drop"}} Drop
@@ -31,6 +31,7 @@
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", n: number, to: ("undo" | "redo")}} LeapMessage
+ * @typedef {{kind: "leave_out", words: any}} LeaveOut
  * @typedef {{name: string, reason: string}} LeftOut
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
@@ -52,7 +53,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: Drawn[], title?: string, palette?: string[], ground?: string}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: Drawn[], title?: string, palette?: string[], ground?: string, left_out?: any}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
@@ -62,7 +63,7 @@
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null)}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | Paint | CropPhoto | Background | DrawContainer)[]}} Together
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant

@@ -38,6 +38,7 @@ export class WordTable {
     const { things } = this;
     this.list.hidden = !things.length;
     const there = new Set(things.map(({ name }) => name));
+    for (const [name, count] of Object.entries(this.studio.collage.scene?.left_out ?? {})) this.without.set(name, { count, isGone: true });
     for (const [name, one] of this.without) {
       // What was undone is there again.
       if (there.has(name) && one.isGone) this.without.delete(name);
