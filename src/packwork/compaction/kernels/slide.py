@@ -20,7 +20,7 @@ FARTHEST = 4.0
 
 @helper
 def _is_free(board, i, near, gap, room):
-    """Whether an item is no nearer than ``gap`` to any of ``near`` and to the container's edge."""
+    """True if an item is no nearer than ``gap`` to any of ``near`` and to the container's edge."""
     for j in near:
         if j != i and distances.distance(board, i, j, gap, room) < gap:
             return False

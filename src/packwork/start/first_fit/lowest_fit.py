@@ -92,7 +92,7 @@ def lowest_fit(
     return board.poses, np.array(found, dtype=np.int64)
 
 
-class Place(NamedTuple):
+class FreePlace(NamedTuple):
     """Free place of an item: its score, the corner of its box on the image, and its angle."""
 
     score: float
@@ -180,8 +180,8 @@ class FallingBoard:
         item: int,
         rows: tuple[int, int] | None = None,
         keep: Callable[[Stencil, Bits], None] | None = None,
-    ) -> Place | None:
-        """Where an item lies best; None if nowhere.
+    ) -> FreePlace | None:
+        """Best free place of an item; None if it has none.
 
         ``rows``, ``keep``: as of :meth:`Occupancy.best_place`.
         """
@@ -193,7 +193,7 @@ class FallingBoard:
             stencil = self.stencil(item, angle)
             place = self.occupancy.best_place(stencil, worth, rows=rows, keep=keep)
             if place is not None:
-                found.append(Place(*place, float(angle)))
+                found.append(FreePlace(*place, float(angle)))
         if rows is None and not found:
             self._full.add(kind)
         return max(found, default=None)
@@ -206,7 +206,7 @@ class FallingBoard:
             self._pulls, self._worth = pulls, self._noise - np.tensordot(drawn, self._heights, 1)
         return self._worth
 
-    def take(self, item: int, place: Place) -> None:
+    def take(self, item: int, place: FreePlace) -> None:
         """Put an item to its place, and from there as far down as it is free."""
         x, y, angle = self._exact.slid(item, self.origin(item, place))
         column, row = math.floor(x * self.px_per_cu), math.floor(y * self.px_per_cu)
@@ -220,7 +220,7 @@ class FallingBoard:
             here = self._heights[0][min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)]
             self._top = max(self._top, float(here))
 
-    def origin(self, item: int, place: Place) -> FloatArray:
+    def origin(self, item: int, place: FreePlace) -> FloatArray:
         """``(3,)`` x and y on the image, canvas units, of an item at a place, and its angle."""
         origin = self.stencil(item, place.angle).origin
         corner = np.array([place.column + origin[1], place.row + origin[0]])

@@ -23,7 +23,7 @@ from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.lowest_fit import Falling, FallingBoard, Place
+from packwork.start.first_fit.lowest_fit import Falling, FallingBoard, FreePlace
 from packwork.start.first_fit.occupancy import Bits, Occupancy, Stencil
 from packwork.start.first_poses import container_image
 
@@ -154,7 +154,7 @@ class _Pouring:
 
     def _reached(
         self, item: int, rows: tuple[int, int] | None
-    ) -> tuple[Place | None, IntArray | None]:
+    ) -> tuple[FreePlace | None, IntArray | None]:
         """Best place in some rows, and the way there; of rows above these, air is supposed."""
         place = self.board.best(item, rows, partial(self._keep_reached, rows))
         return place, None if place is None else self._way(item, place)
@@ -192,7 +192,7 @@ class _Pouring:
                 break
         return seeds
 
-    def _way(self, item: int, place: Place) -> IntArray | None:
+    def _way(self, item: int, place: FreePlace) -> IntArray | None:
         """``(k, 2)`` columns and rows of an item's origin on its way to a place; None without."""
         stencil = self.board.stencil(item, place.angle)
         free = self.board.occupancy.free_places(stencil)
