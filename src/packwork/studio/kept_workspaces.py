@@ -13,8 +13,9 @@ import json
 import os
 import re
 import shlex
+from base64 import b64decode, b64encode
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from filelock import FileLock, Timeout
@@ -110,7 +111,6 @@ class Shelf:
 
     def __init__(self, port: int, key: str) -> None:
         self._port, self._key = port, key
-        self._seen: dict[tuple[Path, float], Recent] = {}
 
     def new_file(self) -> Path | None:
         """File of an empty workspace; None if none may be kept."""
@@ -130,12 +130,9 @@ class Shelf:
         for file in sorted(_known(), key=_last_used, reverse=True):
             if len(found) == MOST_RECENT:
                 break
-            key = file, _last_used(file)
-            with contextlib.suppress(Timeout, OSError, PackworkError):
-                with FileLock(lock_of(file), blocking=False):
-                    if key not in self._seen:
-                        self._seen[key] = _looked_at(file)
-                found.append(self._seen[key])
+            taken = contextlib.suppress(Timeout, OSError, PackworkError)
+            with taken, FileLock(lock_of(file), blocking=False):
+                found.append(_known_look(file) or _looked_at(file))
         return found
 
     def _remembered(self, kept: KeptWorkspace) -> Path:
@@ -157,14 +154,34 @@ class Recent:
     png: bytes
 
 
+LOOK = ".look"
+"""Ending of files that keep how a workspace looks in the list."""
+
 PICTURE_PX = 240
 """Longer side of its picture. Chosen."""
 
 
+def _known_look(file: Path) -> Recent | None:
+    """Workspace as it was looked at last; None if it was changed since, or never looked at."""
+    try:
+        known = json.loads(file.with_suffix(LOOK).read_text(encoding="utf-8"))
+        title, count, changed = str(known["title"]), int(known["count"]), float(known["changed"])
+        png = b64decode(known["png"], validate=True)
+    except (OSError, ValueError, TypeError, KeyError):
+        return None
+    is_same = changed == _last_used(file)
+    return Recent(file.stem, title, count, changed, png) if is_same else None
+
+
 def _looked_at(file: Path) -> Recent:
+    """Workspace read and drawn, which takes long beside a run: kept for the next start."""
     document = read_once(file).document
     png = layout_bytes(document.layout, "png", {"pixels": PICTURE_PX, "show_container": True})
-    return Recent(file.stem, document.title, len(document), _last_used(file), png)
+    found = Recent(file.stem, document.title, len(document), _last_used(file), png)
+    known = {**asdict(found), "png": b64encode(png).decode("ascii")}
+    with contextlib.suppress(OSError):
+        file.with_suffix(LOOK).write_text(json.dumps(known), encoding="utf-8")
+    return found
 
 
 def last() -> KeptWorkspace:
