@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Clip:
+class CopiedItems:
     """Some items of a document as it was when they were copied."""
 
     document: Document
@@ -30,12 +30,14 @@ class Clip:
         return len(self.rows)
 
 
-def clipped(document: Document, numbers: tuple[int, ...]) -> Clip:
-    """Clip of items, called by their numbers."""
-    return Clip(document, np.array([index_of(document, number, "copy") for number in numbers]))
+def clipped(document: Document, numbers: tuple[int, ...]) -> CopiedItems:
+    """CopiedItems of items, called by their numbers."""
+    return CopiedItems(
+        document, np.array([index_of(document, number, "copy") for number in numbers])
+    )
 
 
-def pasted(session: Session, clip: Clip, x: float | None, y: float | None) -> list[Add]:
+def pasted(session: Session, clip: CopiedItems, x: float | None, y: float | None) -> list[Add]:
     """Commands that bring the items of a clip, lying to each other as they did.
 
     Parts of a nest keep their true size, all else its share of the canvas.

@@ -16,7 +16,7 @@ from packwork.errors import RecipeError
 from packwork.live.edit_flags import Edit, Flag, declared_in
 
 if TYPE_CHECKING:
-    from packwork.live.clips import Clip
+    from packwork.live.clips import CopiedItems
     from packwork.live.commands.aligning import Direction, Edge
     from packwork.live.document import Property
     from packwork.live.names import Coordinate, Which
@@ -222,7 +222,7 @@ def duplicate(session: Session, which: Which) -> int:
     return number
 
 
-def copy(session: Session, which: Which) -> Clip:
+def copy(session: Session, which: Which) -> CopiedItems:
     """Take a copy of items as they are now, for :meth:`paste` into this or another session."""
     from packwork.live.clips import clipped
 
@@ -230,7 +230,7 @@ def copy(session: Session, which: Which) -> Clip:
 
 
 def paste(
-    session: Session, clip: Clip, x: Coordinate | None = None, y: Coordinate | None = None
+    session: Session, clip: CopiedItems, x: Coordinate | None = None, y: Coordinate | None = None
 ) -> tuple[int, ...]:
     """Bring the items of a clip, lying to each other as they did; their numbers.
 

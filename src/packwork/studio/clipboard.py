@@ -8,7 +8,7 @@ from pydantic import Field
 
 from packwork.errors import RecipeError
 from packwork.live import edits
-from packwork.live.clips import Clip
+from packwork.live.clips import CopiedItems
 from packwork.live.commands.command import ItemIds
 from packwork.live.session import Session
 from packwork.studio.documents import PageRequest
@@ -24,7 +24,7 @@ class Clipboard:
     """Holds what was copied last, whatever document is on the desk."""
 
     def __init__(self) -> None:
-        self._clip: Clip | None = None
+        self._clip: CopiedItems | None = None
 
     def copy(self, workspace: Workspace, items: ItemIds) -> None:
         """Hold items as they are when all that was asked for before is done."""
