@@ -31,7 +31,7 @@ class CopiedItems:
 
 
 def clipped(document: Document, numbers: tuple[int, ...]) -> CopiedItems:
-    """CopiedItems of items, called by their numbers."""
+    """Copy of items, called by their numbers."""
     return CopiedItems(
         document, np.array([index_of(document, number, "copy") for number in numbers])
     )

@@ -18,7 +18,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import ground_in
 from packwork.scene.pose import Poses
-from packwork.studio.wire import Drawn, LeftOut, Scene, Shape, Thing
+from packwork.studio.wire import DrawnNote, LeftOut, Scene, Shape, Thing
 from packwork.studio.wording import for_page
 
 MOST_LEFT_OUT = 100
@@ -126,10 +126,10 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
     return one is other or np.array_equal(one, other)
 
 
-def _drawn(one: Attached) -> Drawn:
+def _drawn(one: Attached) -> DrawnNote:
     note = one.note
     matrix = cast(tuple[float, float, float, float, float, float], tuple(note.matrix.T.ravel()))
-    return Drawn(path=note.path, matrix=matrix, fill=note.fill, item=one.item, pose=one.pose)
+    return DrawnNote(path=note.path, matrix=matrix, fill=note.fill, item=one.item, pose=one.pose)
 
 
 class Scenes:

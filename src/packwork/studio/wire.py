@@ -65,7 +65,7 @@ class Thing(Message):
     """Zoom, x and y of a photograph in its frame; None of what is none."""
 
 
-class Drawn(Message):
+class DrawnNote(Message):
     """A letter or a key beside the items, or a label on one of them, which it follows."""
 
     path: str
@@ -94,7 +94,7 @@ class Scene(Message):
     """The only ones allowed, radians; None for any."""
     kind: KindName = "collage"
     """Kind of document, by which the page shows what has meaning."""
-    notes: tuple[Drawn, ...] = ()
+    notes: tuple[DrawnNote, ...] = ()
     title: str = ""
     """That a person has given, or the container's name."""
     palette: tuple[str, ...] = ()

@@ -30,7 +30,7 @@ class LineUp(Command):
 
     @abstractmethod
     def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
-        """Where each item begins on the axis then, of ``(n,)`` extents before."""
+        """Starts of items on the axis then, of ``(n,)`` extents before."""
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the items there, but those whose place is held."""

@@ -11,7 +11,7 @@ from packwork.separation.kernels.collision import PENALTY, TURN, X, Y
 
 MARGIN = 4
 """Columns to either side of the image: a part that touches its edge is rounded to stick out by two
-pixels at most, and rows are summed without a look at where they end. Chosen."""
+pixels at most, and rows are summed without a look at where they end. Derived."""
 
 
 @helper

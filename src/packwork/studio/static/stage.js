@@ -41,7 +41,7 @@ export class Stage {
     this.choice = choice;
     this.snapping = new Snapping(collage, view);
     this.outline = { text: "", path: new Path2D() };
-    /** Notes by their items. @type {{of: unknown, by: Map<number | null, import("./wire.js").Drawn[]>}} */
+    /** Notes by their items. @type {{of: unknown, by: Map<number | null, import("./wire.js").DrawnNote[]>}} */
     this.noted = { of: null, by: new Map() };
     /** Whether silhouettes are shown in place of drawings: free, covered, covered twice. */
     this.showsFaults = false;
@@ -165,7 +165,7 @@ export class Stage {
   }
 
   /**
-   * @param {import("./wire.js").Drawn} note
+   * @param {import("./wire.js").DrawnNote} note
    * @param {DOMMatrix} moved what its item did since it was put there
    */
   drawNote(note, moved) {

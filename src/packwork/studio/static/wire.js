@@ -21,7 +21,7 @@
  * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
  * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
- * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} Drawn
+ * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} DrawnNote
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number, beside?: number}} Duplicate
  * @typedef {{kind: "entitle", title: string}} Entitle
@@ -53,7 +53,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: Drawn[], title?: string, palette?: string[], ground?: string, left_out?: any}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], ground?: string, left_out?: any}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
