@@ -247,7 +247,9 @@ def test_parts_of_an_earlier_nest_stay_where_they_are(
     line = f"nest 200x100mm bracket.svg*4 --kerf 1mm --passes 40 -o a.{ending}"
     assert packwork(line).exit_code == 0
     line = f"nest a.{ending},200x100mm disc.svg*14 --kerf 1mm --passes 300 -o b.{ending}"
-    assert packwork(line).exit_code == 0
+    result = packwork(line)
+    assert result.exit_code == 0
+    assert "its parts go into a DXF as outlines" in " ".join(result.output.split())
     before = pw.Layout.load(shop / f"a.{ending}")
     after = [pw.Layout.load(shop / f"b-{k}.{ending}") for k in (1, 2)]
     for old, new in zip(before.outlines, after[0].outlines[:4], strict=True):

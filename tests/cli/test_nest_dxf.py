@@ -13,6 +13,7 @@ from typer.testing import Result
 
 import packwork as pw
 from packwork.geometry.arcs import ArcLine
+from packwork.readers.layouts.dxf import lines_of, tags_of
 
 Command = Callable[..., Result]
 
@@ -162,4 +163,22 @@ def test_more_parts_go_on_a_sheet_that_is_a_dxf_of_ours(shop: Path, packwork: Co
     result = packwork("nest a.dxf hook.dxf --passes 900 -o b.dxf")
     assert result.exit_code == 0, result.output
     assert packwork("measure b.dxf").exit_code == 0
-    assert len(bent(shop / "b.dxf", "cut")) == 7
+    assert len(bent(shop / "b.dxf", "cut")) == 3
+
+
+def test_parts_that_lie_on_a_sheet_are_written_again_as_they_were(
+    shop: Path, packwork: Command
+) -> None:
+    hook(shop)
+    line = "nest 120x60mm parts*2 hook.dxf --rotate free --passes 200 -o a.dxf"
+    assert packwork(line).exit_code == 0
+    result = packwork("nest a.dxf hook.dxf --passes 900 -o b.dxf -o b.svg")
+    assert result.exit_code == 0, result.output
+    before, after = (lines_of(tags_of((shop / f"{k}.dxf").read_text("cp1252"))) for k in "ab")
+    assert {one.layer for one in before} == {"container", "cut", "engrave"}
+    for old, new in zip(before[1:], after[1:], strict=False):
+        assert (old.layer, old.line.is_closed) == (new.layer, new.line.is_closed)
+        assert new.line.points == pytest.approx(old.line.points, abs=1e-6)
+        assert new.line.bulges == pytest.approx(old.line.bulges, abs=1e-12)
+    assert len(after) == len(before) + 1
+    assert (shop / "b.svg").read_text(encoding="utf-8").count('stroke="#20302a"') == 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -19,6 +20,8 @@ from packwork.readers.layouts.read import holds_layout, read_written
 from packwork.recipe.rules import Rotation
 from packwork.units import Unit, canvas_size, convert, parse_length
 from packwork.uses.nested import Sheet, SheetPart
+
+_LOG = logging.getLogger("packwork")
 
 SQUARE = "square"
 """Name of a sheet that is the smallest square."""
@@ -67,6 +70,11 @@ def read_sheets(text: str) -> list[Sheet]:
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
             layout = read_written(source)
+            if Path(source).suffix.lower() != ".dxf":
+                _LOG.warning(
+                    "%s: its parts go into a DXF as outlines, without arcs and engraved lines; "
+                    "give that sheet's DXF to keep them", source,
+                )  # fmt: skip
             ground = layout.container
             found.append(
                 Sheet(height=ground.height, length=ground.width, unit=ground.unit,

@@ -259,21 +259,28 @@ def _item(part: CadPart, name: str, source: str, holes: Holes) -> Item:
     cut, engraved = (
         tuple(line.mapped(move, math.inf) for line in lines) for lines in (part.cut, part.engraved)
     )
-    size = outline.extent
+    return Item(name, source, outline, ink, line_art(cut, engraved, outline.extent, ink.region))
+
+
+def line_art(
+    cut: tuple[ArcLine, ...],
+    engraved: tuple[ArcLine, ...],
+    size: float,
+    region: Region,
+    pixel: float = 1.0,
+) -> LineArt:
+    """Lines and the markup that shows them on their region, in units of which a px is so long."""
     digits = decimals(_DIGITS * size)
     path = "".join(arc_path_data(line, digits) for line in cut)
     markup = f'<path fill="{FILL}" fill-rule="evenodd" d="{path}"/>'
-    width = min(ENGRAVED_PX, _THINNEST * size)
-    shown = "".join(_shown(engraved, ink.region, width, digits))
+    width = min(ENGRAVED_PX * pixel, _THINNEST * size)
+    shown = "".join(_shown(engraved, region, width, digits))
     if shown:
         markup += (
             f'<path fill="none" stroke="{INK}" stroke-width="{width:.6g}" '
             f'stroke-linejoin="round" d="{shown}"/>'
         )
-    return Item(
-        name, source, outline, ink,
-        LineArt(markup, affine.identity(), cut=cut, engraved=engraved),
-    )  # fmt: skip
+    return LineArt(markup, affine.identity(), cut=cut, engraved=engraved)
 
 
 def _shown(engraved: Iterable[ArcLine], region: Region, width: float, digits: int) -> Iterator[str]:

@@ -8,30 +8,37 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine, circle
 from packwork.geometry.polygon import Region, region
+from packwork.readers.dxf.item import line_art
 from packwork.readers.layouts.assembly import (
     FoundItem,
     FoundSheet,
     assembled,
     sound_gap,
+    sound_outline,
     sound_weight,
 )
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.units import Unit
+from packwork.units import Unit, convert
 
 APPLICATION = "PACKWORK"
 """Name under which our files say what a line belongs to."""
 
-OPEN_LAYERS = ("container", "engrave")
+ENGRAVE = "engrave"
+"""Layer of lines that go with an item, after those of its edge."""
+
+OPEN_LAYERS = ("container", ENGRAVE)
 """Where lines may be open: walls of a container that has openings, and what is not cut."""
 
 MEASURED_FLATTENING = 2.5e-7
@@ -192,8 +199,10 @@ _UNITS: dict[int, Unit] = {1: "in", 4: "mm", 5: "cm"}
 _NOT_OURS = "as packwork writes it; give a DXF that no other program saved again, or a .geojson"
 
 
-def layout_of_dxf(text: str, name: str) -> Layout:
+def layout_of_dxf(text: str, name: str, *, outlines_only: bool = False) -> Layout:
     r"""Layout of a DXF's text, its outlines the lines on the layer ``items``, else ``cut``.
+
+    Items that have arcs or engraved lines keep them, unless ``outlines_only``.
 
     Examples
     --------
@@ -213,8 +222,9 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     gap, shares = _promise(walls[0])
     # Lines of items have a layer of their own where others are cut.
     layer = "items" if any(line.layer == "items" for line in lines) else "cut"
-    paper = _Paper(height, MEASURED_FLATTENING * max(width, height))
-    items = _items([line for line in lines if line.layer == layer], paper)
+    paper = _Paper(height, MEASURED_FLATTENING * max(width, height), convert(1.0, "px", unit))
+    kept = {layer} if outlines_only else {layer, ENGRAVE}
+    items = _items([line for line in lines if line.layer in kept], paper, plain=outlines_only)
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -254,10 +264,11 @@ def _lost(wall: DxfLine, items: Sequence[FoundItem]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Paper:
-    """Height of a sheet, and how far chords may lie off arcs."""
+    """Height of a sheet, how far chords may lie off arcs, and the length of a px there."""
 
     height: float
     tolerance: float
+    pixel: float
 
     def region(self, lines: Sequence[DxfLine]) -> Region:
         """Region that closed lines enclose, y down."""
@@ -265,18 +276,38 @@ class _Paper:
 
     def down(self, line: ArcLine) -> FloatArray:
         """Points of a line, y turned down from the sheet's top."""
-        points = line.flattened(self.tolerance)
-        return np.column_stack([points[:, 0], self.height - points[:, 1]])
+        return self.turned(line).flattened(self.tolerance)
+
+    def turned(self, line: ArcLine) -> ArcLine:
+        """A line with its arcs, y turned down from the sheet's top."""
+        return line.mapped(np.array([[1.0, 0.0, 0.0], [0.0, -1.0, self.height]]), 0.0)
 
 
-def _items(lines: Sequence[DxfLine], paper: _Paper) -> list[FoundItem]:
-    """Items in the order of their numbers; each may have several lines."""
+def _items(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> list[FoundItem]:
+    """Items in the order of their numbers; each may have several lines, then engraved ones."""
     together: dict[str, list[DxfLine]] = {}
+    number = ""
     for line in lines:
-        if len(line.said) != 3:
-            raise UnfitError(f"has lines on the layer cut that name no item, {_NOT_OURS}")
-        together.setdefault(line.said[0], []).append(line)
-    return [
-        FoundItem(own[0].said[1], paper.region(own), sound_weight(own[0].said[2]))
-        for own in together.values()
-    ]
+        if line.layer != ENGRAVE:
+            if len(line.said) != 3:
+                raise UnfitError(f"has lines on the layer cut that name no item, {_NOT_OURS}")
+            number = line.said[0]
+        together.setdefault(number, []).append(line)
+    return [_item(own, paper, plain=plain) for own in together.values() if own[0].said]
+
+
+def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> FoundItem:
+    number, name, weight = lines[0].said
+    around = [line for line in lines if line.layer != ENGRAVE]
+    shape = paper.region(around)
+    if plain or not (len(around) < len(lines) or any(one.line.bulges.any() for one in around)):
+        return FoundItem(name, shape, sound_weight(weight))
+    outline = sound_outline(shape, f"item {number} ({name})")
+    cut = tuple(paper.turned(one.line) for one in around)
+    engraved = tuple(paper.turned(one.line) for one in lines if one.layer == ENGRAVE)
+    art = line_art(cut, engraved, outline.extent, outline.region, paper.pixel)
+    x, y = outline.centroid.tolist()
+    back = affine.similarity(-x, -y, 0.0, 1.0)
+    own = outline.mapped(back)
+    item = Item(name, name, own, own, replace(art, matrix=back))
+    return FoundItem(name, item, sound_weight(weight), affine.similarity(x, y, 0.0, 1.0))

@@ -96,5 +96,6 @@ def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) 
             return layout_of_svg(data, stem(path), outlines_only=outlines_only)
         if ending == ".dxf":
             # Only names may hold other letters than ASCII, and names are for showing.
-            return layout_of_dxf(data.decode("cp1252", errors="replace"), stem(path))
+            text = data.decode("cp1252", errors="replace")
+            return layout_of_dxf(text, stem(path), outlines_only=outlines_only)
         return layout_of_geojson(data.decode())
