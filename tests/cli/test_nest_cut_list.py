@@ -143,3 +143,38 @@ def test_a_spreadsheet_is_to_be_saved_as_csv(shop: Path, packwork: Command) -> N
     result = packwork("nest 40mm job/list.xlsx --passes 2")
     assert result.exit_code == 2
     assert "is a spreadsheet; save the sheet as CSV" in result.output
+
+
+@pytest.mark.parametrize(
+    ("sheet", "columns", "row", "said"),
+    [
+        ("40mm", "optional", "1,yes", "items: tile is optional, and a strip of open length"),
+        ("40x30mm", "optional,together", "1,yes,kit", "items: column 'together' of tile: parts"),
+        ("40x30mm", "together", "2001,kit", "items: column 'together' of tile: more than 2,000"),
+    ],
+)
+def test_columns_that_do_not_go_together_are_named(
+    shop: Path, packwork: Command, sheet: str, columns: str, row: str, said: str
+) -> None:
+    listed(shop, f"file,count,{columns}\nparts/tile.svg,{row}\n")
+    result = packwork(f"nest {sheet} job/list.csv --passes 2")
+    assert result.exit_code == 2
+    assert result.output.startswith(f"packwork: {said}")
+    assert result.output.count("\n") == 1
+
+
+def test_a_list_with_sets_that_is_wanted_too_often_names_the_column(
+    shop: Path, packwork: Command
+) -> None:
+    listed(shop, "file,together\nparts/tile.svg,kit\n")
+    result = packwork("nest 40x30mm job/list.csv*1001 --passes 2")
+    assert result.exit_code == 2
+    assert result.output.startswith("packwork: job/list.csv: column 'together': parts go together")
+
+
+def test_sheets_that_do_not_go_together_are_told_without_a_flag(
+    shop: Path, packwork: Command
+) -> None:
+    result = packwork("nest 40mm,40x30mm other.svg --passes 2")
+    assert result.exit_code == 2
+    assert result.output.startswith("packwork: sheet: a strip of open length has no end")

@@ -25,6 +25,8 @@ SHORTFALL = 1
 """Ran and wrote what it has, but something asked was not met."""
 BAD_INPUT = 2
 """One clear line was printed; nothing was written."""
+_NO_FLAGS = ("container", "items", "rules", "sheet")
+"""Keys of what is named on the command line without a flag."""
 
 
 @contextmanager
@@ -39,7 +41,7 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
         line = " ".join(str(error).split())
         if isinstance(error, RecipeError) and recipe is not None:
             line = f"{recipe}: {line}"
-        elif isinstance(error, RecipeError) and error.key not in {"container", "items", "rules"}:
+        elif isinstance(error, RecipeError) and error.key not in _NO_FLAGS:
             line = _flag(error.key) + line.removeprefix(error.key)
         say(line)
         raise typer.Exit(BAD_INPUT) from None

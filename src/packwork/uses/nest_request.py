@@ -193,7 +193,8 @@ def _sets(source: str, name: str, times: int) -> list[tuple[str, int]]:
     if not name:
         return [("", times)]
     if times > MOST_SETS:
-        raise RecipeError("together", f"{source} is wanted {times:,} times; {MOST_SETS:,} at most")
+        wanted = f"parts go together, and it is wanted {times:,} times; {MOST_SETS:,} at most"
+        raise ReadError(source, f"column 'together': {wanted}")
     return [(f"{source} {name} {k}", 1) for k in range(times)]
 
 

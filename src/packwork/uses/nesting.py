@@ -160,15 +160,24 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
     turns = sum(FREE_TURNS if one.angles is None else len(one.angles) for one in parts)
     if turns > MOST_TURNS:
         raise RecipeError("rotate", f"{turns:,} angles of all parts are more than {MOST_TURNS:,}")
-    if sheets[0].is_strip and any(one.is_optional for one in parts):
-        raise RecipeError("optional", "a strip of open length has always room; give a sheet")
-    if any(one.is_optional and one.together for one in parts):
-        raise RecipeError("together", "parts of a name are laid all or none; they are not optional")
+    optional = next((one for one in parts if one.is_optional), None)
+    if sheets[0].is_strip and optional is not None:
+        raise RecipeError(
+            "items",
+            f"{optional.item.name} is optional, and a strip of open length has always room; give a "
+            "sheet, or take out --optional or the column 'optional'",
+        )
     sets = Counter[str]()
     for one in parts:
         sets[one.together] += one.count if one.together else 0
-    if sets and max(sets.values()) > MOST_AT_ONCE:
-        raise RecipeError("together", f"more than {MOST_AT_ONCE:,} parts go together; nest fewer")
+        column = f"column 'together' of {one.item.name}"
+        if one.is_optional and one.together:
+            raise RecipeError("items", f"{column}: parts of a name are laid all or none; make them "
+                              "not optional, or leave that cell empty")  # fmt: skip
+        if sets[one.together] > MOST_AT_ONCE:
+            raise RecipeError(
+                "items", f"{column}: more than {MOST_AT_ONCE:,} parts go together; nest fewer"
+            )
     if len(sheets) > 1 and any(sheet.is_strip for sheet in sheets):
         raise RecipeError("sheet", "a strip of open length has no end after which others come")
 
