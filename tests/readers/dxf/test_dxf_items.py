@@ -309,6 +309,11 @@ def opened(space: Modelspace) -> None:
     space.add_lwpolyline([(0, 0), (9, 0), (9, 9), (0, 0.3)], dxfattribs={"layer": "CUT"})
 
 
+def speckled(space: Modelspace) -> None:
+    space.add_circle((0, 0), 5)
+    space.add_circle((7, 4), 1e-4, {"layer": "TRIM"})
+
+
 def crossing(space: Modelspace) -> None:
     space.add_lwpolyline([(0, 0), (8, 8), (8, 0), (0, 8)], close=True, dxfattribs={"layer": "CUT"})
 
@@ -375,7 +380,7 @@ def concentric(space: Modelspace) -> None:
         (branching, "layer 'CUT': 3 lines meet at (10, 0), so that no outline is clear"),
         (lambda space: space.add_lwpolyline([(0, 0), (5, 0)], close=True), "has no area"),
         (lambda space: space.add_circle((0, 0), 5, {"layer": "etch"}), "to engrave alone"),
-        (lambda space: space.add_circle((0, 0), 1e-5), "holds a part of 2e-05 mm"),
+        (speckled, "layer 'TRIM': the CIRCLE at (7.0001, 4) is a part of 0.0002 mm; take it out"),
         (lambda space: space.add_circle((1e12, 0), 1), "beyond 1e+09"),
         (lambda space: space.add_blockref("NONE", (0, 0)), "holds no outline"),
         (endless, "that holds itself"),

@@ -242,7 +242,12 @@ def cad_part(
     size = float(np.ptp(shapely.get_coordinates(part.outer.polygon), axis=0).max()) * flip[0, 0]
     millimetres = convert(size, "px", "mm")
     if not LEAST_MM <= millimetres <= MOST_MM:
-        raise UnfitError(f"holds a part of {millimetres:.3g} mm; what is the drawing's unit?")
+        ring = part.outer
+        layer = f"layer {ring.layer[:40]!r}: " if ring.layer else ""
+        raise UnfitError(
+            f"{layer}the {ring.kind} at {place(ring.line.points[0])} is a part of "
+            f"{millimetres:.3g} mm; take it out, or state the drawing's true unit"
+        )
     tolerance = FLATTENING * size
     # Seen the other way, what is outside a line is inside.
     seen = [line.reversed() if within else line for line in (outer, *holes)]
