@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.errors import ReadError
+from packwork.readers import json_text
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.readers.layouts.geojson import read_layout
 from packwork.scene.container import on_canvas
@@ -104,6 +106,39 @@ def test_round_trip(saved):
     for before, after in zip(layout.outlines, again.outlines, strict=True):
         gap = before.region.symmetric_difference(after.region).area
         assert gap < 1e-6 * before.area
+
+
+def crowd(count: int) -> Layout:
+    """Owls in a row."""
+    poses = Poses(*(np.full(count, value) for value in (0, 2.0, 0.3, 0.01, 1.0)))
+    items = (builtin_item("owl"),) * count
+    layout = Layout(builtin_container("square"), items, poses, np.ones(count))
+    return replace(layout, poses=replace(poses, x=np.linspace(1, 3, count)))
+
+
+def test_what_is_written_may_hold_more_numbers_than_may_be_read_at_once(saved, monkeypatch):
+    layout = crowd(9)
+    text = geojson_text(layout)
+    monkeypatch.setattr(json_text, "MAX_PARTS", text.count(",") // 3)
+    again = saved(text)
+    for got, expected in zip(again.outlines, layout.outlines, strict=True):
+        assert got.area == pytest.approx(expected.area, rel=1e-6)
+    with pytest.raises(ReadError, match="numbers and lists; simplify it"):
+        saved(json.loads(text))
+
+
+def test_of_all_features_there_are_so_many_numbers_at_most(saved, monkeypatch):
+    text = geojson_text(crowd(9))
+    monkeypatch.setattr(json_text, "MAX_PARTS_IN_LINES", text.count(","))
+    with pytest.raises(ReadError, match="numbers and lists; simplify it"):
+        saved(text)
+
+
+def test_a_feature_that_is_no_json_is_named(saved):
+    lines = geojson_text(crowd(2)).split("\n")
+    lines[2] = lines[2].replace('"role"', "role")
+    with pytest.raises(ReadError, match=r"is not JSON \(line 3"):
+        saved("\n".join(lines))
 
 
 def test_layout_without_items(saved):

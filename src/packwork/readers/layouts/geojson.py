@@ -17,7 +17,7 @@ from packwork.errors import ReadError, RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.files import read_text
-from packwork.readers.json_text import parsed
+from packwork.readers.json_text import opened_collection, parsed
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
@@ -28,8 +28,8 @@ from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
 from packwork.units import UNITS, Unit
 
-MAX_LAYOUT_BYTES = 64_000_000
-"""Size of a layout file: thousands of items with hundreds of vertices each. Chosen."""
+MAX_LAYOUT_BYTES = 200_000_000
+"""Size of a layout file: 9,000 items with hundreds of vertices each. Chosen."""
 
 WIDEST_STRETCH = 1e4
 """Width over height, or height over width, of an item against its own shape at most.
@@ -175,11 +175,11 @@ def read_layout(path: str | Path) -> Layout:
 
 def layout_of_geojson(text: str) -> Layout:
     """Layout of such a file's text."""
-    said = parsed(text)
+    said, lines = opened_collection(text)
     if not isinstance(said, dict) or said.get("type") != "FeatureCollection":
         raise UnfitError("is not a GeoJSON FeatureCollection; give a layout saved as .geojson")
     collection = _valid(_Collection, said)
-    features, manifest = collection.features, collection.manifest or {}
+    features, manifest = collection.features or lines, collection.manifest or {}
     if len(features) > MAX_ITEMS + 1:
         raise UnfitError(f"features: holds {len(features):,}, more than {MAX_ITEMS:,} items")
     containers: list[Container] = []
@@ -188,7 +188,7 @@ def layout_of_geojson(text: str) -> Layout:
     weights: list[float] = []
     for k, each in enumerate(features):
         where = f"features[{k}]"
-        feature = _valid(_Feature, each, where)
+        feature = _valid(_Feature, parsed(each, k + 1) if lines else each, where)
         outline, of = _outline(feature.geometry, where), feature.properties
         if isinstance(of, _ContainerMembers):
             containers.append(_container(outline, of, collection.canvas))
