@@ -69,7 +69,7 @@ def local_name(element: Any) -> str:
 
 def test_there_are_enough_pictures() -> None:
     assert len(ICONS) >= 40
-    assert 8 <= len(CONTAINERS) <= 15
+    assert 8 <= len(CONTAINERS) <= 16
 
 
 def test_icons_have_a_square_of_100_units() -> None:
