@@ -144,17 +144,20 @@ def is_turned(points: np.ndarray) -> bool:
 
 def test_parts_that_are_turned_over_are_written_so(shop: Path, packwork: Command) -> None:
     hook(shop)
-    line = "nest 40mm hook.dxf*9 --mirror --kerf 1mm --passes 200 --seed 1"
-    result = packwork(f"{line} -o a.dxf -o a.geojson")
-    assert result.exit_code == 0, result.output
-    layout = pw.Layout.load(shop / "a.geojson")
-    turned = 0
-    for rows, outline in zip(bent(shop / "a.dxf", "cut"), layout.outlines, strict=True):
-        line_there = ArcLine(rows[:, :2] * (1, -1) + (0, 40), -rows[:, 2], is_closed=True)
-        true = shapely.Polygon(line_there.flattened(1e-4))
-        assert shapely.symmetric_difference(true, outline.region).area < 0.05
-        turned += is_turned(rows[:, :2])
-    assert turned == len(layout.manifest["nest"]["mirrored"]) > 0
+    found = 0
+    for seed in range(3):
+        line = f"nest 40mm hook.dxf*9 --mirror --kerf 1mm --passes 100 --seed {seed}"
+        result = packwork(f"{line} -o a.dxf -o a.geojson")
+        assert result.exit_code == 0, result.output
+        layout, turned = pw.Layout.load(shop / "a.geojson"), 0
+        for rows, outline in zip(bent(shop / "a.dxf", "cut"), layout.outlines, strict=True):
+            line_there = ArcLine(rows[:, :2] * (1, -1) + (0, 40), -rows[:, 2], is_closed=True)
+            true = shapely.Polygon(line_there.flattened(1e-4))
+            assert shapely.symmetric_difference(true, outline.region).area < 0.05
+            turned += is_turned(rows[:, :2])
+        assert turned == len(layout.manifest["nest"]["mirrored"])
+        found += turned
+    assert 0 < found < 27
 
 
 def test_more_parts_go_on_a_sheet_that_is_a_dxf_of_ours(shop: Path, packwork: Command) -> None:

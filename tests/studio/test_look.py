@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from studio.browsing import WIDE, Desk, Server, in_browser
+from studio.browsing import Desk, in_browser, own_desk
 
 pytestmark = in_browser
 
@@ -20,14 +20,8 @@ MUTED = 9
 
 @pytest.fixture
 def desk(browser: Any) -> Iterator[Desk]:
-    server = Server("circle", "star", "heart", "-n", "8").start()
-    context = browser.new_context(viewport=WIDE, accept_downloads=True)
-    made = Desk(context.new_page(), server.address)
-    made.settled()
-    yield made
-    assert made.faults == []
-    context.close()
-    server.stop()
+    with own_desk(browser, "circle", "star", "heart", "-n", "8") as made:
+        yield made
 
 
 def test_a_palette_is_put_on_by_mouse_and_by_keys_and_undone(desk: Desk) -> None:

@@ -8,21 +8,15 @@ from typing import Any
 
 import pytest
 
-from studio.browsing import WIDE, Desk, Server, in_browser
+from studio.browsing import Desk, in_browser, own_desk
 
 pytestmark = in_browser
 
 
 @pytest.fixture
 def desk(browser: Any) -> Iterator[Desk]:
-    server = Server("circle", "star", "heart", "-n", "24").start()
-    context = browser.new_context(viewport=WIDE)
-    made = Desk(context.new_page(), server.address)
-    made.settled()
-    yield made
-    assert made.faults == []
-    context.close()
-    server.stop()
+    with own_desk(browser, "circle", "star", "heart", "-n", "24") as made:
+        yield made
 
 
 def draw(desk: Desk, radius: Callable[[float], float], turns: float = 1.0) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from PIL import Image, ImageDraw
 
-from studio.browsing import WIDE, Desk, Server, in_browser
+from studio.browsing import Desk, in_browser, own_desk
 
 pytestmark = in_browser
 
@@ -35,14 +35,8 @@ DROP = """([files, place]) => {
 
 @pytest.fixture
 def desk(browser: Any) -> Iterator[Desk]:
-    server = Server("circle", "star", "-n", "5").start()
-    context = browser.new_context(viewport=WIDE)
-    made = Desk(context.new_page(), server.address)
-    made.settled()
-    yield made
-    assert made.faults == []
-    context.close()
-    server.stop()
+    with own_desk(browser, "circle", "star", "-n", "5") as made:
+        yield made
 
 
 @pytest.fixture
