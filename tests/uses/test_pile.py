@@ -315,3 +315,18 @@ def test_items_are_told_one_after_another() -> None:
     uses.fill(recipe, observer=Watcher())
     assert counts[:9] == list(range(1, 10))
     assert set(counts[9:]) == {9}
+
+
+@pytest.mark.parametrize("emit", [{}, {"emit": "top"}], ids=["laid", "poured"])
+@pytest.mark.parametrize("rotate", ["none", "0,90", "10"])
+def test_items_have_only_angles_that_they_may_have(rotate: str, emit: dict[str, str]) -> None:
+    for seed in range(3):
+        run = _run("square", count=12, size="14%", rotate=rotate, seed=seed, **emit)
+        assert run.certified
+        angles = np.degrees(run.layout.poses.angle)
+        if rotate == "10":
+            assert np.all(np.abs(angles) <= 10.0 + 1e-4)
+        else:
+            allowed = [0.0] if rotate == "none" else [0.0, 90.0]
+            off = np.abs((np.subtract.outer(angles, allowed) + 180.0) % 360.0 - 180.0)
+            assert np.all(off.min(axis=1) < 1e-4)

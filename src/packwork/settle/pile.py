@@ -190,7 +190,8 @@ class _Pile:
         self._is_given = len(known) > 0 and self._arrival.keeps
         if len(known):
             near = self._arrangement(room, COARSE, known)
-            lost = separate_fixed(near, self._gap, self._hair)
+            turns = turn_ranges(self._poses.angle[known], self._options)
+            lost = separate_fixed(near, turns, self._gap, self._hair)
             self._take_over(near, known)
             standing = np.delete(known, lost)
             if not self._is_given:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.arrays import IntArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.compact import compact_all
 from packwork.compaction.kernels.steps import MOST_GROWTH
@@ -23,8 +23,12 @@ TRUST = 0.1
 """Bound of a move in such a round, in sides of the square of an item's share. Chosen."""
 
 
-def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArray:
+def separate_fixed(
+    arrangement: Arrangement, turns: tuple[FloatArray, FloatArray], gap: float, hair: float
+) -> IntArray:
     """Separate items at the sizes given; ``(m,)`` indices of those that found no room.
+
+    ``turns``: farthest turns back and on, ``(n,)`` each, rad.
 
     Those stand where they were, in conflict or not: they have to be placed anew.
 
@@ -34,14 +38,14 @@ def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArra
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
     >>> two = Arrangement([box] * 2, wall, np.array([[0.0, 0, 0, 0], [1.9, 0, 0, 0]]))
-    >>> len(separate_fixed(two, 1e-3, 1e-3)), len(two.conflicts(two.pairs(1e-3), 1e-3))
+    >>> still = np.zeros(2), np.zeros(2)
+    >>> len(separate_fixed(two, still, 1e-3, 1e-3)), len(two.conflicts(two.pairs(1e-3), 1e-3))
     (0, 0)
     """
     first = arrangement.places.copy()
     all_items = np.arange(arrangement.count)
     separate(arrangement, gap)
-    free = np.full(arrangement.count, np.inf)
-    sizing = FixedSize(np.square(arrangement.board.arms), (-free, free))
+    sizing = FixedSize(np.square(arrangement.board.arms), turns)
     trust = TRUST * float(np.sqrt(np.pi * np.mean(arrangement.board.arms**2)))
     for turn in range(ROUNDS):
         growth = arrangement.places[:, 3]

@@ -175,10 +175,6 @@ class Settling:
         some = max(len(self._drops) // 10, 1)
         return max(float(np.sort(self._drops)[-some:].mean()), self._narrowed)
 
-    def is_still(self, gained: float, least: float) -> bool:
-        """Whether a round gained less than ``least`` sides of an item's square."""
-        return gained < least * self._spacing
-
     def _step(self, block: IntArray, trust: float, tilt: float, now: Pull) -> Pull:
         """One step of some of the active items, the way down turned by ``tilt``.
 

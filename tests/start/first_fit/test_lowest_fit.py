@@ -33,6 +33,7 @@ def _laid(
     falling = Falling(
         outlines, np.ones(count), [angles] * count, np.arange(count),
         [FieldForce(field, np.ones(count) if strengths is None else strengths)], margin,
+        np.full(count, len(angles) > 1),
     )  # fmt: skip
     poses, found = lowest_fit(square_container(), falling, np.random.default_rng(seed), never)
     return poses, found, [outlines[k].mapped(poses.matrix(int(k))).region for k in found]
@@ -62,7 +63,9 @@ def test_items_lie_on_each_other_and_not_on_pixels() -> None:
     container = square_container()
     tall = replace(container, outline=box(40.0, 5.0, 60.0, 95.0))
     force = FieldForce(DOWN, np.ones(5))
-    falling = Falling(tiles, np.ones(5), [np.zeros(1)] * 5, np.arange(5), [force], 1e-6)
+    falling = Falling(
+        tiles, np.ones(5), [np.zeros(1)] * 5, np.arange(5), [force], 1e-6, np.zeros(5, bool)
+    )
     poses, _ = lowest_fit(tall, falling, np.random.default_rng(0), never)
     assert np.abs(np.sort(poses.y)[::-1] - (87.0 - 16.0 * np.arange(5))).max() < 0.5
 

@@ -31,7 +31,15 @@ TOP = np.column_stack([np.linspace(15.0, 85.0, 15), np.full(15, 15.0)])
 def _falling(outlines: list[Outline], margin: float = 0.0) -> Falling:
     count = len(outlines)
     force = FieldForce(DOWN, np.ones(count))
-    return Falling(outlines, np.ones(count), [TURNS] * count, np.arange(count), [force], margin)
+    return Falling(
+        outlines,
+        np.ones(count),
+        [TURNS] * count,
+        np.arange(count),
+        [force],
+        margin,
+        np.ones(count, bool),
+    )
 
 
 def _poured(
@@ -104,7 +112,9 @@ def test_a_roof_keeps_the_room_below_it_dry() -> None:
     room = shapely.union(shapely.box(10, 5, 90, 60), shapely.box(30, 60, 70, 95))
     hut = Container("hut", "hut", Outline.from_region(room), 100.0, 100.0)
     outlines, force = [box(-37.0, -3.0, 37.0, 3.0), *[disc(4.0)] * 3], FieldForce(DOWN, np.ones(4))
-    falling = Falling(outlines, np.ones(4), [np.zeros(1)] * 4, np.arange(4), [force], 0.0)
+    falling = Falling(
+        outlines, np.ones(4), [np.zeros(1)] * 4, np.arange(4), [force], 0.0, np.zeros(4, bool)
+    )
     source = Source(np.array([[50.0, 15.0]]), np.zeros(1, dtype=int), 1)
     found = pour(hut, hut.outline, falling, source, np.random.default_rng(0), never)
     assert found.items.tolist() == [0, 1, 2, 3]

@@ -48,20 +48,20 @@ def fallen(
     detail = Detail(outlines, room.outline, poses).covers(FINE)
     arrangement = detail.arrangement(np.column_stack([poses.x, poses.y, still, still]))
     gap, hair = gap_of(document, movable), HAIR * side
-    is_tight = len(arrangement.conflicts(arrangement.pairs(gap), gap)) > 0
-    # A settle leaves a few that touch.
-    if is_tight and (is_full(document) or len(separate_fixed(arrangement, gap, hair))):
-        return document
     rotation = document.options.rotation
     options = SettleOptions(
         turning=document.options.turns,
         turn_limit=rotation.limit if document.options.turns else None,
         still=tuple(document.held[movable, 1].tolist()),
     )
+    turns = turn_ranges(poses.angle, options)
+    is_tight = len(arrangement.conflicts(arrangement.pairs(gap), gap)) > 0
+    # A settle leaves a few that touch.
+    if is_tight and (is_full(document) or len(separate_fixed(arrangement, turns, gap, hair))):
+        return document
     settling = Settling(
-        arrangement, document.forces(movable), document.areas[movable],
-        turn_ranges(poses.angle, options), gap, hair, side,
-    )  # fmt: skip
+        arrangement, document.forces(movable), document.areas[movable], turns, gap, hair, side
+    )
 
     def at(places: FloatArray) -> Document:
         x, y, turn, _ = places.T.copy()

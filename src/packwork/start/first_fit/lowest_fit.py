@@ -54,6 +54,9 @@ WAYS = np.array(
 )
 """Steps that are tried in this order: rad off the way down, and turns. Tried."""
 
+STRAIGHT = WAYS[WAYS[:, 1] == 0.0]
+"""Those that keep the angle."""
+
 PULL = 1.0
 """Score, of 1 for a place that touches others all round, for lying lower by the side of an item's
 square. Larger packs looser, smaller lets towers grow along walls. Tried."""
@@ -74,6 +77,8 @@ class Falling:
     order: IntArray
     fields: Sequence[FieldForce]
     margin_cu: float
+    is_free: BoolArray
+    """``(n,)`` which may have any angle, and so turn on their way down."""
 
 
 def lowest_fit(
@@ -131,7 +136,8 @@ class _Exact:
         slope = np.sum(slopes, axis=0) if slopes else np.zeros(2)
         if slope.any():
             down = -slope / np.hypot(*slope)
-            slide.slide(self._board, one, down, WAYS, self._step, HALVINGS, self._gap)
+            ways = WAYS if self._falling.is_free[item] else STRAIGHT
+            slide.slide(self._board, one, down, ways, self._step, HALVINGS, self._gap)
         return self._board.places[item, :3].copy()
 
 

@@ -224,7 +224,9 @@ class _TiledSearch:
             board.loosen()
             x, y = poses.x.copy(), poses.y.copy()
             for k in tight.order[kept:]:
-                put = None if stop() else self._put(board, k, tight.factor, stencils[k])
+                if stop():
+                    return tight
+                put = self._put(board, k, tight.factor, stencils[k])
                 if put is None:
                     break
                 x[k], y[k] = put

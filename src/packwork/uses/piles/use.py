@@ -213,9 +213,11 @@ def _falling(
     angles = _angles_tried(job, poses.angle, rng)
     radii = np.array([outline.radius for outline in outlines]) * poses.scale
     mixed = radii * np.exp(rng.uniform(-SHUFFLE, SHUFFLE, len(radii)))
+    rotations = [one.rotation or job.plan.rotation for one in job.asked]
     return rng, Falling(
         outlines, poses.scale, angles, np.argsort(-mixed, kind="stable"), forces.fields,
         options.gap_cu / 2 + HAIR * job.container.side,
+        np.array([rotation.is_free for rotation in rotations]),
     )  # fmt: skip
 
 
