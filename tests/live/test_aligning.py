@@ -56,6 +56,18 @@ def test_distances_become_even_between_the_ends(
     assert (after_low[0], after_high[-1]) == pytest.approx((low[order[0]], high[order[-1]]))
 
 
+def test_what_is_held_in_a_row_stays_and_others_are_spaced_about_it(session: pw.Session) -> None:
+    rows = [0, 3, 5, 8, 10]
+    low, high = (one[rows] for one in extents(session, 0))
+    order = np.argsort(low + high)
+    session.hold(rows[order[2]])
+    session.distribute(rows, "horizontal")
+    after_low, after_high = (one[rows][order] for one in extents(session, 0))
+    gaps = after_low[1:] - after_high[:-1]
+    assert after_low[2] == pytest.approx(low[order[2]])
+    assert gaps[[0, 2]] == pytest.approx(gaps[[1, 3]])
+
+
 def test_what_is_lined_up_settles_and_tells_what_it_has_not_got(session: pw.Session) -> None:
     session.align(list(range(12)), "left")
     found = session.settle()

@@ -82,3 +82,16 @@ def test_a_crop_is_kept_in_a_session_file_and_can_be_changed_there(
 def test_a_drawing_has_no_frame(session: pw.Session) -> None:
     with pytest.raises(RecipeError, match="photographs"):
         session.crop(0, 2.0)
+
+
+def test_a_crop_is_turned_over_below_another_colour_too(album: pw.Layout) -> None:
+    plain, painted = album.edit(), album.edit()
+    for session in (plain, painted):
+        session.crop(0, 2.0, 0.5, 0.0)
+    painted.recolor(0, "black")
+    for session in (plain, painted):
+        session.flip(0)
+    painted.palette(None)
+    one, other = art(plain).crop, art(painted).crop
+    assert (other.zoom, other.x, other.y) == (one.zoom, one.x, one.y)
+    assert np.array_equal(other.whole.preview.matrix, one.whole.preview.matrix)

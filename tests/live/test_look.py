@@ -102,3 +102,19 @@ def test_a_file_with_a_free_edge_holds_the_same_layout(drawn: pw.Layout, tmp_pat
         with pytest.raises(RecipeError, match="margin"):
             check("png", {"margin": wrong})
     check("film.gif", {"loop": "false"})
+
+
+def test_the_same_background_twice_is_one_step(drawn: pw.Layout) -> None:
+    session = drawn.edit()
+    before = session.document.manifest
+    session.background("black")
+    session.background("black")
+    session.undo()
+    assert session.document.manifest == before
+
+
+def test_groups_of_a_chart_keep_the_colours_of_its_keys() -> None:
+    rows = [{"name": "a", "size": 3, "kind": "x"}, {"name": "b", "size": 2, "kind": "y"}]
+    chart = pw.chart("circle", rows, size_by="size", color_by="kind", label_by="name")
+    with pytest.raises(RecipeError, match="as its keys say"):
+        chart.edit().palette("viridis")

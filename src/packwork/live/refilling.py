@@ -121,7 +121,8 @@ def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled |
     least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
     if share[1] >= share[0] * least and not has_no_room:
         return None
-    columns = {name: getattr(before, name) for name in ("poses", "weights", "smallest", "largest")}
+    names = ("poses", "weights", "smallest", "largest", *["options"] * has_no_room)
+    columns = {name: getattr(before, name) for name in names}
     message = (
         "taken back, for there is no room for it at these sizes"
         if has_no_room

@@ -48,12 +48,18 @@ def mirrored(item: Item) -> Item:
 
     outline = over(item.outline)
     ink = outline if item.ink is item.outline else over(item.ink)
-    art, own = mapped_art(item.art, turned), item.own_art
-    if isinstance(art, PhotoArt) and (crop := art.crop) is not None:
-        whole = cast(PhotoArt, mapped_art(crop.whole, turned))
-        art = replace(art, crop=Crop(whole, crop.zoom, -crop.x, crop.y))
-    own = None if own is None else mapped_art(own, turned)
+    art, own = _turned_over(item.art), item.own_art
+    own = None if own is None else _turned_over(own)
     return replace(item, outline=outline, ink=ink, art=art, text=None, own_art=own)
+
+
+def _turned_over(art: Art) -> Art:
+    turned = affine.mirrored()
+    made = mapped_art(art, turned)
+    if not isinstance(made, PhotoArt) or (crop := made.crop) is None:
+        return made
+    whole = cast(PhotoArt, mapped_art(crop.whole, turned))
+    return replace(made, crop=Crop(whole, crop.zoom, -crop.x, crop.y))
 
 
 def mapped_art(art: Art, matrix: FloatArray) -> Art:

@@ -94,9 +94,7 @@ class Begin(PageRequest):
     """Begin another document with a template, or go on with one that is kept."""
 
     type: Literal["begin"] = "begin"
-    template: (
-        Literal["icons", "letters", "words", "names", "jar", "nest", "photos", "mosaic"] | None
-    ) = None
+    template: Template | None = None
     source: Name | None = None
     """Files of those templates that take some."""
     kept: Annotated[str, Field(pattern="^desk-[0-9]{1,2}$")] | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import replace
+from itertools import pairwise
 from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
@@ -30,7 +31,7 @@ class LineUp(Command):
 
     @abstractmethod
     def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
-        """Starts of items on the axis then, of ``(n,)`` extents before."""
+        """New lower ends of items along the axis, ``(n,)``."""
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the items there, but those whose place is held."""
@@ -68,7 +69,7 @@ class Align(LineUp):
 
 
 class Distribute(LineUp):
-    """Even out the distances between items in a row or column, whose ends stay."""
+    """Even out the distances between items in a row or column; its ends and what is held stay."""
 
     kind: Literal["distribute"] = "distribute"
     items: Annotated[tuple[ItemId, ...], Field(min_length=3)]
@@ -80,12 +81,16 @@ class Distribute(LineUp):
         return 0 if self.direction == "horizontal" else 1
 
     def starts(self, low: FloatArray, high: FloatArray, is_held: np.ndarray) -> FloatArray:
-        """One after another in the order of their middles."""
-        order, sizes = np.argsort(low + high, kind="stable"), high - low
-        first, last = order[0], order[-1]
-        gap = (high[last] - low[first] - sizes.sum()) / (len(low) - 1)
-        starts = np.empty_like(low)
-        starts[order] = low[first] + np.concatenate(([0.0], np.cumsum(sizes[order] + gap)[:-1]))
+        """One after another in the order of their middles, between those that stay."""
+        order, starts = np.argsort(low + high, kind="stable"), low.copy()
+        stays = is_held[order]
+        stays[[0, -1]] = True
+        for first, last in pairwise(np.flatnonzero(stays).tolist()):
+            between = order[first + 1 : last]
+            sizes = high[between] - low[between]
+            begin, end = high[order[first]], low[order[last]]
+            gap = (end - begin - sizes.sum()) / (last - first)
+            starts[between] = begin + gap + np.concatenate(([0.0], np.cumsum(sizes + gap)))[:-1]
         return starts
 
 

@@ -38,6 +38,8 @@ class Paint(Command):
         known_palette(list(self.palette) or None)
         palette = palette_colours(list(self.palette)) if self.palette else ()
         items = tuple(in_own_colours(item) for item in document.items)
+        if any(item.datum is not None and item.datum.category for item in items):
+            raise RecipeError("palette", "colours of a chart stand for its groups, as its keys say")
         if palette:
             items = self._painted(document, items, palette)
         manifest = {**document.manifest, "painted": list(palette)}

@@ -30,6 +30,7 @@ export class Choice {
 
   /** @param {Iterable<number>} ids */
   set(ids) {
+    this.before = null;
     this.ids = new Set(ids);
     this.changed();
   }
@@ -47,10 +48,7 @@ export class Choice {
    */
   keep(present) {
     const fresh = this.before ? [...present.keys()].filter((id) => !this.before?.has(id)) : [];
-    if (fresh.length) {
-      this.before = null;
-      return this.set(fresh);
-    }
+    if (fresh.length) return this.set(fresh);
     const left = [...this.ids].filter((id) => present.has(id));
     if (left.length !== this.ids.size) this.set(left);
     if (this.hovered !== null && !present.has(this.hovered)) this.hovered = null;

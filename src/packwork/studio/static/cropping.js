@@ -20,6 +20,8 @@ export class Cropping {
     /** @type {number | null} */
     this.id = null;
     this.now = { zoom: 1, x: 0, y: 0 };
+    /** As it was taken in hand. */
+    this.was = this.now;
   }
 
   get isOn() {
@@ -32,14 +34,16 @@ export class Cropping {
     if (!crop) return false;
     this.id = id;
     const [zoom, x, y] = crop;
-    this.now = { zoom, x, y };
+    this.was = this.now = { zoom, x, y };
     say("Dragging and arrow keys move the picture in its frame, wheel, plus and minus zoom; Enter keeps it, Escape leaves it as it was");
     return true;
   }
 
   /** Let go. @param {boolean} isKept */
   end(isKept) {
-    if (this.isOn && isKept) this.connection.do({ kind: "crop", item: this.id, ...this.now });
+    const { zoom, x, y } = this.was;
+    const isOther = zoom !== this.now.zoom || x !== this.now.x || y !== this.now.y;
+    if (this.isOn && isKept && isOther) this.connection.do({ kind: "crop", item: this.id, ...this.now });
     this.id = null;
   }
 

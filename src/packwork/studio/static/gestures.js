@@ -138,7 +138,7 @@ export class Gestures {
     if (doing.act === "item" || doing.act === "turn" || doing.act === "scale") {
       if (doing.id !== undefined && !this.choice.has(doing.id)) this.choice.set([doing.id]);
       this.choice.isBusy = true;
-      this.stage.snapping.begin(this.choice.ids);
+      if (doing.act === "item") this.stage.snapping.begin(this.choice.ids);
       this.hand.grab(this.choice.ids);
       if (doing.copies && kindOf(this.stage.collage).grows) this.hand.leaveCopies();
     }
