@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
+from packwork.live.commands.gestures import Cancel, Grab
 
 
 @pytest.mark.parametrize("which", ["star#1", "heart#2", "hexagon#3"])
@@ -45,6 +46,22 @@ def test_a_place_outside_is_said(session: pw.Session) -> None:
     (said,) = session.unmet
     assert said.startswith("heart#1 is at ")
     assert "not at 0, 0: there is no room for it" in said
+
+
+def test_what_was_not_had_is_said_until_it_is_had_or_asked_otherwise(session: pw.Session) -> None:
+    session.move("heart#1", 0, 0)
+    session.finish()
+    session.move("star#1", "50%", "50%")
+    session.finish()
+    session.apply(Grab(items=(session.one("heart#1"),)))
+    session.move("heart#1", 300, 300)
+    session.apply(Cancel())
+    session.finish()
+    (said,) = session.unmet
+    assert said.startswith("heart#1 is at ")
+    session.move("heart#1", "40%", "50%")
+    session.finish()
+    assert session.unmet == ()
 
 
 def test_positions_are_of_the_layout_and_numbers_for_ever(session: pw.Session) -> None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
-from studio.browsing import Desk, Server, in_browser
+from studio.browsing import WIDE, Desk, Server, in_browser
 
 pytestmark = in_browser
 
@@ -100,6 +102,36 @@ def test_a_copy_comes_to_another_studio_and_goes_out_as_svg(open_desk: Callable[
         assert second.look(COUNT) == 4
     finally:
         other.stop()
+
+
+def test_a_studio_started_anew_pastes_what_the_page_has(
+    browser: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    first, context = Server("heart", "moon", "-n", "3").start(), browser.new_context(viewport=WIDE)
+    second = Server("--again", "--port", first.port)
+    try:
+        desk = Desk(context.new_page(), first.address)
+        desk.settled()
+        desk.page.mouse.click(*desk.place(0))
+        desk.page.keyboard.press("Control+c")
+        desk.until("studio.collage.state.clip === studio.clipboard.last.token")
+        first.kill()
+        desk.until("!studio.connection.isOpen")
+        second.start()
+        desk.until("studio.connection.isOpen")
+        desk.settled()
+        assert desk.look("studio.collage.state.clip") == ""
+        desk.page.keyboard.press("Control+v")
+        desk.until(f"{COUNT} === 4")
+        desk.settled()
+        desk.look("studio.clipboard.askPaste()")
+        desk.until(f"{COUNT} === 5")
+        assert desk.faults == []
+    finally:
+        context.close()
+        first.stop()
+        second.stop()
 
 
 def pasting(text: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -115,65 +116,96 @@ ROUNDING = 1e-6
 
 
 class Requests:
-    """Notes of what was asked of items since the last settle and not taken back."""
+    """Places and sizes asked of items: each is kept until it is had or asked otherwise."""
 
     def __init__(self) -> None:
-        self.is_answered = False
-        """Whether all was settled since the last of them: what is asked then begins new notes."""
-        self._places: dict[int, tuple[float, float]] = {}
-        self._sizes: dict[int, tuple[float, float]] = {}
+        self._asked: dict[tuple[str, int], _Asked] = {}
+        self._count = self._settled = 0
 
     def note(self, commands: Iterable[Command], before: Document, after: Document) -> None:
         """Note what commands ask for that have made one document of another."""
-        if self.is_answered and before is not after:
-            self.forget()
         for one in commands:
             if isinstance(one, Move):
-                self._places[one.item] = one.x, one.y
+                self._ask("place", one.item, (one.x, one.y))
             elif isinstance(one, LineUp):
                 for number, row in ((n, after.index(n)) for n in one.items):
                     if row is not None:
-                        self._places[number] = after.poses.x[row], after.poses.y[row]
+                        self._ask("place", number, (after.poses.x[row], after.poses.y[row]))
             elif isinstance(one, Scale):
                 row, first = after.index(one.item), before.index(one.item)
                 if row is not None and first is not None:
-                    known = self._sizes.get(one.item, (0.0, _size(before, first)))[1]
-                    self._sizes[one.item] = _size(after, row), known
+                    known = self._asked.get(("size", one.item))
+                    is_one_gesture = known is not None and known.number > self._settled
+                    began = known.value[1] if known and is_one_gesture else _size(before, first)
+                    self._ask("size", one.item, (_size(after, row), began))
             elif isinstance(one, Arrange | Cover | Exchange | Replace):
                 # Other places and sizes are asked for now.
                 self.forget()
 
+    def _ask(self, what: str, item: int, value: tuple[float, float]) -> None:
+        self._count += 1
+        self._asked[what, item] = _Asked(self._count, value)
+
+    def settled(self, document: Document) -> None:
+        """Forget what a document that is settled has: later gestures may take it away again."""
+        unmet = self.unmet(document)
+        self._asked = {key: one for key, one in self._asked.items() if one.number in unmet}
+        self._settled = self._count
+
+    def copy(self) -> Requests:
+        """The same, to be gone back to."""
+        made = copy(self)
+        made._asked = dict(self._asked)
+        return made
+
     def forget(self) -> None:
         """Take back all that was asked for."""
-        self.is_answered = False
-        self._places.clear()
-        self._sizes.clear()
+        self._asked.clear()
 
-    def unmet(self, document: Document) -> tuple[str, ...]:
-        """Sentences about what items of a document have not got."""
-        poses, sentences = document.poses, []
-        # What forces pull at does not stay where it is put.
-        for number, (x, y) in () if document.options.force else self._places.items():
+    def unmet(self, document: Document) -> dict[int, str]:
+        """Sentences about what items of a document have not got, by the count of what was asked."""
+        sentences = {}
+        for (what, number), asked in self._asked.items():
             k = document.index(number)
-            if k is None or math.dist((x, y), (poses.x[k], poses.y[k])) <= (
-                NEAR * document.container.side
-            ):
-                continue
-            sentences.append(
-                f"{called(document, k)} is at {poses.x[k]:.4g}, {poses.y[k]:.4g}, not at "
-                f"{x:.4g}, {y:.4g}: there is no room for it"
-            )
-        for number, (asked, first) in self._sizes.items():
-            k = document.index(number)
-            spare = NEARLY if document.options.sizes == "free" else 1.0
-            if k is None or _size(document, k) * spare >= asked * (1 - ROUNDING):
-                continue
-            factor = _size(document, k) / first
-            sentences.append(
-                f"{called(document, k)} is {factor:.3g} times as large as it was, "
-                f"not {asked / first:.3g} times: there is no room for more"
-            )
-        return tuple(sentences)
+            told = None if k is None else _MISSES[what](document, k, *asked.value)
+            if told is not None:
+                sentences[asked.number] = told
+        return sentences
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Request, in the order of asking.
+
+    ``value``: coordinates; of a size itself and what it was before.
+    """
+
+    number: int
+    value: tuple[float, float]
+
+
+def _miss_of_place(document: Document, k: int, x: float, y: float) -> str | None:
+    at = document.poses.x[k], document.poses.y[k]
+    # What forces pull at does not stay where it is put.
+    if document.options.force or math.dist((x, y), at) <= NEAR * document.container.side:
+        return None
+    return (
+        f"{called(document, k)} is at {at[0]:.4g}, {at[1]:.4g}, not at {x:.4g}, {y:.4g}: "
+        "there is no room for it"
+    )
+
+
+def _miss_of_size(document: Document, k: int, asked: float, first: float) -> str | None:
+    spare = NEARLY if document.options.sizes == "free" else 1.0
+    if _size(document, k) * spare >= asked * (1 - ROUNDING):
+        return None
+    return (
+        f"{called(document, k)} is {_size(document, k) / first:.3g} times as large as it was, "
+        f"not {asked / first:.3g} times: there is no room for more"
+    )
+
+
+_MISSES = {"place": _miss_of_place, "size": _miss_of_size}
 
 
 def _size(document: Document, k: int) -> float:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Any, TypeAlias, TypeVar
 
@@ -96,7 +96,7 @@ class Frame:
     advice
         What is poor, and what would do, where it is certified.
     unmet
-        Places and sizes that the last gesture asked for and that were not had.
+        Places and sizes that were asked for and not had, by the count of what was asked.
     """
 
     number: int
@@ -108,7 +108,7 @@ class Frame:
     can_undo: bool = False
     can_redo: bool = False
     advice: tuple[str, ...] = ()
-    unmet: tuple[str, ...] = ()
+    unmet: Mapping[int, str] = field(default_factory=dict)
 
 
 class Owner:
@@ -340,7 +340,7 @@ class Owner:
             session.history.can_undo,
             session.history.can_redo,
             session.advice if in_the_way == () else (),
-            session.unmet if in_the_way == () else (),
+            session.requests.unmet(session.document) if in_the_way == () else {},
         )
 
 

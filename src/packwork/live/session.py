@@ -70,8 +70,9 @@ class Session:
         self.letters: Mapping[str, Any] = {}
         """How words were asked to be set, last."""
         self._solver = LocalSolver(document, record=record)
-        self._requests = Requests()
-        self._before_grab: tuple[Document, Marks] | None = None
+        self.requests = Requests()
+        """Notes of what was asked for."""
+        self._before_grab: tuple[Document, Marks, Requests] | None = None
 
     def __enter__(self) -> Self:
         return self
@@ -123,7 +124,7 @@ class Session:
     @property
     def unmet(self) -> tuple[str, ...]:
         """Places and sizes that items were given and have not got, a sentence each."""
-        return self._requests.unmet(self.document)
+        return tuple(self.requests.unmet(self.document).values())
 
     @property
     def advice(self) -> tuple[str, ...]:
@@ -200,12 +201,12 @@ class Session:
         change = Change.between(before, documents[-1])
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)
-        self._requests.note(command.steps, before, documents[-1])
+        self.requests.note(command.steps, before, documents[-1])
         self._solver.keep_angles(one for step in command.steps for one in step.keeps_angles)
         for document in documents:
             self._solver.take(document)
         if isinstance(command, Grab):
-            self._before_grab = before, self.marks.copy()
+            self._before_grab = before, self.marks.copy(), self.requests.copy()
             self._solver.grab(command.items)
         elif isinstance(command, Drop | Cancel):
             self._let_go(is_cancelled=isinstance(command, Cancel))
@@ -359,7 +360,6 @@ class Session:
     def go_on_from(self, state: SessionState) -> None:
         """Take over what a file holds, nothing else: so that the same follows wherever it is."""
         self.history, self._before_grab = state.history, None
-        self._requests.forget()
         self._solver.go_on_from(state)
 
     def _check_dropped(self, key: str) -> None:
@@ -368,7 +368,7 @@ class Session:
 
     def _settled(self) -> None:
         self._solver.settled()
-        self._requests.is_answered = True
+        self.requests.settled(self.document)
         self.log.note("settle")
         self.log.flush()
 
@@ -381,8 +381,8 @@ class Session:
         before, self._before_grab = self._before_grab, None
         self._solver.grab(())
         if before is not None and is_cancelled:
-            self._requests.forget()
-            self._solver.restart(*before)
+            document, marks, self.requests = before
+            self._solver.restart(document, marks)
         elif before and self.document is not before[0]:
             self.history.note(before[0])
         self.log.flush()
@@ -392,7 +392,7 @@ class Session:
         if not getattr(self.history, f"can_{kind}"):
             return False
         self.log.note(kind)
-        self._requests.forget()
+        self.requests.forget()
         self._solver.leap_to(getattr(self.history, kind)(self.document))
         self.log.flush()
         return True

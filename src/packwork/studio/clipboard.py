@@ -25,9 +25,12 @@ class Clipboard:
 
     def __init__(self) -> None:
         self._clip: CopiedItems | None = None
+        self.token = ""
+        """Name that the page which copied has given to what is held; empty for nothing."""
 
-    def copy(self, workspace: Workspace, items: ItemIds) -> None:
+    def copy(self, workspace: Workspace, items: ItemIds, token: str) -> None:
         """Hold items as they are when all that was asked for before is done."""
+        self.token = token
 
         def keep(session: Session) -> None:
             self._clip = edits.copy(session, items)
@@ -50,10 +53,12 @@ class Copy(PageRequest):
 
     type: Literal["copy"] = "copy"
     items: ItemIds
+    token: Annotated[str, Field(max_length=40)]
+    """Name of this copy, which all pages are told in ``State.clip``."""
 
     def act(self, tab: Tab) -> None:
         """Hold them."""
-        tab.workspace.clipboard.copy(tab.workspace, self.items)
+        tab.workspace.clipboard.copy(tab.workspace, self.items, self.token)
 
 
 class Paste(PageRequest):

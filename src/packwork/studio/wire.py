@@ -125,8 +125,8 @@ class State(Message):
     """What the run that brought the items could not place."""
     advice: tuple[str, ...]
     """What is poor where it is certified, and what would do."""
-    unmet: tuple[str, ...]
-    """Places and sizes that the last gesture asked for and that were not had."""
+    unmet: dict[int, str]
+    """Places and sizes that were asked for and not had, by the count of what was asked."""
     can_undo: bool
     can_redo: bool
     busy: str
@@ -135,6 +135,8 @@ class State(Message):
     """Share of that, 0 where nobody knows."""
     can_stop: bool
     saved: bool
+    clip: str
+    """Token of what the studio holds to be pasted; empty for nothing."""
     fresh: bool = False
     """Whether it began with nothing that a person named, and nothing was done since."""
 

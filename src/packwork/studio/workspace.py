@@ -174,13 +174,16 @@ class Workspace:
             entangled=() if frame is None or is_moving else frame.entangled,
             unplaced=self._left_out(view),
             advice=() if frame is None or is_moving else tuple(map(for_page, frame.advice)),
-            unmet=() if frame is None or is_moving else tuple(map(for_page, frame.unmet)),
+            unmet={}
+            if frame is None or is_moving
+            else {k: for_page(line) for k, line in frame.unmet.items()},
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy or work,
             progress=self._progress if self._busy else 0.0,
             can_stop=bool(self._busy),
             saved=self._desk is not None and self._desk[1] is not None,
+            clip=self.clipboard.token,
             fresh=self._is_fresh and not (frame is not None and frame.can_undo),
         )
 

@@ -51,13 +51,14 @@ export class Badge {
     this.stop.hidden = !state.can_stop;
     if (!state.busy && word !== this.told) say(`${this.share.textContent} ${word}`);
     this.told = word;
-    if (state.certified && !state.unplaced.length && !state.advice.length) this.why.hidePopover?.();
+    if (state.certified && !this.wordOf(state).includes("·")) this.why.hidePopover?.();
   }
 
   /** @param {State} state */
   wordOf(state) {
     if (state.busy) return state.busy.toLowerCase() + (state.progress ? ` · ${Math.round(100 * state.progress)} %` : "");
-    const without = state.unplaced.length ? ` · ${state.unplaced.length} left out` : state.advice.length ? " · a hint" : "";
+    const unmet = Object.keys(state.unmet).length;
+    const without = state.unplaced.length ? ` · ${state.unplaced.length} left out` : unmet ? ` · ${unmet} not as asked` : state.advice.length ? " · a hint" : "";
     if (state.certified) return `covered · certified${without}`;
     const count = state.in_the_way.length;
     return count ? `${count} in the way` : "nothing there";
@@ -72,6 +73,8 @@ export class Badge {
         : [h("p", {}, "What is in the way:"), h("ul", {}, ...state.in_the_way.map((line) => h("li", {}, line)))];
     const shows = state.entangled.length && h("button", { type: "button", onclick: () => this.hears.show(state.entangled) }, "Show them");
     if (state.unplaced.length) lines.push(h("p", {}, "Left out:"), h("ul", {}, ...state.unplaced.map(({ name, reason }) => h("li", {}, `${name}: ${reason}`))));
+    const unmet = Object.values(state.unmet);
+    if (unmet.length) lines.push(h("p", {}, "Asked for, and not had:"), h("ul", {}, ...unmet.map((line) => h("li", {}, line))));
     lines.push(...state.advice.map((line) => h("p", {}, line)));
     this.why.replaceChildren(...lines, shows || "");
     this.why.togglePopover?.();

@@ -17,6 +17,8 @@ export class Clipboard {
     this.studio = studio;
     /** Where the pointer is over the canvas, px. @type {{x: number, y: number} | null} */
     this.pointer = null;
+    /** What this page has copied last. */
+    this.last = { token: "", drawings: /** @type {[string, string][]} */ ([]) };
     studio.canvas.addEventListener("pointermove", (event) => (this.pointer = { x: event.offsetX, y: event.offsetY }));
     studio.canvas.addEventListener("pointerleave", () => (this.pointer = null));
     document.addEventListener("copy", (event) => this.copied(event));
@@ -35,10 +37,13 @@ export class Clipboard {
     if (!this.isOurs(event) || !ids.length || !event.clipboardData) return false;
     event.preventDefault();
     const token = crypto.randomUUID();
-    localStorage.setItem("clip", token);
-    this.studio.connection.send({ type: "copy", items: ids });
-    const drawings = ids.map((id) => [this.studio.collage.item(id)?.name ?? "item", this.drawing([id])]);
-    event.clipboardData.setData(OURS, JSON.stringify({ token, drawings }));
+    const { collage, connection } = this.studio;
+    /** @type {[string, string][]} */
+    const drawings = ids.map((id) => [collage.item(id)?.name ?? "item", this.drawing([id])]);
+    this.last = { token, drawings };
+    connection.send({ type: "copy", items: ids, token });
+    if (collage.state) collage.state.clip = token;
+    event.clipboardData.setData(OURS, JSON.stringify(this.last));
     event.clipboardData.setData("text/plain", this.drawing(ids));
     return true;
   }
@@ -50,10 +55,18 @@ export class Clipboard {
     event.preventDefault();
     const files = [...data.files];
     if (files.length) return this.studio.dropping.takes(files);
-    const { token, drawings } = known(data.getData(OURS));
-    if (token && token === localStorage.getItem("clip")) this.paste();
-    else if (drawings.length) this.read(drawings);
+    const copied = known(data.getData(OURS));
+    if (copied.drawings.length) this.put(copied);
     else this.readText(data.getData("text/plain"));
+  }
+
+  /**
+   * Put in what a page of ours has copied: as it was, where this studio holds it still.
+   * @param {{token: string, drawings: [string, string][]}} copied
+   */
+  put({ token, drawings }) {
+    if (token === this.studio.collage.state?.clip) this.paste();
+    else this.read(drawings);
   }
 
   /** Put in what this studio holds: at the pointer, or where it was. */
@@ -72,8 +85,9 @@ export class Clipboard {
 
   /** Paste what was asked for without keys. */
   async askPaste() {
-    if (localStorage.getItem("clip")) return this.paste();
-    this.readText(await navigator.clipboard.readText().catch(() => ""));
+    if (this.studio.collage.state?.clip) this.paste();
+    else if (this.last.token) this.read(this.last.drawings);
+    else this.readText(await navigator.clipboard.readText().catch(() => ""));
   }
 
   /** @param {string} text */

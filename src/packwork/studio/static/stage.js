@@ -43,6 +43,8 @@ export class Stage {
     this.outline = { text: "", path: new Path2D() };
     /** Notes by their items. @type {{of: unknown, by: Map<number | null, import("./wire.js").DrawnNote[]>}} */
     this.noted = { of: null, by: new Map() };
+    /** @type {WeakMap<import("./wire.js").DrawnNote, Path2D>} */
+    this.notePaths = new WeakMap();
     /** Whether silhouettes are shown in place of drawings: free, covered, covered twice. */
     this.showsFaults = false;
     /** @type {import("./forces.js").Forces | null} */
@@ -173,7 +175,9 @@ export class Stage {
     const r = this.ratio;
     this.pen.setTransform(new DOMMatrix([r * zoom, 0, 0, r * zoom, r * x, r * y]).multiply(moved).multiply(new DOMMatrix([...note.matrix])));
     this.pen.fillStyle = note.fill;
-    this.pen.fill(new Path2D(note.path), "evenodd");
+    const path = this.notePaths.get(note) ?? new Path2D(note.path);
+    this.notePaths.set(note, path);
+    this.pen.fill(path, "evenodd");
   }
 
   toCanvas() {

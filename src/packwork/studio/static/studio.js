@@ -89,6 +89,8 @@ export class Studio {
     this.start = new Start(this);
     /** Whether templates were offered on this page, where nothing else was there. */
     this.wasOffered = false;
+    /** What was told as asked for and not had. @type {Record<string, string>} */
+    this.missed = {};
     this.dropping.takes = (files) => this.incoming.take(files);
     this.replacing = new Replacing(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
@@ -150,7 +152,10 @@ export class Studio {
     if (state.fresh && !this.wasOffered) this.start.open();
     this.wasOffered = true;
     this.badge.show(state);
-    for (const line of state.unmet) if (!before?.unmet.includes(line)) tell(line);
+    if (!state.moving) {
+      for (const [number, line] of Object.entries(state.unmet)) if (!(number in this.missed)) tell(line);
+      this.missed = state.unmet;
+    }
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
   }

@@ -14,7 +14,7 @@
  * @typedef {{type: "chart", source: string, size_by?: (string | null), color_by?: (string | null), label_by?: (string | null), mark?: (string | null), title?: string}} BeginChart
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{kind: "cancel"}} Cancel
- * @typedef {{type: "copy", items: number[]}} Copy
+ * @typedef {{type: "copy", items: number[], token: string}} Copy
  * @typedef {{type: "count", count: number}} Count
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{kind: "crop", item: number, zoom: number, x?: number, y?: number}} CropPhoto
@@ -59,7 +59,7 @@
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
- * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, fresh?: boolean}} State
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: any, can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, clip: string, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null)}} Thing
