@@ -15,6 +15,7 @@ class Group(StrEnum):
     """Headings under which options stand in help and forms, in their order."""
 
     WRITTEN = "What is written"
+    PRINTED = "What a print shop needs"
     MARKS = "What marks say"
     PLACED = "What is placed"
     ORDER = "What lies where"

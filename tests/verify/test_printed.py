@@ -114,6 +114,7 @@ def added_path(steps: list[Step]) -> None:
         {"background": "ivory", "show_container": True},
         {"cut": "outlines"},
         {"kiss_cut": "1", "bleed": "3mm", "background": "#ff8000"},
+        {"bleed": "3mm", "marks": "all", "background": "#ff8000"},
         {"halo": "all", "text": "live"},
     ],
 )

@@ -71,6 +71,88 @@ class RuleTable(TypedDict, total=False):
     """Text that is shown when a pointer rests on it."""
 
 
+class _FillWordsPhotos(TypedDict, total=False):
+    """Options of fill, words, photos."""
+
+    margin: str | float
+    """Free edge of the sheet, in which nothing is placed, a length as for the padding: what a
+    printer cannot reach or a frame hides. The container is drawn in as far as it takes. Default:
+    '0'."""
+
+    quiet_share: float | str
+    """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that in
+    which least is to be seen. Default: 0.4."""
+
+    keep_clear: str | Sequence[str] | None
+    """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or a
+    box left,top,width,height such as 10%,20%,30%,30%."""
+
+    sizes: Literal["free", "shared", "fixed", "graded", "auto"]
+    """free: each item finds its size; shared: all have equal areas, or areas in the shares of the
+    weights; fixed: as large as in their files; graded (words alone): in proportion as far as there
+    is room, the heaviest first, no word larger than a heavier one; auto (words alone): graded where
+    the container is thin or branched, or many words in proportion would leave it bare, else shared.
+    Default: 'free' (fill, photos), 'auto' (words)."""
+
+    size_ratio: float
+    """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:
+    2.0."""
+
+    hero: str | None
+    """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
+    NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
+
+    arrange: str | None
+    """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
+    middle, around it, or along the container from end to end) and what rises along it, as in right
+    by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and name,
+    and of words a column of their table."""
+
+    embeddings: Value | None
+    """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of
+    names): those with like ones come to lie together. auto: of words, by which of them stand near
+    each other in the text."""
+
+    anchors: str | Sequence[str]
+    """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
+    also right, up, down, 45deg, middle. May be given several times."""
+
+    label_regions: bool
+    """Write names among the items, on small plates that are placed as items are: of groups, where
+    the table of --embeddings has a column of texts beside the names; else of the parts of an SVG as
+    the container that have titles or ids. Default: False."""
+
+    picture: Value | None
+    """A picture that the layout shows from afar: items take on its colours (--tint), photos come to
+    lie where theirs fit best. It covers the container's box."""
+
+    tint: float | str | None
+    """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
+    where they fit best. Default: 0 of photos, 100% of all else."""
+
+    detail: float | str | None
+    """How far sizes follow --picture, as 0.5 or 50%: small items where it has much to show, large
+    ones where it has little. Only with --sizes free. Default: 50%, of photos 0."""
+
+    ground: str | None
+    """Colour of the gaps, which the colours of --picture make up for. Default: that of
+    --background, else the one that shows the picture best, which then is the background."""
+
+    target_coverage: float | str | None
+    """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
+    by round, until it is reached or nothing more fits."""
+
+    max_items: int | None
+    """Put smaller copies into the voids until there are so many items in all (default 1000)."""
+
+    smallest: str | float | None
+    """Put smaller copies into the voids, down to this longer side, a length as for the padding
+    (default 0.5%). Of words: the least font size; smaller ones are left out and named."""
+
+    filler: Value | Iterable[Value] | None
+    """Items to put into the voids, in place of smaller copies of the items."""
+
+
 class _FillWordsPhotosPile(TypedDict, total=False):
     """Options of fill, words, photos, pile."""
 
@@ -165,83 +247,6 @@ class _Every(TypedDict, total=False):
 
     rules: Sequence[RuleTable]
     """What is asked of single items (in Python and recipe files)."""
-
-
-class _FillWordsPhotos(TypedDict, total=False):
-    """Options of fill, words, photos."""
-
-    quiet_share: float | str
-    """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that in
-    which least is to be seen. Default: 0.4."""
-
-    keep_clear: str | Sequence[str] | None
-    """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or a
-    box left,top,width,height such as 10%,20%,30%,30%."""
-
-    sizes: Literal["free", "shared", "fixed", "graded", "auto"]
-    """free: each item finds its size; shared: all have equal areas, or areas in the shares of the
-    weights; fixed: as large as in their files; graded (words alone): in proportion as far as there
-    is room, the heaviest first, no word larger than a heavier one; auto (words alone): graded where
-    the container is thin or branched, or many words in proportion would leave it bare, else shared.
-    Default: 'free' (fill, photos), 'auto' (words)."""
-
-    size_ratio: float
-    """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:
-    2.0."""
-
-    hero: str | None
-    """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
-    NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
-
-    arrange: str | None
-    """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
-    middle, around it, or along the container from end to end) and what rises along it, as in right
-    by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and name,
-    and of words a column of their table."""
-
-    embeddings: Value | None
-    """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of
-    names): those with like ones come to lie together. auto: of words, by which of them stand near
-    each other in the text."""
-
-    anchors: str | Sequence[str]
-    """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
-    also right, up, down, 45deg, middle. May be given several times."""
-
-    label_regions: bool
-    """Write names among the items, on small plates that are placed as items are: of groups, where
-    the table of --embeddings has a column of texts beside the names; else of the parts of an SVG as
-    the container that have titles or ids. Default: False."""
-
-    picture: Value | None
-    """A picture that the layout shows from afar: items take on its colours (--tint), photos come to
-    lie where theirs fit best. It covers the container's box."""
-
-    tint: float | str | None
-    """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
-    where they fit best. Default: 0 of photos, 100% of all else."""
-
-    detail: float | str | None
-    """How far sizes follow --picture, as 0.5 or 50%: small items where it has much to show, large
-    ones where it has little. Only with --sizes free. Default: 50%, of photos 0."""
-
-    ground: str | None
-    """Colour of the gaps, which the colours of --picture make up for. Default: that of
-    --background, else the one that shows the picture best, which then is the background."""
-
-    target_coverage: float | str | None
-    """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
-    by round, until it is reached or nothing more fits."""
-
-    max_items: int | None
-    """Put smaller copies into the voids until there are so many items in all (default 1000)."""
-
-    smallest: str | float | None
-    """Put smaller copies into the voids, down to this longer side, a length as for the padding
-    (default 0.5%). Of words: the least font size; smaller ones are left out and named."""
-
-    filler: Value | Iterable[Value] | None
-    """Items to put into the voids, in place of smaller copies of the items."""
 
 
 class _FillPhotos(TypedDict, total=False):
@@ -353,10 +358,10 @@ class _WordsPhotos(TypedDict, total=False):
 
 
 class FillKeywords(
+    _FillWordsPhotos,
     _FillWordsPhotosPile,
     _FillPhotosPile,
     _Every,
-    _FillWordsPhotos,
     _FillPhotos,
     _FillWords,
     _FillWordsPile,
@@ -380,9 +385,9 @@ class FillRun(RunKeywords, FillKeywords, total=False):
 
 
 class WordsKeywords(
+    _FillWordsPhotos,
     _FillWordsPhotosPile,
     _Every,
-    _FillWordsPhotos,
     _FillWords,
     _FillWordsPile,
     _FillWordsChartPile,
@@ -468,10 +473,10 @@ class WordsRun(RunKeywords, WordsKeywords, total=False):
 
 
 class PhotosKeywords(
+    _FillWordsPhotos,
     _FillWordsPhotosPile,
     _FillPhotosPile,
     _Every,
-    _FillWordsPhotos,
     _FillPhotos,
     _FillWordsPhotosChart,
     _WordsPhotos,
@@ -615,8 +620,12 @@ class SaveKeywords(TypedDict, total=False):
     is at least twice that."""
 
     bleed: str | float | None
-    """Let a PDF's background reach beyond the sheet on each side, a length such as 3mm; its boxes
-    say where it is trimmed."""
+    """Let a PDF's background, and art that touches the sheet's edge, reach beyond the sheet on each
+    side, a length such as 3mm; its boxes say where it is trimmed."""
+
+    marks: Literal["none", "crop", "all"]
+    """Marks beside the sheet of a PDF, in all inks: crop (where it is trimmed) or all (registration
+    marks too). Default: 'none'."""
 
 
 class FilmKeywords(TypedDict, total=False):

@@ -101,6 +101,7 @@ def batch(
     flatten: bool,
     text: str,
     bleed: str | None,
+    marks: str,
     quiet: bool,
 ) -> None:
     """Run a recipe for each row of a table, on all cores.
@@ -120,6 +121,7 @@ def batch(
         drawing: dict[str, Any] = {
             "pixels": pixels, "dpi": dpi, "background": background, "halo": halo,
             "show_container": show_container, "flatten": flatten, "text": text, "bleed": bleed,
+            "marks": marks,
         }  # fmt: skip
         files = BatchFiles(report=report, contact_sheet=contact_sheet, index=index)
         files.check()

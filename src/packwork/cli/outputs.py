@@ -24,6 +24,7 @@ from packwork.uses.icons import NO_CONTAINER
 from packwork.writers.cutting import kiss_cut
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import GONE_ON_WITH, DrawingOptions
+from packwork.writers.prepress.options import PrintOptions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +65,7 @@ class Outputs:
         """Refuse, before anything is run, paths that cannot be written or that collide."""
         self.check_paths()
         check_choosing(self.choosing)
-        check_bleed(self.files, self.options.bleed)
+        check_printing(self.files, self.options.printing)
 
     def check_paths(self) -> None:
         """The same without what is only of one layout."""
@@ -178,11 +179,12 @@ def check_room(job: pipeline.Job, kiss: str | None) -> None:
         )
 
 
-def check_bleed(files: Iterable[Path], bleed: str | None) -> None:
-    """Refuse a bleed where none of the files is a PDF."""
-    files = list(files)
-    if bleed is not None and not any(file.suffix.lower() == ".pdf" for file in files):
-        raise WriteError(files[0], "has no bleed; --bleed is for a PDF, such as -o print.pdf")
+def check_printing(files: Iterable[Path], asked: PrintOptions) -> None:
+    """Refuse wishes of a print shop where none of the files is a PDF."""
+    files, given = list(files), asked.given()
+    if given and not any(file.suffix.lower() == ".pdf" for file in files):
+        flag = given[0]
+        raise WriteError(files[0], f"has no {flag}; --{flag} is for a PDF, such as -o print.pdf")
 
 
 @contextlib.contextmanager

@@ -31,7 +31,8 @@ from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT
-from packwork.scene.container import Container, on_canvas
+from packwork.recipe.refusals import length_asked
+from packwork.scene.container import Container, inside_margin, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Zone
@@ -131,11 +132,22 @@ def read_room(recipe: Recipe, given: Container | None) -> Container:
         found = read_container(
             recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
         )
+        found = _inside_margin(recipe, found)
     count = len(found.outline.points)
     if count > MAX_POINTS:
         why = f"has {count:,} points, more than {MAX_POINTS:,}; simplify it"
         raise ReadError(found.source or found.name, why)
     return found
+
+
+def _inside_margin(recipe: Recipe, found: Container) -> Container:
+    margin = length_asked("margin", recipe.margin, found.unit, found.side)
+    if margin == 0:
+        return found
+    try:
+        return inside_margin(found, margin)
+    except ShapeError as error:
+        raise RecipeError("margin", f"{recipe.margin} {error}; use a smaller one") from None
 
 
 def sample_of(recipe: Recipe) -> Sample | None:

@@ -73,6 +73,7 @@ DEFAULT_SMALLEST = "0.5%"
 
 _COLLAGES = Offer(verbs=Verbs.COLLAGES)
 _LEVELS = Offer(group=Group.SOLVED, verbs=Verbs.LEVELLED)
+_SAFE = Offer(group=Group.PRINTED, verbs=Verbs.COLLAGES)
 _VOIDS = Offer(group=Group.VOIDS, verbs=Verbs.COLLAGES)
 _LOSS = replace(
     _LEVELS, flags="--loss", typed=list[str],
@@ -157,6 +158,10 @@ class Recipe(
     padding: Annotated[str | float, length_of("padding", may_be_zero=True)] = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,
     0.5cm, 0.1in, or 1% of the canvas' longer side."""
+
+    margin: Annotated[str | float, length_of("margin", may_be_zero=True), _SAFE] = "0"
+    """Free edge of the sheet, in which nothing is placed, a length as for the padding: what a
+    printer cannot reach or a frame hides. The container is drawn in as far as it takes."""
 
     weights: Annotated[
         str | dict[str, float] | None, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)

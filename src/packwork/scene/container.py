@@ -11,10 +11,14 @@ from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline, OutlineLike
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 from packwork.units import CanvasSize, Unit
+
+_WHOLE = 1e-9
+"""Share of a canvas that a container of all of it may leave: rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,6 +185,33 @@ def with_margin(container: Container, margin: float) -> Container:
     width, height = container.width + 2 * margin, container.height + 2 * margin
     place = affine.similarity(margin, margin, 0.0, 1.0)
     return _mapped(container, place, width, height, container.unit)
+
+
+def inside_margin(container: Container, margin: float) -> Container:
+    """Container that leaves a free edge on its canvas, canvas units; a ShapeError if none is left.
+
+    A whole sheet and what is round a picture are cut off there; any other shape that reaches
+    into the margin becomes smaller about the middle of the canvas.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Container("tile", "tile", Outline.box(0.0, 0.0, 4.0, 3.0), 4.0, 3.0)
+    >>> inside_margin(tile, 1.0).outline.bounds
+    (1.0, 1.0, 3.0, 2.0)
+    """
+    size = np.array([container.width, container.height])
+    if 2 * margin >= size.min():
+        raise ShapeError("leaves nothing of the sheet")
+    box = shapely.box(margin, margin, *(size - margin))
+    outline = container.outline
+    if container.backdrop is not None or outline.area >= (1 - _WHOLE) * size.prod():
+        return replace(container, outline=Outline.from_region(intersection(outline.region, box)))
+    bounds = np.reshape(outline.bounds, (2, 2))
+    scale = float(min(1.0, *((size / 2 - margin) / np.abs(bounds - size / 2).max(axis=0))))
+    x, y = (size / 2 * (1 - scale)).tolist()
+    place = affine.similarity(x, y, 0.0, scale)
+    return _mapped(container, place, container.width, container.height, container.unit)
 
 
 def _mapped(

@@ -22,6 +22,7 @@ from packwork.readers.svg_syntax.coordinates import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.scene.layout import Layout
 from packwork.units import convert
+from packwork.writers.prepress.rim import OVERLAP_PT
 
 AGREEMENT = HAIR / 2
 """How far paths of a PDF may lie from those of the SVG that it was made of, as a share of the
@@ -100,6 +101,7 @@ def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str])
     if bleed_px and shapes and _is_beyond(shapes[0], page, bleed_px):
         # The background of the whole sheet lies behind all.
         shapes = shapes[1:]
+    shapes = [shape for shape in shapes if not _is_off(shape, page)]
     found = differences(drawn, shapes, tolerance)
     # What is painted besides was named as taken on trust.
     is_known = bool({"filter", "marker"} & beyond) or not found.strange
@@ -115,6 +117,16 @@ def _is_beyond(shape: Painted, page: Page, bleed_px: float) -> bool:
     left, top, right, bottom = shape.bounds
     least = bleed_px / 2
     return max(left, top) < -least and right > page.width + least and bottom > page.height + least
+
+
+def _is_off(shape: Painted, page: Page) -> bool:
+    """Whether a shape is seen beyond the sheet alone: marks, and art mirrored in the bleed."""
+    slack = convert(2 * OVERLAP_PT, "pt", "px")
+    boxes = (shape.bounds, *(one.bounds for clip in shape.clips for one in clip.shapes[:1]))
+    return any(
+        max(left - page.width, top - page.height, -right, -low) >= -slack
+        for left, top, right, low in boxes
+    )
 
 
 def _beyond_paths(layout: Layout) -> set[str]:

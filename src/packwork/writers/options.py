@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
+from packwork.writers.prepress.options import MarksChoice
 
 CutLine: TypeAlias = Literal["outlines", "silhouette"]
 """Lines for a cutter as they are, or one round each item."""
@@ -19,6 +20,8 @@ TextChoice: TypeAlias = Literal["outlines", "live"]
 
 GONE_ON_WITH = ("flatten", "show_container", "cut", "kiss_cut")
 """Ways of drawing that an edit of a file goes on with, as its manifest tells them."""
+
+_PRINTED = Offer(group=Group.PRINTED)
 
 
 class DrawingOptions(Options):
@@ -58,6 +61,10 @@ class DrawingOptions(Options):
     """Cut at this distance round each item, a length such as 2mm, in DXF, SVG and PDF; the padding
     is at least twice that."""
 
-    bleed: str | float | None = None
-    """Let a PDF's background reach beyond the sheet on each side, a length such as 3mm; its boxes
-    say where it is trimmed."""
+    bleed: Annotated[str | float | None, _PRINTED] = None
+    """Let a PDF's background, and art that touches the sheet's edge, reach beyond the sheet on each
+    side, a length such as 3mm; its boxes say where it is trimmed."""
+
+    marks: Annotated[MarksChoice, _PRINTED] = "none"
+    """Marks beside the sheet of a PDF, in all inks: crop (where it is trimmed) or all (registration
+    marks too)."""

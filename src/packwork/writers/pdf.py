@@ -11,18 +11,24 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from packwork.arrays import FloatArray
-from packwork.errors import RecipeError, WriteError
+from packwork.errors import WriteError
 from packwork.scene.colour import parse_colour
-from packwork.scene.container import Container
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.notation import number, sound_text
-from packwork.units import convert, parse_length
+from packwork.units import convert
 from packwork.writers.cutting import HAIRLINE_PT, SPOT, cut_rings
 from packwork.writers.pictures import DPI, as_picture
+from packwork.writers.prepress.options import PrintOptions
+from packwork.writers.prepress.rim import put_rim, rim_of
+from packwork.writers.prepress.sheet import PrintSheet, print_sheet
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
+
+if TYPE_CHECKING:
+    import pikepdf
 
 PICTURE_DPI = 2 * DPI
 """Pixels to the inch of a drawing that becomes a picture: letters want more than photos."""
@@ -33,20 +39,25 @@ _PAGE = """\
 #image(bytes(sys.inputs.drawing), format: "svg", width: 100%, height: 100%, fit: "stretch")
 """
 
-_PAGE_WITH_BLEED = """\
+_LARGER_PAGE = """\
 #set document(title: sys.inputs.title, date: none)
-#set page(width: {wide:.12f}pt, height: {high:.12f}pt, margin: 0pt, fill: {fill})
-#place(dx: {bleed:.12f}pt, dy: {bleed:.12f}pt, image(bytes(sys.inputs.drawing), format: "svg",
+#set page(width: {wide:.12f}pt, height: {high:.12f}pt, margin: 0pt)
+#place(dx: {near:.12f}pt, dy: {near:.12f}pt, rect(width: {bled_width:.12f}pt,
+  height: {bled_height:.12f}pt, fill: {fill}, stroke: none))
+#place(dx: {around:.12f}pt, dy: {around:.12f}pt, image(bytes(sys.inputs.drawing), format: "svg",
   width: {width:.12f}pt, height: {height:.12f}pt, fit: "stretch"))
 """
 
 
-def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | None = None) -> bytes:
+def pdf_bytes(
+    layout: Layout, options: SvgOptions | None = None, printing: PrintOptions | None = None
+) -> bytes:
     """PDF file of a layout: one page, as large as the canvas; the same bytes every time.
 
-    Lines for a cutter are strokes in the spot colour ``CutContour``. ``bleed`` is a length: the
-    background reaches that far beyond the canvas on each side, the page is larger by it, and its
-    boxes say where it is trimmed. A drawing that cannot be rendered is a WriteError.
+    Lines for a cutter are strokes in the spot colour ``CutContour``. With a bleed the background,
+    and art that touches the sheet's edge, reach that far beyond the canvas on each side; the page
+    is larger by it and by the room of marks, and its boxes say where it is trimmed. A drawing
+    that cannot be rendered is a WriteError.
 
     Examples
     --------
@@ -54,32 +65,53 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
     >>> pdf_bytes(blank(unit="cm"))[:5]
     b'%PDF-'
     """
+    import pikepdf
+
+    options, printing = options or SvgOptions(), printing or PrintOptions()
+    sheet = print_sheet(layout.container, printing.bleed, printing.marks)
+    cut = options.cut
+    is_cut = cut is not None and cut.is_asked
+    rings = cut_rings(layout, cut) if cut is not None and is_cut else []
+    rim = rim_of(layout) if sheet.bleed else None
+    drawn = _set_page(layout, replace(options, cut=None), sheet)
+    with pikepdf.open(io.BytesIO(drawn)) as pdf:
+        # False unless it is said; programs made with Poppler call it an error where it is.
+        if "/Suspects" in (marked := pdf.Root.get("/MarkInfo", pikepdf.Dictionary())):
+            del marked["/Suspects"]
+        if rings or not sheet.is_plain:
+            sheet.put_boxes(pdf.pages[0])
+        if rim is not None:
+            bare = PrintSheet(width=sheet.width, height=sheet.height)
+            put_rim(pdf, _set_page(rim, SvgOptions(), bare), sheet)
+        if rings:
+            scale = convert(1.0, layout.container.unit, "pt")
+            _put_lines(pdf, [scale * ring for ring in rings], sheet)
+        sheet.put_marks(pdf)
+        written = io.BytesIO()
+        pdf.save(written, deterministic_id=True)
+        return written.getvalue()
+
+
+def _set_page(layout: Layout, options: SvgOptions, sheet: PrintSheet) -> bytes:
+    """PDF of a layout on the page of a sheet, as Typst sets it."""
     import typst
 
-    options = options or SvgOptions()
-
-    container = layout.container
-    width, height = (convert(v, container.unit, "pt") for v in (container.width, container.height))
-    beyond = 0.0 if bleed is None else bleed_pt(bleed, container)
+    wide, high = sheet.page
     sizes = {
-        "width": width, "height": height, "bleed": beyond, "fill": _fill(options.background),
-        "wide": width + 2 * beyond, "high": height + 2 * beyond,
+        "width": sheet.width, "height": sheet.height, "fill": _fill(options.background),
+        "wide": wide, "high": high, "around": sheet.around, "near": sheet.around - sheet.bleed,
+        "bled_width": sheet.width + 2 * sheet.bleed, "bled_height": sheet.height + 2 * sheet.bleed,
     }  # fmt: skip
-    drawing = drawing_text(layout, replace(options, cut=None))
+    drawing, name = drawing_text(layout, options), layout.container.name
     try:
-        page = typst.compile(
-            (_PAGE_WITH_BLEED if beyond else _PAGE).format(**sizes).encode(),
-            sys_inputs={"drawing": drawing, "title": sound_text(container.name[:NAME_LENGTH])},
+        return typst.compile(
+            (_PAGE if sheet.is_plain else _LARGER_PAGE).format(**sizes).encode(),
+            sys_inputs={"drawing": drawing, "title": sound_text(name[:NAME_LENGTH])},
             ignore_system_fonts=True,
         )
     except RuntimeError as error:
         reason = " ".join(str(error).split())
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({reason})") from error
-    scale = convert(1.0, container.unit, "pt")
-    rings = (
-        [] if options.cut is None or not options.cut.is_asked else cut_rings(layout, options.cut)
-    )
-    return _finished(page, [scale * ring for ring in rings], (width, height), beyond)
 
 
 def drawing_text(layout: Layout, options: SvgOptions) -> str:
@@ -88,17 +120,6 @@ def drawing_text(layout: Layout, options: SvgOptions) -> str:
     What sets the page would take fonts of its own for text.
     """
     return svg_text(without_text(layout), replace(options, text="outlines"))
-
-
-def bleed_pt(text: str, container: Container) -> float:
-    """Bleed in points; a RecipeError if it is no length, or more than the canvas is long."""
-    try:
-        length = parse_length(text, container.unit, container.side)
-    except ValueError as error:
-        raise RecipeError("bleed", str(error)) from None
-    if length > container.side:
-        raise RecipeError("bleed", f"is at most as long as the canvas, not {text[:40]}; use 3mm")
-    return convert(length, container.unit, "pt")
 
 
 def _fill(background: str | None) -> str:
@@ -134,40 +155,23 @@ _DIGITS = 4
 """Decimals of a coordinate, in points: 35 nm."""
 
 
-def _finished(
-    data: bytes, lines: Sequence[FloatArray], size: tuple[float, float], bleed: float
-) -> bytes:
-    """PDF of one page with boxes that say where it is trimmed, cut lines on top in a spot colour.
+def _put_lines(pdf: pikepdf.Pdf, lines: Sequence[FloatArray], sheet: PrintSheet) -> None:
+    """Stroke lines for a cutter on the first page in a spot colour, on top of all.
 
     Print-and-cut programs look for a separation called CutContour, and Typst, which sets the
-    page, knows no spot colours. ``lines`` are closed, in points, y down from the top of the
-    sheet of ``size`` that is left after trimming; ``bleed`` is printed beyond it on each side.
+    page, knows no spot colours. ``lines`` are closed, in points, y down from the sheet's top.
     """
-    import pikepdf
     from pikepdf import Array, Dictionary, Name
 
-    with pikepdf.open(io.BytesIO(data)) as pdf:
-        # False unless it is said; programs made with Poppler call it an error where it is.
-        if "/Suspects" in (marked := pdf.Root.get("/MarkInfo", Dictionary())):
-            del marked["/Suspects"]
-        page = pdf.pages[0]
-        wide, high = size
-        if lines or bleed:
-            trimmed = (bleed, bleed, bleed + wide, bleed + high)
-            page.TrimBox = [round(v, 6) for v in trimmed]
-            page.BleedBox = [round(v, 6) for v in (0, 0, wide + 2 * bleed, high + 2 * bleed)]
-        if lines:
-            # Magenta where there is no such ink.
-            tint = Dictionary(FunctionType=2, Domain=[0, 1], C0=[0] * 4, C1=[0, 1, 0, 0], N=1)
-            ink = Array([Name.Separation, Name(f"/{SPOT}"), Name.DeviceCMYK, tint])
-            page.add_resource(pdf.make_indirect(ink), Name.ColorSpace, Name(f"/{SPOT}"))
-            over = Dictionary(Type=Name.ExtGState, OP=True, op=True, OPM=1)
-            page.add_resource(pdf.make_indirect(over), Name.ExtGState, Name.Overprint)
-            page.contents_add(b"q\n", prepend=True)
-            page.contents_add(b"Q\n" + _strokes(lines, bleed, bleed + high))
-        written = io.BytesIO()
-        pdf.save(written, deterministic_id=True)
-        return written.getvalue()
+    page = pdf.pages[0]
+    # Magenta where there is no such ink.
+    tint = Dictionary(FunctionType=2, Domain=[0, 1], C0=[0] * 4, C1=[0, 1, 0, 0], N=1)
+    ink = Array([Name.Separation, Name(f"/{SPOT}"), Name.DeviceCMYK, tint])
+    page.add_resource(pdf.make_indirect(ink), Name.ColorSpace, Name(f"/{SPOT}"))
+    over = Dictionary(Type=Name.ExtGState, OP=True, op=True, OPM=1)
+    page.add_resource(pdf.make_indirect(over), Name.ExtGState, Name.Overprint)
+    page.contents_add(b"q\n", prepend=True)
+    page.contents_add(b"Q\n" + _strokes(lines, sheet.around, sheet.around + sheet.height))
 
 
 def _strokes(lines: Sequence[FloatArray], left: float, top: float) -> bytes:

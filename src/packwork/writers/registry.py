@@ -27,8 +27,10 @@ from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
 from packwork.writers.halos import haloed
 from packwork.writers.options import DrawingOptions, HaloChoice
-from packwork.writers.pdf import bleed_pt, drawing_text, pdf_bytes
+from packwork.writers.pdf import drawing_text, pdf_bytes
 from packwork.writers.pictures import DPI, SPARE, with_fine_photos, with_photos_for_paper
+from packwork.writers.prepress.options import PrintOptions
+from packwork.writers.prepress.sheet import bleed_pt
 from packwork.writers.svg import SvgOptions, svg_text
 
 MOST_DPI = 2_400
@@ -41,7 +43,7 @@ class WriteOptions:
 
     ``svg`` says how SVG and PDF are drawn, ``png`` how pictures of pixels are. ``dpi`` are pixels
     to the inch, of photos in SVG and PDF (300 if None) and, if given, of PNG and JPEG in place of
-    ``png_side_px``; ``bleed`` is what a PDF's background reaches beyond the canvas, a length.
+    ``png_side_px``; ``printing`` is what a print shop asks of a PDF.
     Without ``takes_ground`` another background was asked for than the ground of the layout.
     """
 
@@ -49,7 +51,7 @@ class WriteOptions:
     png: SvgOptions = ON_WHITE
     png_side_px: int = 1600
     dpi: float | None = None
-    bleed: str | None = None
+    printing: PrintOptions = field(default_factory=PrintOptions)
     halo: HaloChoice = "none"
     takes_ground: bool = True
 
@@ -99,7 +101,7 @@ def _pixels(
 
 
 def _pdf(layout: Layout, options: WriteOptions) -> bytes:
-    return pdf_bytes(options.on_paper(layout), options.svg, options.bleed)
+    return pdf_bytes(options.on_paper(layout), options.svg, options.printing)
 
 
 def _dxf(layout: Layout, options: WriteOptions) -> bytes:
@@ -195,8 +197,9 @@ def pdf_drawing(layout: Layout, options: WriteOptions | None = None) -> tuple[st
     """
     options = (options or WriteOptions()).on_ground(layout)
     seen = haloed(layout, options.halo, options.svg.background)
-    bleed = 0.0 if options.bleed is None else bleed_pt(options.bleed, layout.container)
-    return drawing_text(seen, options.svg), bleed
+    bleed = options.printing.bleed
+    beyond = 0.0 if bleed is None else bleed_pt(bleed, layout.container)
+    return drawing_text(seen, options.svg), beyond
 
 
 def _encoder(path: str | Path, *others: str) -> Encoder:
@@ -239,7 +242,7 @@ def write_options(**options: Any) -> WriteOptions:
         png=png if background is None else replace(png, background=colour),
         png_side_px=asked.pixels,
         dpi=asked.dpi,
-        bleed=None if bleed is None else str(bleed),
+        printing=PrintOptions(bleed=None if bleed is None else str(bleed), marks=asked.marks),
         halo=asked.halo,
         takes_ground=background is None,
     )
