@@ -24,7 +24,8 @@ PAGES = {
         f"guide/{name}"
         for name in (
             "words", "photos", "mosaics", "arranging", "meaning", "charts", "films", "forces",
-            "rules", "cutting", "print", "nesting", "python", "live", "studio", "batch",
+            "rules", "cutting", "print", "nesting", "python", "inkscape", "live", "studio",
+            "batch",
         )
     ),
     "Reference": tuple(

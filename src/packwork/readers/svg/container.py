@@ -171,6 +171,16 @@ def container_of_svg(
         return placed if unit is None else replace(placed, unit=unit)
 
 
+def inside_of_svg(data: bytes) -> Region:
+    """Region of an SVG without a page, in CSS pixels: shapes, and the inside of lines.
+
+    >>> inside_of_svg(b'<svg><path fill="none" stroke="red" d="M1 1h4v4h-4z"/></svg>').bounds
+    (0.5, 0.5, 5.5, 5.5)
+    """
+    drawing = read_drawing(data)
+    return _without_whites(drawing, _inside(drawing.ink))
+
+
 def parts_of_svg(data: bytes, container: Container) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of the SVG that a container was read from.
 
