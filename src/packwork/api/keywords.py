@@ -627,6 +627,14 @@ class SaveKeywords(TypedDict, total=False):
     """Marks beside the sheet of a PDF, in all inks: crop (where it is trimmed) or all (registration
     marks too). Default: 'none'."""
 
+    icc: str | Path | None
+    """Profile of a press (ICC, four inks), as a print shop has it: a PDF's colours become its inks,
+    black becomes black ink alone, and the file a PDF/X-4."""
+
+    spot: str | Mapping[str, str] | None
+    """Spot inks of a PDF, each with the colour that is printed in it, as 'PANTONE 186
+    C=#c8102e,Gold=#b58b2a'."""
+
 
 class FilmKeywords(TypedDict, total=False):
     """Options of films."""

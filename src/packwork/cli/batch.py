@@ -102,6 +102,8 @@ def batch(
     text: str,
     bleed: str | None,
     marks: str,
+    icc: str | None,
+    spot: str | None,
     quiet: bool,
 ) -> None:
     """Run a recipe for each row of a table, on all cores.
@@ -121,7 +123,7 @@ def batch(
         drawing: dict[str, Any] = {
             "pixels": pixels, "dpi": dpi, "background": background, "halo": halo,
             "show_container": show_container, "flatten": flatten, "text": text, "bleed": bleed,
-            "marks": marks,
+            "marks": marks, "icc": icc, "spot": spot,
         }  # fmt: skip
         files = BatchFiles(report=report, contact_sheet=contact_sheet, index=index)
         files.check()

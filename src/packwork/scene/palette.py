@@ -124,7 +124,28 @@ def check_named(palette: Mapping[str, str], column: str, values: Iterable[str]) 
     _LOG.warning("palette %s", text)
 
 
+SPOT = "spot:"
+"""Beginning of a colour that is printed in an ink of its own, as ``spot:Gold #b58b2a``."""
+
+
+def spot_inks_in(palette: object) -> dict[str, str]:
+    """Names of the spot inks that a palette asks for, by colour.
+
+    Examples
+    --------
+    >>> spot_inks_in("spot:PANTONE 186 C #c8102e, black"), spot_inks_in("okabe-ito")
+    ({'#c8102e': 'PANTONE 186 C'}, {})
+    """
+    listed = palette if isinstance(palette, list | tuple) else ()
+    parts = _COMMA.split(palette) if isinstance(palette, str) else map(str, listed)
+    spots = (part.strip() for part in parts if part.strip().lower().startswith(SPOT))
+    names = ((_colour(part), part[len(SPOT) :].rpartition(" ")[0].strip()) for part in spots)
+    return {colour: name for colour, name in names if name}
+
+
 def _colour(text: str) -> str:
+    if text.strip().lower().startswith(SPOT):
+        text = text.rstrip().rpartition(" ")[2]
     try:
         red, green, blue, opacity = css_colour(text)
     except ValueError:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
 from packwork.offers import Group, Offer, Verbs
@@ -68,3 +70,11 @@ class DrawingOptions(Options):
     marks: Annotated[MarksChoice, _PRINTED] = "none"
     """Marks beside the sheet of a PDF, in all inks: crop (where it is trimmed) or all (registration
     marks too)."""
+
+    icc: Annotated[str | Path | None, replace(_PRINTED, metavar="FILE")] = None
+    """Profile of a press (ICC, four inks), as a print shop has it: a PDF's colours become its inks,
+    black becomes black ink alone, and the file a PDF/X-4."""
+
+    spot: Annotated[str | dict[str, str] | None, _PRINTED] = None
+    """Spot inks of a PDF, each with the colour that is printed in it, as
+    'PANTONE 186 C=#c8102e,Gold=#b58b2a'."""

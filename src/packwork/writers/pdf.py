@@ -22,7 +22,7 @@ from packwork.scene.notation import number, sound_text
 from packwork.units import convert
 from packwork.writers.cutting import HAIRLINE_PT, SPOT, cut_rings
 from packwork.writers.pictures import DPI, as_picture
-from packwork.writers.prepress.options import PrintOptions
+from packwork.writers.prepress.options import X4_VERSION, PrintOptions
 from packwork.writers.prepress.rim import put_rim, rim_of
 from packwork.writers.prepress.sheet import PrintSheet, print_sheet
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
@@ -87,9 +87,22 @@ def pdf_bytes(
             scale = convert(1.0, layout.container.unit, "pt")
             _put_lines(pdf, [scale * ring for ring in rings], sheet)
         sheet.put_marks(pdf)
+        if printing.press is not None or printing.spots:
+            _put_inks(pdf, printing, sound_text(layout.container.name[:NAME_LENGTH]))
         written = io.BytesIO()
-        pdf.save(written, deterministic_id=True)
+        version = "" if printing.press is None else X4_VERSION
+        pdf.save(written, deterministic_id=True, force_version=version)
         return written.getvalue()
+
+
+def _put_inks(pdf: pikepdf.Pdf, printing: PrintOptions, title: str) -> None:
+    # Load what only files for a press need.
+    from packwork.writers.prepress.inks import InkWriter
+    from packwork.writers.prepress.pdfx import put_intent
+
+    InkWriter(pdf, printing.press, printing.spots).convert()
+    if printing.press is not None:
+        put_intent(pdf, printing.press, title)
 
 
 def _set_page(layout: Layout, options: SvgOptions, sheet: PrintSheet) -> bytes:

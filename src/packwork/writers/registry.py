@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from packwork.errors import RecipeError, WriteError
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
+from packwork.scene.palette import spot_inks_in
 from packwork.writers.atomic import check_writable, write_atomic
 from packwork.writers.bitmaps import (
     ON_WHITE,
@@ -29,7 +30,7 @@ from packwork.writers.halos import haloed
 from packwork.writers.options import DrawingOptions, HaloChoice
 from packwork.writers.pdf import drawing_text, pdf_bytes
 from packwork.writers.pictures import DPI, SPARE, with_fine_photos, with_photos_for_paper
-from packwork.writers.prepress.options import PrintOptions
+from packwork.writers.prepress.options import PrintOptions, spot_inks
 from packwork.writers.prepress.sheet import bleed_pt
 from packwork.writers.svg import SvgOptions, svg_text
 
@@ -101,7 +102,10 @@ def _pixels(
 
 
 def _pdf(layout: Layout, options: WriteOptions) -> bytes:
-    return pdf_bytes(options.on_paper(layout), options.svg, options.printing)
+    recipe = layout.manifest.get("recipe") or {}
+    spots = {**spot_inks_in(recipe.get("palette")), **options.printing.spots}
+    printing = replace(options.printing, spots=spots)
+    return pdf_bytes(options.on_paper(layout), options.svg, printing)
 
 
 def _dxf(layout: Layout, options: WriteOptions) -> bytes:
@@ -228,7 +232,7 @@ def write_options(**options: Any) -> WriteOptions:
     True
     """
     asked = DrawingOptions.model_validate(options)
-    background, kiss, bleed = asked.background, asked.kiss_cut, asked.bleed
+    background, kiss = asked.background, asked.kiss_cut
     colour = None if background in {None, "none", "transparent"} else background
     png = replace(ON_WHITE, show_container=asked.show_container)
     return WriteOptions(
@@ -242,9 +246,24 @@ def write_options(**options: Any) -> WriteOptions:
         png=png if background is None else replace(png, background=colour),
         png_side_px=asked.pixels,
         dpi=asked.dpi,
-        printing=PrintOptions(bleed=None if bleed is None else str(bleed), marks=asked.marks),
+        printing=_printing(asked),
         halo=asked.halo,
         takes_ground=background is None,
+    )
+
+
+def _printing(asked: DrawingOptions) -> PrintOptions:
+    bleed, press = asked.bleed, None
+    if asked.icc is not None:
+        # Loads the library of colour profiles, which only files for a press need.
+        from packwork.writers.prepress.profile import read_press_profile
+
+        press = read_press_profile(asked.icc)
+    return PrintOptions(
+        bleed=None if bleed is None else str(bleed),
+        marks=asked.marks,
+        press=press,
+        spots=spot_inks(asked.spot),
     )
 
 

@@ -144,6 +144,10 @@ def recipe_zip(document: Document, name: str) -> bytes:
 
 def _drawing(options: Mapping[str, Any]) -> WriteOptions:
     """Options of drawings, or a refusal that names the first that is wrong."""
+    if "icc" in options:
+        raise RecipeError(
+            "icc", "names a file of this machine; save the layout and use --icc of packwork edit"
+        )
     try:
         return write_options(**{k: v for k, v in options.items() if k != "margin"})
     except ValidationError as error:
