@@ -19,7 +19,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from packwork.api.inputs import CONTAINERS, ITEMS, PICTURES, VECTORS
+from packwork.api.inputs import COLOURS, CONTAINERS, ITEMS, PICTURES, VECTORS
 from packwork.api.signatures import BACKGROUND
 from packwork.offers import Offer, Offered, Verbs
 from packwork.options import Options, offered
@@ -33,6 +33,16 @@ TARGET = Path(__file__).resolve().parents[1] / "src" / "packwork" / "api" / "key
 WIDTH = 100
 TABLES = {Pin: "PinTable", Rule: "RuleTable"}
 RULES = "Sequence[RuleTable]"
+
+OF_PYTHON = {
+    **dict.fromkeys(COLOURS, "Colours | None"),
+    "seed": "Generator | int | None",
+    "weights": "str | Path | Mapping[str, float] | Cells | None",
+}
+"""Types of options that take values of NumPy, pandas and Matplotlib."""
+
+COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")
+"""Options of charts that name columns, or are the cells of one."""
 
 HEAD = '''"""Options of the verbs as type checkers and editors know them.
 
@@ -94,6 +104,8 @@ def _by_verbs(imports: set[str]) -> dict[tuple[Verbs, ...], list[Key]]:
         for option in (*run_options(verb), *more):
             if option.name != "items":
                 kind = _taken(option.name, option.field, option.offer.takes, imports)
+                if verb is Verbs.CHART and option.name in COLUMNS:
+                    kind = "Cells | None"
                 found.setdefault((option.name, kind, option.help), []).append((verb, option))
     sets: dict[tuple[Verbs, ...], list[Key]] = {}
     for (name, kind, _), offers in found.items():
@@ -153,6 +165,10 @@ def _taken(name: str, field: Any, takes: Any, imports: set[str]) -> str:
         imports.add("from packwork.scene.layout import Layout")
         imports.add("from packwork.scene.pose import Poses")
         return "str | Path | Layout | Poses | None"
+    if name in OF_PYTHON:
+        imports.add("from numpy.random import Generator")
+        imports.add("from packwork.api.plain import Cells, Colours")
+        return OF_PYTHON[name]
     if name in (*PICTURES, *VECTORS):
         imports.add("from packwork.readers.memory.values import Value")
         return "Value | None"

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from packwork.raster.colour import render_colour, render_colour_pullback
     from packwork.raster.coverage import coverage as render
     from packwork.raster.coverage import coverage_pullback as render_pullback
+    from packwork.recipe.typed import Anchor, Force, Hero
     from packwork.scene import layout as scene
     from packwork.scene.container import Container
     from packwork.scene.item import FlatArt, Item
@@ -46,10 +47,13 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Anchor",
     "Batch",
     "Container",
     "FittedOutline",
     "FlatArt",
+    "Force",
+    "Hero",
     "History",
     "ImageLoss",
     "Item",
@@ -93,13 +97,16 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Anchor": "packwork.recipe.typed:Anchor",
     "Batch": "packwork.api.batches:Batch",
-    "Container": "packwork.scene.container:Container",
+    "Container": "packwork.api.inputs:Container",
     "FittedOutline": "packwork.fit.fitted:FittedOutline",
     "FlatArt": "packwork.scene.item:FlatArt",
+    "Force": "packwork.recipe.typed:Force",
+    "Hero": "packwork.recipe.typed:Hero",
     "History": "packwork.api.history:History",
     "ImageLoss": "packwork.losses.term:ImageLoss",
-    "Item": "packwork.scene.item:Item",
+    "Item": "packwork.api.inputs:Item",
     "Layout": "packwork.api.layout:Layout",
     "Metrics": "packwork.metrics.measure:Metrics",
     "Nest": "packwork.api.nesting:Nest",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 MOST_NAMED = 3
@@ -36,6 +37,23 @@ def enumerated(names: Sequence[str], most: int = MOST_NAMED) -> str:
     """
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + more
+
+
+_FLAG = re.compile(r"(?<![\w-])--?([a-z][a-z-]*)")
+
+_OTHERWISE = {"loss": "losses", "n": "count"}
+"""Options whose flag is no name of theirs."""
+
+
+def in_python(text: str) -> str:
+    """A message in which options have Python's names instead of flags.
+
+    Examples
+    --------
+    >>> in_python("use --size-ratio 3, or -n 9; well-made")
+    'use size_ratio 3, or count 9; well-made'
+    """
+    return _FLAG.sub(lambda m: _OTHERWISE.get(m[1], m[1].replace("-", "_")), text)
 
 
 def one_of(*choices: str) -> str:

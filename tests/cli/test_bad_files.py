@@ -69,7 +69,10 @@ PIN = '[[rules]]\nitems = "star"\npin = {{ {} }}\n'
     ("rules", "problem"),
     [
         (PIN.format("x = 1, y = 1"), "rule 1: pins star at 1, 1, outside the container"),
-        (PIN.format('x = "30%", y = "50%", angle = 0, size = "90%"'), "lies outside the container"),
+        (
+            PIN.format('x = "30%", y = "50%", angle_deg = 0, size = "90%"'),
+            "lies outside the container",
+        ),
         (PIN.format("x = 300, y = 300") + "region = [0, 0, 100, 100]\n", "outside its region"),
         (PIN.format("x = 300, y = 300, size = 200")
          + PIN.format("x = 310, y = 300, size = 200").replace("star", "circle"),

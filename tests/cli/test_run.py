@@ -62,7 +62,7 @@ palette = ["red", "blue"]
 [[rules]]
 items = "circle"
 region = "low.svg"
-pin = { angle = 0.0 }
+pin = { angle_deg = 0.0 }
 title = "A & B"
 """
 

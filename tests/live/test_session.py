@@ -260,7 +260,7 @@ def test_neighbours_grow_into_the_room_of_one_that_is_gone(session: pw.Session) 
 
 def test_another_container_is_filled_again(session: pw.Session) -> None:
     before = session.document.container.outline
-    session.place_container(factor=0.8, angle=30)
+    session.place_container(factor=0.8, degrees=30)
     assert not session.is_certified
     now = session.document.container.outline
     assert now.area == pytest.approx(0.64 * before.area)

@@ -68,14 +68,14 @@ def test_a_pattern_counts_each_of_its_items() -> None:
 def test_the_later_rule_holds_for_what_it_says() -> None:
     one = made(
         {"items": "*", "color": "red", "scale": [0.5, 1.0]},
-        {"items": "b*", "color": "blue", "pin": {"angle": 30}},
+        {"items": "b*", "color": "blue", "pin": {"angle_deg": 30}},
         {"items": "bird", "pin": {"size": 10}},
     )
     colours = [asked.values["color"] for asked in one.asked]
     assert colours == ["blue", "blue", "red", "red"]
     assert {asked.values["scale"] for asked in one.asked} == {(0.5, 1.0)}
     assert [dict(asked.pin) for asked in one.asked] == [
-        {"angle": 30}, {"angle": 30, "size": 10}, {}, {},
+        {"angle_deg": 30}, {"angle_deg": 30, "size": 10}, {}, {},
     ]  # fmt: skip
     assert one.asked[1].sources["color"].place == "rule 2: "
     assert one.asked[1].sources["pin.size"].place == "rule 3: "

@@ -49,7 +49,7 @@ class Poses:
         self.seen.append((step.poses, step.is_finish))
 
 
-PIN = {"x": "50%", "y": "40%", "angle": 20, "size": "30%"}
+PIN = {"x": "50%", "y": "40%", "angle_deg": 20, "size": "30%"}
 
 
 @pytest.mark.parametrize("finish", ["none", "exact"])
@@ -78,7 +78,7 @@ def test_whatever_the_start_a_pin_holds(start: str) -> None:
 
 
 def test_a_pin_may_give_a_part_of_the_pose() -> None:
-    met = run({"items": "star", "pin": {"y": "25%"}}, {"items": "heart", "pin": {"angle": 90}})
+    met = run({"items": "star", "pin": {"y": "25%"}}, {"items": "heart", "pin": {"angle_deg": 90}})
     layout = met.layout
     stars, hearts = only(layout, "star"), only(layout, "heart")
     assert set(layout.poses.y[stars]) == {150.0}
@@ -88,7 +88,7 @@ def test_a_pin_may_give_a_part_of_the_pose() -> None:
 
 
 def test_a_pin_is_in_the_units_of_the_canvas() -> None:
-    pin = {"x": "30mm", "y": "2cm", "size": "1in", "angle": 0}
+    pin = {"x": "30mm", "y": "2cm", "size": "1in", "angle_deg": 0}
     layout = run({"items": "star", "pin": pin}, canvas="100x80mm").layout
     k = only(layout, "star")[0]
     assert (layout.poses.x[k], layout.poses.y[k]) == (30.0, 20.0)
@@ -288,7 +288,7 @@ def giant(name: str) -> Item:
         ([{"items": "a", "pin": {"y": "99%"}}], {}, "rule 1: pins a at y = 99, outside the cont"),
         ([{"items": "a", "pin": {"x": 50, "y": 50}, "region": [0, 0, 40, 40]}], {},
          "rule 1: pins a at 50, 50, outside its region 0, 0, 40, 40"),
-        ([{"items": "a", "pin": {"x": 20, "y": 20, "angle": 0, "size": 50}}], {},
+        ([{"items": "a", "pin": {"x": 20, "y": 20, "angle_deg": 0, "size": 50}}], {},
          "rule 1: pins a so that 36 % of it lies outside the container; make it smaller"),
         ([{"items": "a", "pin": {"size": 99}}], {}, "rule 1: pins a so large that no room is left"),
         ([{"items": "a", "pin": {"size": 60}, "region": [0, 0, 40, 40]}], {},
@@ -298,8 +298,8 @@ def giant(name: str) -> Item:
         ([{"items": "a", "region": [0, 0, 3, 3]}], {},
          "rule 1: region: 0, 0, 3, 3 and the container have no part in common"),
         ([{"items": "a", "region": [50, 50, 0, 9]}], {}, "have no part in common"),
-        ([{"items": "a", "pin": {"x": 50, "y": 50, "size": 30, "angle": 0}},
-          {"items": "b", "pin": {"x": 75, "y": 50, "size": 30, "angle": 0}}], {},
+        ([{"items": "a", "pin": {"x": 50, "y": 50, "size": 30, "angle_deg": 0}},
+          {"items": "b", "pin": {"x": 75, "y": 50, "size": 30, "angle_deg": 0}}], {},
          "rule 2: pins b onto a of rule 1; move one of them"),
         ([{"items": "*", "pin": {"x": 50, "y": 50}}], {}, "rule 1: pins b onto a; move one"),
         ([{"items": "a", "pin": {"x": 50, "y": 50, "size": 30}}], {"hero": "b@50%,50%=20%"},
@@ -326,7 +326,7 @@ def test_pinned_items_leave_the_rest_the_room_that_is_left() -> None:
     items = [flat_item("a", square(10.0)), flat_item("b", disc(10.0))]
     recipe = make_recipe(
         **QUICK | {"epochs": 120}, items=["a", "b"], count=9, finish="none",
-        rules=[{"items": "a", "count": 1, "pin": {"x": 50, "y": 50, "angle": 0, "size": 54}}],
+        rules=[{"items": "a", "count": 1, "pin": {"x": 50, "y": 50, "angle_deg": 0, "size": 54}}],
     )  # fmt: skip
     met = uses.fill(recipe, items, square_container(100.0, 5.0))
     # Of the items' area: nine that lie anyhow share several times as much.

@@ -41,5 +41,5 @@ def test_one_item_that_fits_better_turned_is_turned() -> None:
 
 
 def test_an_angle_that_is_asked_for_holds() -> None:
-    angle, _ = _angle_and_scale(TILE, 40.0, rules=[{"items": "bar", "pin": {"angle": 30}}])
+    angle, _ = _angle_and_scale(TILE, 40.0, rules=[{"items": "bar", "pin": {"angle_deg": 30}}])
     assert angle == pytest.approx(30)

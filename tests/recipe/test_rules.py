@@ -38,8 +38,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": "star", "pin": {"y": -3}}, "pin.y: use a length"),
     ({"items": "star", "pin": {"y": True}}, "pin.y: use a length"),
     ({"items": "star", "pin": {"size": "0mm"}}, "pin.size: must be more than 0"),
-    ({"items": "star", "pin": {"angle": "up"}}, "pin.angle: must be a number"),
-    ({"items": "star", "pin": {"angle": float("nan")}}, "pin.angle: must be"),
+    ({"items": "star", "pin": {"angle_deg": "up"}}, "pin.angle_deg: must be a number"),
+    ({"items": "star", "pin": {"angle_deg": float("nan")}}, "pin.angle_deg: must be"),
     ({"items": "star", "region": 3}, "region: use a container or"),
     ({"items": "star", "region": [1, 2, 3]}, "region: use a container or"),
     ({"items": "star", "region": [1, 2, 3, "wide"]}, "region: use a length"),
@@ -82,7 +82,12 @@ def test_numbers_and_single_names_are_taken_as_they_are_meant() -> None:
 
 @pytest.mark.parametrize(
     ("pin", "is_for_one"),
-    [(None, False), ({"x": 1}, False), ({"size": 3, "angle": 0}, False), ({"x": 1, "y": 2}, True)],
+    [
+        (None, False),
+        ({"x": 1}, False),
+        ({"size": 3, "angle_deg": 0}, False),
+        ({"x": 1, "y": 2}, True),
+    ],
 )
 def test_only_a_point_is_for_one(pin: dict[str, float] | None, is_for_one: bool) -> None:
     assert Rule(items="a", pin=pin).is_for_one is is_for_one
@@ -102,7 +107,7 @@ def test_heroes(text: str, pose: tuple[str | None, str | None, str]) -> None:
     assert rule.items == (text.split("@")[0].split("=")[0].strip(),)
     assert rule.pin is not None
     assert (rule.pin.x, rule.pin.y, rule.pin.size) == pose
-    assert rule.pin.angle == 0
+    assert rule.pin.angle_deg == 0
 
 
 @given(text=st.text(max_size=20) | st.text("ab@,=%1 ", max_size=14))

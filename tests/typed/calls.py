@@ -29,6 +29,10 @@ def right(names: list[str], weights: dict[str, float], turns: list[int]) -> None
     pw.photos("heart", ["sea.jpg"], shape="rounded:20%", edge="crop", least_dpi=150)
     pw.chart("circle", {"kg": [3, 1]}, size_by="kg", mark=names, legend=False)
     pw.pile("square", "circle", count=3, size="30%", open="top", force=["down", "left"])
+    pw.fill("heart", seed=None, palette=[(1.0, 0.0, 0.0)], weights=[1, 2], best_of=3)
+    pw.fill("heart", seed=np.random.default_rng(), hero=pw.Hero("owl", x=0.5, y=0.4))
+    pw.fill("heart", force=[pw.Force("down", strength=2), "left"], palette={"a": (1, 0, 0)})
+    pw.chart("circle", {"kg": [3, 1]}, size_by=np.ones(2), color_by=["a", "b"])
     layout.save("a.png", pixels=300, background=None, halo="faint")
     layout.save_film("a.gif", fps=12, easing="linear", background="white")
     assert_type(layout, pw.Layout)
@@ -43,6 +47,9 @@ def right(names: list[str], weights: dict[str, float], turns: list[int]) -> None
     assert_type(pw.measure(layout), pw.Metrics)
     assert_type(pw.finish(layout), pw.Layout)
     assert_type([placed.name for placed in layout], list[str])
+    assert_type(layout[0], pw.Placement)
+    assert_type(layout[1:], pw.Layout)
+    assert_type(layout.metrics["coverage"], float)
 
 
 def far(density: npt.NDArray[Any], container: npt.NDArray[Any]) -> pw.Term:
@@ -71,5 +78,5 @@ def wrong(layout: pw.Layout) -> None:
     pw.fil("heart")  # wrong
     layout.save("a.svg", pixls=300)  # wrong
     layout.save_film("a.gif", easing="bouncy")  # wrong
-    layout.metrics["coverage"]  # wrong
+    layout.metrics["covered"]  # wrong
     layout.plot().no_such_method()  # wrong

@@ -14,8 +14,15 @@ from typing import get_type_hints
 
 import pytest
 
+from packwork.api.parts import measures
 from packwork.metrics.exact import ExactMetrics
-from packwork.metrics.measure import LayoutMetrics, Metrics
+from packwork.metrics.measure import (
+    ExactShares,
+    LayoutMetrics,
+    Metrics,
+    ReportMetrics,
+    ReportShares,
+)
 from packwork.metrics.pixel import PixelMetrics, ShapeMetrics
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -83,9 +90,11 @@ def test_measures_have_the_names_that_are_reported() -> None:
         coverage=1.0, overlap=0.0, exceeding=0.0, overlap_area=0.0, outside_area=0.0, min_gap=0.0
     )
     said = LayoutMetrics(square, exact, 1.0, ShapeMetrics(0.0, 1.0, 1, 0)).as_dict()
-    hints = get_type_hints(Metrics)
-    assert said.keys() == hints.keys()
-    assert said["exact"].keys() == get_type_hints(hints["exact"]).keys()
+    assert said.keys() == get_type_hints(ReportMetrics).keys()
+    assert said["exact"].keys() == get_type_hints(ReportShares).keys()
+    named = measures(said)
+    assert named.keys() == get_type_hints(Metrics).keys()
+    assert named["exact"].keys() == get_type_hints(ExactShares).keys()
     own = {*get_type_hints(PixelMetrics), *get_type_hints(ShapeMetrics), "LC_ink", "exact"}
     assert said.keys() == own
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -9,6 +10,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from packwork.api.parts import checked_poses
+from packwork.api.plain import plain_colours, plain_seed, plain_texts
+from packwork.errors import PackworkError
+from packwork.phrasing import in_python
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.readers.memory.shapes import Columns
@@ -34,11 +38,39 @@ VECTORS = ("embeddings",)
 """Options that are rows of numbers."""
 
 
+TYPED = ("hero", "force", "anchors")
+"""Options that are texts of several parts, or values that hold these."""
+
+COLOURS = ("palette", "color")
+"""Options that are colours; those of marks may also be named by a column."""
+
+
 @contextmanager
 def handed_over(y_up: bool | None = None, columns: Columns | None = None) -> Iterator[Handed]:
-    """Names for what is handed over; readers find it by them inside the block."""
-    with memory_in_use() as memory:
-        yield Handed(memory, y_up, columns)
+    """Names for what is handed over; readers find it by them inside the block.
+
+    What is said there names options as Python does: ``size_ratio``, not ``--size-ratio``.
+    """
+    log, told = logging.getLogger("packwork"), _InPython()
+    log.addFilter(told)
+    try:
+        with memory_in_use() as memory:
+            yield Handed(memory, y_up, columns)
+    except PackworkError as error:
+        said = getattr(error, "problem", str(error))
+        error.args = (str(error).replace(said, in_python(said)),)
+        error.__dict__.update(problem=in_python(said))
+        raise
+    finally:
+        log.removeFilter(told)
+
+
+class _InPython(logging.Filter):
+    """Filter that lets all pass, in Python's names of options."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        record.msg, record.args = in_python(record.getMessage()), ()
+        return True
 
 
 def with_names(options: Mapping[str, Any], handed: Handed) -> dict[str, Any]:
@@ -54,8 +86,14 @@ def with_names(options: Mapping[str, Any], handed: Handed) -> dict[str, Any]:
 
 
 def _named(key: str, value: Any, handed: Handed) -> Any:
+    if key == "seed":
+        return plain_seed(value)
     if value is None:
         return None
+    if key in TYPED:
+        return plain_texts(value)
+    if key in COLOURS:
+        return plain_colours(value)
     if key == "start":
         return _named_start(value, handed)
     if key == "region" and isinstance(value, list | tuple):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import cast
 
 import numpy as np
 
 from packwork.api.layout import Layout, public
-from packwork.api.parts import ReadOnly
+from packwork.api.parts import measures
+from packwork.api.plain import plain_seed
 from packwork.errors import RecipeError
 from packwork.finish.finish import finish as exact_finish
 from packwork.finish.options import FinishOptions
@@ -47,9 +47,9 @@ def measure(layout: scene.Layout | str | Path) -> Metrics:
     if isinstance(layout, Layout):
         return layout.metrics
     if isinstance(layout, scene.Layout):
-        return cast(Metrics, ReadOnly(measure_layout(layout).as_dict()))
+        return measures(measure_layout(layout).as_dict())
     found = measure_layout(read_written(layout)).as_dict()
-    return cast(Metrics, ReadOnly({k: v for k, v in found.items() if k != "LC_ink"}))
+    return measures({k: v for k, v in found.items() if k != "LC_ink"})
 
 
 def finish(
@@ -59,7 +59,7 @@ def finish(
     grow: bool = True,
     turn: bool = True,
     trials: int = 0,
-    seed: int = 0,
+    seed: int | np.random.Generator | None = 0,
     observer: Listener = NOBODY,
     stop: Stop = never,
 ) -> Layout:
@@ -111,7 +111,7 @@ def finish(
     bulge = 2 * FLATTENING * float(np.max(extents * largest, initial=0.0))
     options = FinishOptions(
         gap_cu=gap + bulge, largest=tuple(largest.tolist()), turning=turn, trials=trials,
-        seed=seed,
+        seed=plain_seed(seed),
     )  # fmt: skip
     outlines = [item.outline for item in layout.items]
     poses = layout.poses.subset(np.arange(len(scales)))
@@ -136,5 +136,5 @@ def _certified(layout: scene.Layout, promise: Promise) -> Layout:
         "metrics": found.as_dict(),
     }
     made = public(replace(layout, manifest=said))
-    made.__dict__["metrics"] = ReadOnly(found.as_dict())
+    made.__dict__["metrics"] = measures(found.as_dict())
     return made

@@ -10,9 +10,13 @@ from collections.abc import Set as AbstractSet
 from pathlib import Path
 from typing import Any, Literal, Required, TypedDict
 
+from numpy.random import Generator
+
+from packwork.api.plain import Cells, Colours
 from packwork.api.signatures import RunKeywords
 from packwork.readers.memory.values import Value
 from packwork.readers.words.options import Word
+from packwork.recipe.typed import Anchor, Force, Hero
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 
@@ -26,7 +30,7 @@ class PinTable(TypedDict, total=False):
     y: str | float | None
     """The same from the canvas' top edge; % are of its height."""
 
-    angle: float | None
+    angle_deg: float | None
     """Turn from upright, degrees clockwise."""
 
     size: str | float | None
@@ -57,7 +61,7 @@ class RuleTable(TypedDict, total=False):
     region: Value | Sequence[str | float] | None
     """Part of the canvas to stay in: a container, or left, top, width and height."""
 
-    color: str | Sequence[str] | None
+    color: Colours | None
     """One colour, or a palette: items of several colours become silhouettes; or ``own``, where
     another rule or the recipe gives colours that these items shall not have."""
 
@@ -98,7 +102,7 @@ class _FillWordsPhotos(TypedDict, total=False):
     """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:
     2.0."""
 
-    hero: str | None
+    hero: str | Hero | None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
@@ -113,7 +117,7 @@ class _FillWordsPhotos(TypedDict, total=False):
     names): those with like ones come to lie together. auto: of words, by which of them stand near
     each other in the text."""
 
-    anchors: str | Sequence[str]
+    anchors: str | Anchor | Sequence[str | Anchor]
     """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
     also right, up, down, 45deg, middle. May be given several times."""
 
@@ -169,7 +173,7 @@ class _FillPhotosPile(TypedDict, total=False):
     """Font file (TTF, OTF, TTC) or installed family, for a container text:WORD or for words; for
     these also several in turn. Default: a bundled bold sans, others for what it lacks."""
 
-    weights: str | Mapping[str, float] | None
+    weights: str | Path | Mapping[str, float] | Cells | None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
     strict: bool
@@ -232,7 +236,7 @@ class _Every(TypedDict, total=False):
     """How the letters of a table or a text are stored, such as utf-8, cp1252 or cp1251. Default:
     UTF-8, UTF-16, or the Windows encoding that its letters show."""
 
-    seed: int
+    seed: Generator | int | None
     """Same seed, same machine, same versions: same layout. Default: 0."""
 
     threads: int | None
@@ -276,7 +280,7 @@ class _FillWords(TypedDict, total=False):
 class _FillWordsPile(TypedDict, total=False):
     """Options of fill, words, pile."""
 
-    force: str | Sequence[str] | None
+    force: str | Force | Sequence[str | Force] | None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
     balance or together; docs/guide/forces.md has all. May be given several times."""
 
@@ -289,7 +293,7 @@ class _FillWordsPile(TypedDict, total=False):
 class _FillWordsChartPile(TypedDict, total=False):
     """Options of fill, words, chart, pile."""
 
-    palette: str | Sequence[str] | Mapping[str, str] | None
+    palette: Colours | None
     """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
     tol-vibrant, tol-muted, tol-high-contrast; of the values of a column (--color-by) also by name,
     as bear=red,fox=#457b9d. Photographs keep theirs."""
@@ -334,27 +338,19 @@ class _FillWordsPhotosChart(TypedDict, total=False):
     preset's, or beside them; 0 switches one off."""
 
 
-class _WordsChart(TypedDict, total=False):
-    """Options of words, chart."""
-
-    label_by: str | None
-    """Column that names marks: in files, tooltips and messages, and on marks that have room; of a
-    table of words, their column."""
-
-    size_by: str | None
-    """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
-    all marks are alike."""
-
-    background: str | None
-    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
-
-
 class _WordsPhotos(TypedDict, total=False):
     """Options of words, photos."""
 
     share: str | Mapping[str, float | str] | None
     """Shares of the area where words, photos and other items are mixed:
     words=50%,photos=30%,items=20%."""
+
+
+class _WordsChart(TypedDict, total=False):
+    """Options of words, chart."""
+
+    background: str | None
+    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
 
 
 class FillKeywords(
@@ -392,11 +388,19 @@ class WordsKeywords(
     _FillWordsPile,
     _FillWordsChartPile,
     _FillWordsPhotosChart,
-    _WordsChart,
     _WordsPhotos,
+    _WordsChart,
     total=False,
 ):
     """Options of :func:`packwork.words`."""
+
+    label_by: str | None
+    """Column that names marks: in files, tooltips and messages, and on marks that have room; of a
+    table of words, their column."""
+
+    size_by: str | None
+    """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
+    all marks are alike."""
 
     min_count: int
     """How often a word must stand in the text. Default: 1."""
@@ -507,6 +511,10 @@ class PhotosRun(RunKeywords, PhotosKeywords, total=False):
 class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsChart, total=False):
     """Options of :func:`packwork.chart`."""
 
+    size_by: Cells | None
+    """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
+    all marks are alike."""
+
     size_is: Literal["area", "height", "width"]
     """What of a mark is in that proportion: its area, height or width. Default: 'area'."""
 
@@ -514,7 +522,7 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
     """One mark for each so many of --size-by (without it: so many rows that are alike in what is
     shown of them); what is left over is a part of a mark."""
 
-    color_by: str | None
+    color_by: Cells | None
     """Column that colours come from: of numbers, from small to large along the palette; of anything
     else, a colour for each value."""
 
@@ -522,10 +530,14 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
     """What stands for a row: an SVG, a picture, a folder or a built-in name. May be given several
     times, with --mark-by. Default: circle."""
 
-    mark_by: str | None
+    mark_by: Cells | None
     """Column whose values have marks of their own: that of the same name, else in turn."""
 
-    by: str | None
+    label_by: Cells | None
+    """Column that names marks: in files, tooltips and messages, and on marks that have room; of a
+    table of words, their column."""
+
+    by: Cells | None
     """Column that parts marks into groups: each has a container of its own or, in container none,
     is a bar that its marks have fallen into. All marks have one scale."""
 

@@ -3,38 +3,36 @@
 from __future__ import annotations
 
 import io
-import json
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Unpack, cast
+from typing import IO, TYPE_CHECKING, Any, Unpack, overload
 
-from pydantic import ValidationError
+import numpy as np
 
 from packwork import writers
+from packwork.api.exports import Exported, drawing_options
 from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.parts import (
     Placement,
     Pose,
-    ReadOnly,
     checked_poses,
     frozen,
     frozen_poses,
     manifest_of,
+    measures,
+    same_content,
 )
 from packwork.api.signatures import of_model
 from packwork.display.bar import bar_for, shown
-from packwork.display.extras import data_frame, draw_on_axes
-from packwork.display.picture import notebook_png, notebook_svg
 from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session, read_written
-from packwork.recipe.refusals import refusal
 from packwork.recipe.verbs import film_options
 from packwork.scene import item as scene_item
 from packwork.scene import layout as scene
@@ -42,19 +40,17 @@ from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from pandas import DataFrame
-
     from packwork.api.session import Session
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Layout(scene.Layout):
+class Layout(Exported, Sequence[Placement]):
     """Container + items + poses: what :func:`fill` returns, what is saved and shown.
 
     It shows itself in a notebook and never changes: ``dataclasses.replace`` gives another, which
-    is measured anew. ``len`` is the number of placed items; iterating gives each of them with its
-    outline in place, pose, name and weight.
+    is measured anew. It is a sequence of its placed items, each with its outline in place, pose,
+    name and weight; a slice is a layout of some. Layouts are equal if containers, items, poses and
+    weights are, whatever their manifests say.
 
     Parameters
     ----------
@@ -84,6 +80,8 @@ class Layout(scene.Layout):
     ['circle', 'star', 'circle', 'star']
     >>> len(layout), [placed.name for placed in layout if placed.pose.y > 0][:2]
     (4, ['circle', 'star'])
+    >>> layout[-1].name, layout[:2], layout[0] in layout, layout[:4] == layout
+    ('star', <Layout: 2 items in heart>, True, True)
     >>> layout.poses.x.shape, layout.manifest["recipe"]["effort"]
     ((4,), 'draft')
     """
@@ -112,12 +110,33 @@ class Layout(scene.Layout):
     def __bool__(self) -> bool:
         return True
 
-    def __iter__(self) -> Iterator[Placement]:
-        poses = self.poses
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, scene.Layout):
+            return NotImplemented
+        parts = ("container", "items", "poses", "weights")
+        return all(same_content(getattr(self, part), getattr(other, part)) for part in parts)
+
+    def __hash__(self) -> int:
+        return hash((self.container.name, *self.poses.x.tolist()))
+
+    @overload
+    def __getitem__(self, which: int) -> Placement: ...
+    @overload
+    def __getitem__(self, which: slice) -> Layout: ...
+    def __getitem__(self, which: int | slice) -> Placement | Layout:
+        if isinstance(which, slice):
+            rows = np.arange(len(self))[which]
+            return replace(
+                self, items=self.items[which], poses=self.poses.subset(rows),
+                weights=self.weights[which], notes=(), track=None, leaving=None,
+            )  # fmt: skip
+        items, poses = self.items[which], self.poses
         columns = (poses.x, poses.y, poses.angle, poses.scale, poses.stretch, self.weights)
-        numbers = zip(*(column.tolist() for column in columns), strict=True)
-        for item, outline, row in zip(self.items, self.outlines, numbers, strict=True):
-            yield Placement(item, Pose(*row[:-1]), outline, row[-1])
+        *row, weight = (float(column[which]) for column in columns)
+        return Placement(items, Pose(*row), self.outlines[which], weight)
+
+    def __iter__(self) -> Iterator[Placement]:
+        return map(self.__getitem__, range(len(self)))
 
     @classmethod
     def load(cls, path: str | Path, items: Iterable[scene_item.Item] = ()) -> Layout:
@@ -171,7 +190,7 @@ class Layout(scene.Layout):
         format
             Such as ``"svg"``, in place of the ending; a buffer has none.
         options
-            As on the command line: ``pixels``, ``dpi``, ``background``, ``halo`` ...
+            Those below.
 
         Raises
         ------
@@ -195,7 +214,7 @@ class Layout(scene.Layout):
                     raise RecipeError("path", line + ", ".join(options))
                 self.edit().save(path)
             elif format is None:
-                writers.write(self, path, _drawing(options))
+                writers.write(self, path, drawing_options(options))
             else:
                 writers.write_atomic(path, self._encoded(format, options))
         elif not hasattr(path, "write"):
@@ -206,45 +225,7 @@ class Layout(scene.Layout):
                 raise RecipeError("format", "a buffer has no ending; give a format, such as 'svg'")
             content = self._encoded(format, options)
             path.write(content.decode() if isinstance(path, io.TextIOBase) else content)
-        tell_coarse(self, _drawing(options).dpi)
-
-    @of_model(DrawingOptions)
-    def to_svg(self, **options: Unpack[SaveKeywords]) -> str:
-        """Text of the SVG that :meth:`save` writes.
-
-        Examples
-        --------
-        >>> from packwork import fill
-        >>> fill("circle", "star", effort="draft", levels="50").to_svg()[:5]
-        '<?xml'
-        """
-        return self._encoded("svg", options).decode()
-
-    @of_model(DrawingOptions)
-    def to_png(self, **options: Unpack[SaveKeywords]) -> bytes:
-        """Content of the PNG that :meth:`save` writes: :meth:`to_svg`, in ``pixels``."""
-        return self._encoded("png", options)
-
-    def to_geojson(self) -> dict[str, Any]:
-        """GeoJSON as :meth:`save` writes it: canvas units, y down.
-
-        Examples
-        --------
-        >>> from packwork import fill
-        >>> made = fill("circle", "star", effort="draft", levels="50").to_geojson()
-        >>> [feature["properties"]["role"] for feature in made["features"]]
-        ['container', 'item']
-        """
-        made: dict[str, Any] = json.loads(self._encoded("geojson", {}))
-        return made
-
-    @property
-    def __geo_interface__(self) -> dict[str, Any]:
-        """The same, for GeoPandas, Shapely and others that ask for it."""
-        return self.to_geojson()
-
-    def _encoded(self, format: str, options: Mapping[str, Any]) -> bytes:
-        return writers.encoded(self, f"layout.{format.lower().lstrip('.')}", _drawing(options))
+        tell_coarse(self, drawing_options(options).dpi)
 
     @of_model(FilmOptions)
     def save_film(
@@ -265,7 +246,7 @@ class Layout(scene.Layout):
         path
             Its ending picks the format: .svg, .gif, .apng, .webp, .mp4, .webm, .json (Lottie).
         options
-            As on the command line: ``fps``, ``seconds``, ``hold``, ``loop``, ``easing`` ...
+            Those below.
 
         Raises
         ------
@@ -293,73 +274,22 @@ class Layout(scene.Layout):
 
         return session_of(self, record=record)
 
-    def to_dataframe(self) -> DataFrame:
-        """Pandas data frame: one row per item, in the layout's order.
-
-        Of a chart, first the columns of its table (the index of a data frame is the index again),
-        then ``value`` (what the mark stands for), ``category`` and ``group``, where there are any;
-        of items that were rows of a data frame its index; of all layouts ``item``, ``source``,
-        ``x``, ``y``, ``angle_deg`` (degrees, clockwise, as in files), ``scale``, ``stretch``,
-        ``area`` (squared canvas units), ``weight`` and ``color``. Where the table has a column of
-        that name too, ours is called ``mark_x`` and so on.
-
-        Raises
-        ------
-        PackworkError
-            If pandas is not installed.
-
-        Examples
-        --------
-        >>> from packwork import chart
-        >>> sold = {"fruit": ["fig", "kiwi"], "kg": [3, 1]}
-        >>> layout = chart("circle", sold, size_by="kg", effort="draft", levels="50")
-        >>> frame = layout.to_dataframe()
-        >>> frame["fruit"].tolist(), round(float(frame["area"][0] / frame["area"][1]), 6)
-        (['fig', 'kiwi'], 3.0)
-        """
-        return data_frame(self)
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the items on Matplotlib axes, true to scale, y down; the axes.
-
-        Each item is a ``PathPatch`` of what is drawn of it, holes and all, in its colour;
-        pictures and drawings of several colours are in their mean colour. The first mark of each
-        category of a chart is labelled with it, so ``ax.legend()`` has keys.
-
-        Parameters
-        ----------
-        ax
-            Axes to draw on; new ones without ticks and frame if None.
-
-        Raises
-        ------
-        PackworkError
-            If Matplotlib is not installed.
-
-        Examples
-        --------
-        >>> from packwork import fill
-        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
-        >>> len(layout.plot().patches)
-        3
-        """
-        axes: Axes = draw_on_axes(self, ax)
-        return axes
-
     @cached_property
     def metrics(self) -> Metrics:
-        """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``.
+        """Measures: ``coverage``, ``overlap``, ``outside``, ``unevenness`` and more.
 
-        Shares are of the container's area; docs/reference/units.md says what each means.
+        Also under the names of papers and reports: LC, OO, EA, LnU. A table ``exact`` has those of
+        exact geometry. Shares are of the container's area; docs/reference/units.md says what each
+        means.
 
         Examples
         --------
         >>> from packwork import fill
         >>> layout = fill("circle", "hexagon", count=7, effort="draft", levels="50")
-        >>> 0.5 < layout.metrics["LC"] < 1, sorted(layout.metrics["exact"])[-3:]
-        (True, ['min_gap', 'outside_area', 'overlap_area'])
+        >>> 0.5 < layout.metrics["coverage"] < 1, layout.metrics["exact"]["overlap"]
+        (True, 0.0)
         """
-        return cast(Metrics, ReadOnly(measure(self).as_dict()))
+        return measures(measure(self).as_dict())
 
     @cached_property
     def certified(self) -> bool:
@@ -379,19 +309,6 @@ class Layout(scene.Layout):
         promise = Promise.of(self.manifest) or Promise()
         exact = exact_metrics(self.outlines, self.container.outline)
         return len(self) > 0 and not unclean(promise, self, exact)
-
-    def _repr_svg_(self) -> str | None:
-        return notebook_svg(self)
-
-    def _repr_png_(self) -> tuple[bytes, dict[str, int]] | None:
-        return notebook_png(self)
-
-
-def _drawing(options: Mapping[str, Any]) -> writers.WriteOptions:
-    try:
-        return writers.write_options(**options)
-    except ValidationError as error:
-        raise refusal(error, DrawingOptions) from error
 
 
 def public(layout: scene.Layout) -> Layout:

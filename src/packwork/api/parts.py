@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any, NamedTuple, NoReturn
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, NamedTuple, NoReturn, cast
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
+from packwork.metrics.measure import Metrics
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 
@@ -34,6 +35,36 @@ class ReadOnly(dict[str, Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (dict(self),)
+
+
+FULL_NAMES = {"coverage": "LC", "overlap": "OO", "outside": "EA", "unevenness": "LnU"}
+"""Names of measures, and those that papers and reports have for them."""
+
+
+def measures(values: Mapping[str, Any]) -> Metrics:
+    """Measures of a report, under their full names too."""
+    exact = values["exact"]
+    full = [
+        {name: table[short] for name, short in FULL_NAMES.items() if short in table}
+        for table in (values, exact)
+    ]
+    return cast(Metrics, ReadOnly({**full[0], **values, "exact": {**full[1], **exact}}))
+
+
+def same_content(one: Any, other: Any) -> bool:
+    """Whether two values hold the same: dataclasses by their fields, arrays by their numbers."""
+    if one is other:
+        return True
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, np.ndarray):
+        return np.array_equal(one, other)
+    if is_dataclass(one):
+        names = (field.name for field in fields(one))
+        return all(same_content(getattr(one, name), getattr(other, name)) for name in names)
+    if isinstance(one, tuple):
+        return len(one) == len(other) and all(map(same_content, one, other))
+    return bool(one == other)
 
 
 class Manifest(ReadOnly):
@@ -127,6 +158,14 @@ class Placement:
     def area(self) -> float:
         """Area in place, squared canvas units."""
         return self.outline.area
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Placement):
+            return NotImplemented
+        return self.pose == other.pose and same_content(self.item, other.item)
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.pose))
 
     def __repr__(self) -> str:
         return f"<Placement: {self.name} at ({self.pose.x:.1f}, {self.pose.y:.1f})>"

@@ -12,6 +12,7 @@ from packwork import threads, writers
 from packwork.api.inputs import handed_over, with_names
 from packwork.api.keywords import ChartKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
+from packwork.api.plain import with_columns
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.errors import RecipeError
 from packwork.pipeline import tell_coarse
@@ -91,8 +92,11 @@ class Series:
 
     def save_sheet(self, path: str | Path) -> None:
         """Write a picture (PNG) of all steps, small."""
+        writers.write_atomic(path, self._repr_png_())
+
+    def _repr_png_(self) -> bytes:
         small = [writers.png_bytes(layout, THUMB_PX) for layout in self.layouts]
-        writers.write_atomic(path, sheet_bytes(small, self.labels))
+        return sheet_bytes(small, self.labels)
 
 
 def series(
@@ -183,12 +187,13 @@ def chart_series(
     >>> made, made.labels
     (<Series: 2 steps, 2 certified>, ('1', '2'))
     """
+    table, named = with_columns(data, options)
     return _run_series(
         container,
         column,
-        lambda name, asked: chart_steps(name, data, column, **asked),
+        lambda name, asked: chart_steps(name, table, column, **asked),
         stop,
-        options,
+        named,
     )
 
 

@@ -8,6 +8,8 @@ from typing import Any
 
 from packwork.api.inputs import handed_over, read_container, read_items
 from packwork.api.layout import Layout, public
+from packwork.api.plain import Colour, Colours, plain_colour, plain_colours, plain_texts
+from packwork.display.picture import notebook_png, notebook_svg
 from packwork.errors import RecipeError, WriteError
 from packwork.live import edits
 from packwork.live.document import Document
@@ -16,6 +18,8 @@ from packwork.live.file.recipe import SessionRecipe, write_recipe
 from packwork.live.names import Coordinate, Which
 from packwork.live.session import Session as LiveSession
 from packwork.readers.memory.values import Value
+from packwork.recipe.pictures import Shades
+from packwork.recipe.typed import Anchor
 from packwork.scene import layout as scene
 
 
@@ -44,6 +48,15 @@ class Session(LiveSession):
     """
 
     _disk: Disk | None = None
+
+    def __repr__(self) -> str:
+        return repr(self.layout).replace("Layout", "Session", 1)
+
+    def _repr_svg_(self) -> str | None:
+        return notebook_svg(self.layout)
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]] | None:
+        return notebook_png(self.layout)
 
     @property
     def layout(self) -> Layout:
@@ -150,8 +163,6 @@ class Session(LiveSession):
     paste = edits.paste
     weigh = edits.weigh
     rename = edits.rename
-    recolor = edits.recolor
-    palette = edits.palette
     background = edits.background
     reshape = edits.reshape
     place_container = edits.place_container
@@ -161,6 +172,20 @@ class Session(LiveSession):
     cover = edits.cover
     words = edits.words
     arrange = edits.arrange
+
+    def recolor(self, which: Which, color: Colour) -> None:
+        """Give items one colour, any of CSS or Matplotlib."""
+        edits.recolor(self, which, plain_colour(color))
+
+    def palette(self, palette: Colours | None, shades: Shades = "tint") -> None:
+        """Put the colours of a palette on all items, neighbours unlike ones; None: their own again.
+
+        Parameters
+        ----------
+        palette, shades
+            As for :func:`fill`. Photographs keep theirs.
+        """
+        edits.palette(self, None if palette is None else plain_colours(palette), shades)
 
     def add(
         self, source: Value, x: Coordinate | None = None, y: Coordinate | None = None
@@ -196,7 +221,9 @@ class Session(LiveSession):
         with handed_over() as handed:
             edits.picture(self, handed.picture_name_of(source, "picture"))
 
-    def embeddings(self, source: Any, anchors: str | Sequence[str] = (), *, seed: int = 0) -> None:
+    def embeddings(
+        self, source: Any, anchors: str | Anchor | Sequence[str | Anchor] = (), *, seed: int = 0
+    ) -> None:
         """Put all anew, like items side by side; what is held stays.
 
         Parameters
@@ -204,10 +231,10 @@ class Session(LiveSession):
         source, anchors
             As ``embeddings`` and ``anchors`` of :func:`fill`.
         """
-        listed = (anchors,) if isinstance(anchors, str) else anchors
+        listed = (anchors,) if isinstance(anchors, str | Anchor) else anchors
         with handed_over() as handed:
             name = handed.vectors_name_of(source, "embeddings")
-            edits.embeddings(self, name, listed, seed=seed)
+            edits.embeddings(self, name, plain_texts(list(listed)), seed=seed)
 
 
 def session_of(layout: scene.Layout, *, record: bool) -> Session:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
+import textwrap
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypedDict, TypeVar
 
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
+from packwork.phrasing import in_python
 from packwork.progress import Listener, Stop, never
 from packwork.recipe import Recipe
 from packwork.recipe.verbs import default_of, run_options
@@ -41,10 +43,16 @@ class RunKeywords(TypedDict, total=False):
     history: bool | int
     """Keep losses by epoch, in ``layout.history``: of each, or of every so many."""
 
+    best_of: int
+    """Try so many seeds, from ``seed`` on, and keep the best."""
+
+    best_by: str
+    """What the best is: coverage, evenness, or a metric of the report, such as ``"-LC_ink"``."""
+
 
 _UNASKED: Mapping[str, Any] = {
     "y_up": None, "observer": None, "stop": never, "progress": None, "record": False,
-    "history": False,
+    "history": False, "best_of": 1, "best_by": "coverage",
 }  # fmt: skip
 
 RUN = [
@@ -58,6 +66,8 @@ RUN = [
 ]
 """Parameters for :class:`RunKeywords`."""
 
+TAB = 4 * " "
+
 RULES = inspect.Parameter(
     "rules", inspect.Parameter.KEYWORD_ONLY, default=Recipe.model_fields["rules"].default
 )
@@ -67,12 +77,14 @@ RULES = inspect.Parameter(
 def of_verb(verb: Verbs, *more: Offered) -> Callable[[Signed], Signed]:
     """Show what all verbs have, a verb's options, further ones and ``rules`` for ``**options``."""
     listed = (*(option for option in run_options(verb) if option.name != "items"), *more)
-    return _showing([*RUN, *(_parameter(o, default_of(verb, o)) for o in listed), RULES])
+    shown = [*RUN, *(_parameter(o, default_of(verb, o)) for o in listed), RULES]
+    return _showing(shown, listed)
 
 
 def of_model(model: type[Options]) -> Callable[[Signed], Signed]:
     """Show the options of a model in place of ``**options``."""
-    return _showing([_parameter(option, option.default) for option in offered(model)])
+    listed = offered(model)
+    return _showing([_parameter(option, option.default) for option in listed], listed)
 
 
 def _parameter(option: Offered, default: Any) -> inspect.Parameter:
@@ -84,7 +96,24 @@ def _parameter(option: Offered, default: Any) -> inspect.Parameter:
     )
 
 
-def _showing(parameters: Iterable[inspect.Parameter]) -> Callable[[Signed], Signed]:
+def described(text: str, options: Iterable[Offered]) -> str:
+    """A docstring with what each option does, before its errors and examples."""
+    doc = inspect.cleandoc(text)
+    heads = ("Raises\n---", "Examples\n---")
+    place = min((doc.find(head) for head in heads if head in doc), default=len(doc))
+    lines = ["Other Parameters", "----------------"]
+    for option in options:
+        said = " ".join(in_python(option.field.description or option.help).split())
+        lines += [
+            option.name,
+            *(TAB + line for line in textwrap.wrap(said, 88, break_on_hyphens=False)),
+        ]
+    return f"{doc[:place].rstrip()}\n\n{chr(10).join(lines)}\n\n{doc[place:]}"
+
+
+def _showing(
+    parameters: Iterable[inspect.Parameter], described_by: Sequence[Offered]
+) -> Callable[[Signed], Signed]:
     def signed(function: Signed) -> Signed:
         own = inspect.signature(function)
         kept = {
@@ -92,6 +121,7 @@ def _showing(parameters: Iterable[inspect.Parameter]) -> Callable[[Signed], Sign
         }
         added = [each for each in parameters if each.name not in kept]
         changed: Any = function
+        changed.__doc__ = changed.__doc__ and described(changed.__doc__, described_by)
         changed.__signature__ = own.replace(parameters=[*kept.values(), *added])
         return function
 

@@ -19,11 +19,15 @@ from packwork.api.keywords import (
     WordsRun,
 )
 from packwork.api.layout import Layout, public
-from packwork.api.parts import ReadOnly
+from packwork.api.parts import measures
+from packwork.api.plain import weighed, with_columns, without_none
 from packwork.api.signatures import BACKGROUND, RunKeywords, of_verb
+from packwork.batches.pool import results
+from packwork.batches.seeds import best_first
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
+from packwork.pipeline import Run
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never, together
 from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Handed, Value
@@ -68,9 +72,12 @@ def fill(
     history
         Keep losses by epoch, in ``layout.history``: of each, or of every so many (``10``). Reading
         them takes longer than the epochs themselves.
+    best_of, best_by
+        Try so many seeds, from ``seed`` on, and keep the best: by ``"coverage"``, ``"evenness"`` or
+        a metric of the report, with a minus where less is better.
     options
-        As on the command line, by the names in the signature; and ``rules`` about single
-        items, tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
+        Those below; and ``rules`` about single items, tables as in a recipe file:
+        ``[{"items": "star", "count": 3}]``.
 
     Raises
     ------
@@ -89,7 +96,7 @@ def fill(
         container,
         options,
         lambda name, handed, asked: make_recipe(
-            container=name, items=handed.names_of(items, "items"), **asked
+            container=name, **weighed(handed.names_of(items, "items"), asked)
         ),
     )
 
@@ -110,12 +117,13 @@ def words(
     ----------
     source
         A text or the file that holds it, a table ``word,weight`` (.csv, .tsv, .json), or
-        weights by word: a dict, a ``Counter``, a pandas Series.
+        weights by word: a dict, a ``Counter``, a pandas Series; or a list of words, each as heavy
+        as it occurs often.
     add
         Items that are placed among the words: files, folders or built-in names.
     options
-        As on the command line, by the names in the signature. ``color_by`` may be a function
-        of a word; a ``background`` is to be given to ``save`` too.
+        Those below. ``color_by`` may be a function of a word; a ``background`` is to be given to
+        ``save`` too.
 
     Raises
     ------
@@ -161,7 +169,7 @@ def photos(
     add
         Items that are placed among the photos, as for :func:`packwork.fill`.
     options
-        As on the command line, by the names in the signature.
+        Those below.
 
     Raises
     ------
@@ -210,7 +218,7 @@ def pile(
         As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
         lets items lie anywhere.
     options
-        As on the command line, by the names in the signature.
+        Those below.
 
     Raises
     ------
@@ -229,7 +237,7 @@ def pile(
         container,
         options,
         lambda name, handed, asked: uses.pile_recipe(
-            name, handed.names_of(items, "items"), **asked
+            name, **weighed(handed.names_of(items, "items"), asked)
         ),
     )
 
@@ -249,11 +257,11 @@ def chart(
     container
         As for :func:`fill`; ``"none"`` shows the groups of ``by`` as bars.
     data
-        A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
-        dict of columns.
+        A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, a dict of
+        columns, or a Series of sizes. ``size_by``, ``color_by`` and the like are names of columns,
+        or the cells themselves.
     options
-        As on the command line, by the names in the signature; a ``background`` is to be given
-        to ``save`` too.
+        Those below; a ``background`` is to be given to ``save`` too.
 
     Raises
     ------
@@ -266,7 +274,8 @@ def chart(
     >>> round(float(layout.areas[0] / layout.areas[1]), 6)
     4.0
     """
-    return _run(container, options, lambda name, _, asked: uses.chart_recipe(name, data, **asked))
+    table, named = with_columns(data, options)
+    return _run(container, named, lambda name, _, asked: uses.chart_recipe(name, table, **asked))
 
 
 def run(
@@ -278,6 +287,8 @@ def run(
     progress: bool | None = None,
     record: bool = False,
     history: bool | int = False,
+    best_of: int = 1,
+    best_by: str = "coverage",
     **options: Any,
 ) -> Layout:
     """Run what a recipe asks for.
@@ -315,7 +326,7 @@ def run(
                 "recipe", f"is {type(recipe).__name__}; give a recipe file, or options as a dict"
             )
         if isinstance(recipe, Mapping):
-            plain = with_names(_without_none(recipe), handed)
+            plain = with_names(without_none(recipe), handed)
         elif is_session(recipe):
             from packwork.live.file.recipe import recipe_of_session
 
@@ -323,16 +334,9 @@ def run(
         else:
             plain = read_recipe(recipe, allow_code=allow_code)
         asked = make_recipe(**overridden(plain, with_names(options, handed)))
-        return run_recipe(asked, asked.container, observer, stop, progress, record, history)
-
-
-def _without_none(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options that are set, in tables too: a manifest lists all."""
-    return {
-        key: _without_none(value) if isinstance(value, Mapping) else value
-        for key, value in options.items()
-        if value is not None
-    }
+        return run_recipe(
+            asked, asked.container, observer, stop, progress, record, history, best_of, best_by
+        )
 
 
 def _run(
@@ -357,19 +361,33 @@ def run_recipe(
     progress: bool | None = None,
     record: bool = False,
     history: bool | int = False,
+    best_of: int = 1,
+    best_by: str = "coverage",
 ) -> Layout:
     """Run a recipe, with a bar if one is to be shown; a container that was given is used as is."""
-    kept = keeper(history)
+    if isinstance(best_of, bool) or not isinstance(best_of, int) or best_of < 1:
+        raise RecipeError("best_of", f"must be a whole number from 1 on, not {best_of!r}")
+    keepers = [keeper(history) for _ in range(best_of)]
     heard = NOBODY if observer is None else as_observer(observer)
     if not callable(stop):
         raise RecipeError("stop", f"must be a function that says whether to stop, not {stop!r}")
     bar = bar_for(progress, None if observer is None else heard)
     whole = container if isinstance(container, Container) else None
+
+    def run_seed(k: int, stop: Stop) -> Run:
+        seeded = recipe.model_copy(update={"seed": recipe.seed + k})
+        told = together(bar or heard, keepers[k] or NOBODY)
+        return uses.fill(seeded, None, whole, told, stop, record)
+
     with shown(bar):
-        told = together(bar or heard, kept or NOBODY)
-        run = uses.fill(recipe, None, whole, told, stop, record)
+        if best_of == 1:
+            run = run_seed(0, stop)
+        else:
+            tried = results(range(best_of), run_seed, 1, stop)
+            run = best_first((made for _, made in tried), best_by).best
     layout = public(run.layout)
+    kept = keepers[run.layout.manifest["seed"] - recipe.seed]
     # What was just measured is not measured again when it is asked for.
-    layout.__dict__["metrics"] = ReadOnly(run.metrics.as_dict())
+    layout.__dict__["metrics"] = measures(run.metrics.as_dict())
     layout.__dict__["history"] = None if kept is None else kept.history()
     return layout

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ from packwork.batches.pool import results, worker_count
 from packwork.batches.report import flat_metrics
 from packwork.batches.task import collecting_notices
 from packwork.errors import PackworkError, RecipeError
-from packwork.metrics.measure import ExactShares, Metrics
+from packwork.metrics.measure import ReportMetrics, ReportShares
 from packwork.phrasing import enumerated
 from packwork.pipeline import Run
 from packwork.progress import NOBODY, Stop, never
@@ -19,12 +19,15 @@ from packwork.recipe import Recipe, make_recipe
 
 COVERAGE, EVENNESS = "coverage", "evenness"
 
-_MEANT = {COVERAGE: "exact_LC", EVENNESS: "-LnU"}
+_MEANT = {
+    COVERAGE: "exact_LC", EVENNESS: "-LnU",
+    "-overlap": "-exact_OO", "-outside": "-exact_EA", "-unevenness": "-LnU",
+}  # fmt: skip
 """What words stand for: a metric of the report; with a minus, less of it is better."""
 
 METRICS = (
-    *(name for name in Metrics.__annotations__ if name != "exact"),
-    *(f"exact_{name}" for name in ExactShares.__annotations__),
+    *(name for name in ReportMetrics.__annotations__ if name != "exact"),
+    *(f"exact_{name}" for name in ReportShares.__annotations__),
 )
 """Of a report, by one name each."""
 
@@ -73,13 +76,22 @@ def best_of(
     check_metric(by)
     plain = recipe.plain()
     tasks = [Seeded({**plain, "seed": recipe.seed + k}, record) for k in range(count)]
+    made = results(tasks, run_seed, worker_count(workers, count), stop)
+    return best_first((one for _, one in made), by, told)
+
+
+def best_first(
+    made: Iterable[Run | Exception], by: str = COVERAGE, told: Told = lambda _: None
+) -> Choice:
+    """Runs of several seeds, the best first; if none gave anything, the first one's error."""
+    check_metric(by)
     found: list[Run] = []
     failed: list[Exception] = []
-    for _, made in results(tasks, run_seed, worker_count(workers, count), stop):
-        if isinstance(made, Exception):
-            failed.append(made)
+    for one in made:
+        if isinstance(one, Exception):
+            failed.append(one)
         else:
-            found.append(made)
+            found.append(one)
         told(len(found) + len(failed))
     if not found:
         raise failed[0] if failed else PackworkError("stopped before there was anything to write")

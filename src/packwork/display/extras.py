@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import importlib
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -66,6 +66,16 @@ def data_frame(layout: Layout) -> Any:
     named = {TAKEN + name if name in table else name: cells for name, cells in ours.items()}
     frame = pandas.DataFrame(table | named)
     return _indexed(frame, layout, pandas) if table else _labelled(frame, layout, pandas)
+
+
+def geo_data_frame(layout: Layout) -> Any:
+    """The same with the items' outlines in place, as a frame of GeoPandas.
+
+    Raises ``PackworkError`` if GeoPandas is not installed.
+    """
+    geopandas = import_extra("geopandas", "save the layout as .geojson")
+    outlines = [outline.region for outline in layout.outlines]
+    return geopandas.GeoDataFrame(data_frame(layout), geometry=outlines)
 
 
 def _labelled(frame: Any, layout: Layout, pandas: Any) -> Any:
@@ -161,8 +171,8 @@ def _ours(layout: Layout) -> dict[str, Any]:
 INSTEAD = "save a picture"
 
 
-def draw_on_axes(layout: Layout, ax: Any = None) -> Any:
-    """Axes with a patch for each item, in canvas units, y down.
+def draw_on_axes(layout: Layout, ax: Any, asked: Mapping[str, Any]) -> Any:
+    """Axes with a patch for each item, in canvas units, y down, as ``asked`` of all patches.
 
     Raises ``PackworkError`` if Matplotlib is not installed.
     """
@@ -171,19 +181,23 @@ def draw_on_axes(layout: Layout, ax: Any = None) -> Any:
         _, ax = import_extra("matplotlib.pyplot", INSTEAD).subplots(layout="constrained")
         ax.axis("off")
     colours = {item.art: representative_colour(item) for item in layout.items}
+    chosen = import_extra("matplotlib.cbook", INSTEAD).normalize_kwargs(asked, patches.Patch)
     told: set[str] = set()
     for item, ink in zip(layout.items, layout.inks, strict=True):
         category = "" if item.datum is None else item.datum.category
         # What begins with a line is no key to Matplotlib, which is right for all but the first.
         label = "_" + item.name if category in told or not category else category
         told.add(category)
-        patch = patches.PathPatch(
-            _path(ink), facecolor=colours[item.art], edgecolor="none", label=label
-        )
-        ax.add_patch(patch)
+        own = {"facecolor": colours[item.art], "edgecolor": "none", "label": label}
+        ax.add_patch(patches.PathPatch(_path(ink), **({} if "color" in chosen else own) | chosen))
     ax.set_xlim(0.0, layout.container.width)
     ax.set_ylim(layout.container.height, 0.0)
     ax.set_aspect("equal")
+    chart = layout.manifest.get("recipe", {}).get("chart") or {}
+    if chart.get("title"):
+        ax.set_title(chart["title"])
+    if any(told) and chart.get("legend", True):
+        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return ax
 
 

@@ -1,12 +1,20 @@
-"""A layout as a notebook shows it: an SVG, or a PNG where that would be too long."""
+"""Pictures for notebooks of layouts, items and containers: an SVG, or a PNG instead of a long one.
+
+Items and containers lie below what draws them, so their methods are put on them here.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import re
+from dataclasses import replace
 
+import numpy as np
+
+from packwork.scene.container import Container
 from packwork.scene.item import Item, PhotoArt, PictureArt, VectorArt
-from packwork.scene.layout import Layout
+from packwork.scene.layout import Layout, blank, sheet
+from packwork.scene.pose import Poses
 from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SheetSize, SvgOptions, svg_document
 from packwork.writers.svg_symbols import shape_key
@@ -17,6 +25,9 @@ Chosen."""
 
 SHARPNESS = 2
 """Pixels of a PNG per pixel on screen: smaller is blurred on fine screens. Chosen."""
+
+SMALL_PX = 200
+"""The same of what is shown alone: an item, a container. Chosen."""
 
 LONGEST_SVG = 2_000_000
 """Characters of an SVG, about, beyond which a PNG is shown: a notebook keeps what it shows,
@@ -30,7 +41,7 @@ _PER_COPY = 130
 _SHAPE_ID = re.compile(r'( id="| xlink:href="#)(shape-\d+)"')
 
 
-def notebook_svg(layout: Layout) -> str | None:
+def notebook_svg(layout: Layout, side: int = SIDE_PX) -> str | None:
     """SVG to stand in a page beside others; None where it would be too long.
 
     Some notebooks put the SVGs of all cells into one page, where each id must be unique.
@@ -42,14 +53,14 @@ def notebook_svg(layout: Layout) -> str | None:
     if _is_long(layout):
         return None
     container = layout.container
-    width, height = _size(layout)
-    sheet = SheetSize(size=(width, height), unit="px", view=(container.width, container.height))
-    text = svg_document(layout, _ON_PAPER, sheet)
+    page = SheetSize(size=_size(layout, side), unit="px", view=(container.width, container.height))
+    options = _ON_PAPER if layout.items else replace(_ON_PAPER, show_container=True)
+    text = svg_document(layout, options, page)
     digest = hashlib.sha256(text.encode()).hexdigest()[:10]
     return _SHAPE_ID.sub(rf'\1\2-{digest}"', text)
 
 
-def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
+def notebook_png(layout: Layout, side: int = SIDE_PX) -> tuple[bytes, dict[str, int]] | None:
     """PNG and its size on screen; None where an SVG is shown.
 
     Raises ``WriteError`` if an item's drawing cannot be rendered.
@@ -60,14 +71,36 @@ def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
     """
     if not _is_long(layout):
         return None
-    width, height = _size(layout)
-    picture = png_bytes(layout, SHARPNESS * SIDE_PX, _ON_PAPER)
+    width, height = _size(layout, side)
+    picture = png_bytes(layout, SHARPNESS * side, _ON_PAPER)
     return picture, {"width": round(width), "height": round(height)}
 
 
-def _size(layout: Layout) -> tuple[float, float]:
+def _alone(shown: Item | Container) -> Layout:
+    """Layout of an item alone, or of a container without items."""
+    if isinstance(shown, Container):
+        return replace(blank(), container=shown)
+    left, top, right, bottom = shown.ink.bounds
+    page = sheet(shown.name, right - left, bottom - top)
+    return Layout(page, (shown,), Poses([-left], [-top], 0.0, 1.0), np.ones(1))
+
+
+def _svg_alone(shown: Item | Container) -> str | None:
+    return notebook_svg(_alone(shown), SMALL_PX)
+
+
+def _png_alone(shown: Item | Container) -> tuple[bytes, dict[str, int]] | None:
+    return notebook_png(_alone(shown), SMALL_PX)
+
+
+for _kind in (Item, Container):
+    _kind._repr_svg_ = _svg_alone  # type: ignore[union-attr]
+    _kind._repr_png_ = _png_alone  # type: ignore[union-attr]
+
+
+def _size(layout: Layout, side: int) -> tuple[float, float]:
     container = layout.container
-    per_cu = SIDE_PX / container.side
+    per_cu = side / container.side
     return container.width * per_cu, container.height * per_cu
 
 

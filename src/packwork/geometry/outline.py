@@ -18,6 +18,7 @@ from packwork.errors import ShapeError
 from packwork.geometry import affine
 from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region, enclosed, oriented_rings, region, silhouette
+from packwork.phrasing import number_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +56,10 @@ class Outline:
         # Arrays come out of a pickle as if they could be changed; rings are views of the points.
         kept = {name: value for name, value in state.items() if name != "rings"}
         self.__dict__.update(kept | {"points": _still(kept["points"])})
+
+    def __repr__(self) -> str:
+        rings = number_of(len(self.starts) - 1, "ring")
+        return f"<Outline: {rings}, {number_of(len(self.points), 'point')}>"
 
     @classmethod
     def from_rings(cls, rings: Sequence[FloatArray]) -> Outline:

@@ -288,10 +288,10 @@ def draw_container(
 
 
 def place_container(
-    session: Session, x: float = 0.0, y: float = 0.0, factor: float = 1.0, angle: float = 0.0
+    session: Session, x: float = 0.0, y: float = 0.0, factor: float = 1.0, degrees: float = 0.0
 ) -> None:
-    """Move the container on its canvas, scale and turn it, in degrees, about its middle."""
-    session.do("place_container", x=x, y=y, factor=factor, angle=angle)
+    """Move the container on its canvas, scale and turn it about its middle."""
+    session.do("place_container", x=x, y=y, factor=factor, angle=degrees)
 
 
 @edit(Flag("--words", help="A text or a table: have its words, with its weights."))

@@ -291,7 +291,7 @@ def pin_of(document: Document, k: int) -> dict[str, str | float]:
     if place:
         pin |= {"x": f"{poses.x[k]:.17g}{unit}", "y": f"{poses.y[k]:.17g}{unit}"}
     if angle:
-        pin["angle"] = math.degrees(poses.angle[k])
+        pin["angle_deg"] = math.degrees(poses.angle[k])
     if size:
         pin["size"] = f"{document.items[k].outline.extent * poses.scale[k]:.17g}{unit}"
     return pin

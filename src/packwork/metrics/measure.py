@@ -16,7 +16,7 @@ from packwork.scene.layout import Layout
 from packwork.threads import at_once
 
 
-class ExactShares(TypedDict):
+class ReportShares(TypedDict):
     """Measures in exact geometry, by the names of the report."""
 
     LC: float
@@ -33,7 +33,18 @@ class ExactShares(TypedDict):
     """Smallest distance of two items, canvas units."""
 
 
-class Metrics(TypedDict):
+class ExactShares(ReportShares):
+    """The same, by names that say what they are too."""
+
+    coverage: float
+    """LC."""
+    overlap: float
+    """OO."""
+    outside: float
+    """EA."""
+
+
+class _Measures(TypedDict):
     """Measures of a layout by the names of the report, as docs/reference/units.md explains them."""
 
     LC: float
@@ -56,6 +67,26 @@ class Metrics(TypedDict):
     """Parts of the container that are large enough to be seen."""
     bare_parts: int
     """How many of these hold nothing."""
+
+
+class ReportMetrics(_Measures):
+    """Measures of a layout as reports and manifests have them."""
+
+    exact: ReportShares
+    """The same in exact geometry."""
+
+
+class Metrics(_Measures):
+    """The same as layouts in Python have them, by names that say what they are too."""
+
+    coverage: float
+    """LC."""
+    overlap: float
+    """OO."""
+    outside: float
+    """EA."""
+    unevenness: float
+    """LnU."""
     exact: ExactShares
     """The same in exact geometry."""
 
@@ -76,10 +107,10 @@ class LayoutMetrics:
     ink: float
     seen: ShapeMetrics
 
-    def as_dict(self) -> Metrics:
+    def as_dict(self) -> ReportMetrics:
         """Plain numbers under the names of the report."""
         pixel, exact, seen = self.pixel, self.exact, self.seen
-        return Metrics(
+        return ReportMetrics(
             LC=pixel.LC,
             LC_ratio=pixel.LC_ratio,
             OO=pixel.OO,
@@ -90,7 +121,7 @@ class LayoutMetrics:
             shape=seen.shape,
             parts=seen.parts,
             bare_parts=seen.bare_parts,
-            exact=ExactShares(
+            exact=ReportShares(
                 LC=exact.coverage,
                 OO=exact.overlap,
                 EA=exact.exceeding,

@@ -69,7 +69,7 @@ def placed_hero(job: Job) -> Job:
     found = _place(job, heroes[0])
     if found is not None:
         x, y, angle = found
-        pin = Pin(x=f"{x:.9f}", y=f"{y:.9f}", angle=math.degrees(angle))
+        pin = Pin(x=f"{x:.9f}", y=f"{y:.9f}", angle_deg=math.degrees(angle))
         asked[heroes[0]] = asked[heroes[0]].merged(Rule(items=("*",), pin=pin), HERO)
     return replace(job, asked=tuple(asked))
 

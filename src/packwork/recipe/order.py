@@ -13,6 +13,7 @@ from packwork.errors import RecipeError
 from packwork.forces.spec import DIRECTIONS
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
+from packwork.recipe.typed import Anchor
 from packwork.recipe_paths import split_words
 from packwork.units import NUMBER
 
@@ -136,7 +137,7 @@ MIDDLE = "middle"
 
 
 @dataclass(frozen=True)
-class Anchor:
+class AnchorSpec:
     """A direction or the middle, and what is drawn there.
 
     Parameters
@@ -151,13 +152,13 @@ class Anchor:
     name: str
 
 
-def parse_anchor(text: str) -> Anchor:
+def parse_anchor(text: str) -> AnchorSpec:
     """Anchor of its text.
 
     Examples
     --------
     >>> parse_anchor("left=warm"), parse_anchor("middle = sun").angle
-    (Anchor(angle=180.0, name='warm'), None)
+    (AnchorSpec(angle=180.0, name='warm'), None)
     """
     where, _, name = (part.strip() for part in text.partition("="))
     degrees = _DEGREES.fullmatch(where)
@@ -167,8 +168,8 @@ def parse_anchor(text: str) -> Anchor:
     if not name:
         raise RecipeError("anchors", f"{text[:60]!r} names nothing; write it as left=warm")
     if where == MIDDLE:
-        return Anchor(None, name)
-    return Anchor(float(degrees.group(1)) % 360 if degrees else DIRECTIONS[where], name)
+        return AnchorSpec(None, name)
+    return AnchorSpec(float(degrees.group(1)) % 360 if degrees else DIRECTIONS[where], name)
 
 
 class EmbeddingOptions(Options):
@@ -185,7 +186,11 @@ class EmbeddingOptions(Options):
 
     anchors: Annotated[
         tuple[str, ...],
-        Offer(metavar="WHERE=NAME", after="embeddings", takes=str | tuple[str, ...]),
+        Offer(
+            metavar="WHERE=NAME",
+            after="embeddings",
+            takes=str | Anchor | tuple[str | Anchor, ...],
+        ),
     ] = ()
     """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
     also right, up, down, 45deg, middle. May be given several times."""

@@ -12,6 +12,7 @@ from packwork.forces.spec import ForceTexts, is_pair
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
 from packwork.recipe.refusals import length_of
+from packwork.recipe.typed import Force
 from packwork.recipe_paths import split_words
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
@@ -124,7 +125,7 @@ class MotionOptions(Options):
             group=Group.ORDER,
             verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE,
             after="hero",
-            takes=str | tuple[str, ...] | None,
+            takes=str | Force | tuple[str | Force, ...] | None,
         ),
     ] = None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,

@@ -38,6 +38,7 @@ from packwork.recipe.rules import (
     known_rotation,
     some_rules,
 )
+from packwork.recipe.typed import Hero
 from packwork.recipe_paths import check_names
 from packwork.solve.options import (
     MAX_STRETCH,
@@ -72,6 +73,7 @@ DEFAULT_SMALLEST = "0.5%"
 
 
 _COLLAGES = Offer(verbs=Verbs.COLLAGES)
+_HERO = replace(_COLLAGES, group=Group.ORDER, takes=str | Hero | None)
 _LEVELS = Offer(group=Group.SOLVED, verbs=Verbs.LEVELLED)
 _SAFE = Offer(group=Group.PRINTED, verbs=Verbs.COLLAGES)
 _VOIDS = Offer(group=Group.VOIDS, verbs=Verbs.COLLAGES)
@@ -168,9 +170,7 @@ class Recipe(
     ] = None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
-    hero: Annotated[
-        str | None, AfterValidator(known_hero), replace(_COLLAGES, group=Group.ORDER)
-    ] = None
+    hero: Annotated[str | None, AfterValidator(known_hero), _HERO] = None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 

@@ -189,7 +189,7 @@ class Pin(Options):
     y: Length | None = None
     """The same from the canvas' top edge; % are of its height."""
 
-    angle: Annotated[float, Field(allow_inf_nan=False)] | None = None
+    angle_deg: Annotated[float, Field(allow_inf_nan=False)] | None = None
     """Turn from upright, degrees clockwise."""
 
     size: Length | None = None
@@ -330,7 +330,7 @@ def hero_rule(text: str) -> Rule:
     Examples
     --------
     >>> rule = hero_rule("bear@50%,40%=25%")
-    >>> rule.items, rule.pin.x, rule.pin.y, rule.pin.size, rule.pin.angle
+    >>> rule.items, rule.pin.x, rule.pin.y, rule.pin.size, rule.pin.angle_deg
     (('bear',), '50%', '40%', '25%', 0.0)
     >>> hero_rule("bear").pin.size
     '30%'
@@ -340,7 +340,7 @@ def hero_rule(text: str) -> Rule:
         raise RecipeError("hero", f"use NAME, NAME@X,Y or NAME@X,Y=SIZE, not {text!r}")
     name, x, y, size = (part and part.strip() for part in match.groups())
     try:
-        pin = Pin(x=x, y=y, angle=0.0, size=size or HERO_SIZE)
+        pin = Pin(x=x, y=y, angle_deg=0.0, size=size or HERO_SIZE)
     except ValueError:
         raise RecipeError(
             "hero", f"use lengths such as 50%,40%=30% or 30mm,40mm=60mm, not {text!r}"

@@ -103,6 +103,9 @@ class Container:
         for column, value in zip(fields(Container), values, strict=True):
             object.__setattr__(self, column.name, value)
 
+    def __repr__(self) -> str:
+        return f"<Container: {self.name}, {self.width:.4g} x {self.height:.4g} {self.unit}>"
+
     @property
     def canvas(self) -> dict[str, float | str]:
         """The canvas as files state it.

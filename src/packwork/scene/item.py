@@ -344,6 +344,10 @@ class Item:
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
 
+    def __repr__(self) -> str:
+        left, top, right, bottom = self.outline.bounds
+        return f"<Item: {self.name}, {right - left:.4g} x {bottom - top:.4g}>"
+
 
 def _known_colour(text: str) -> str:
     # Loads the picture library, which most of the package can do without.

@@ -75,6 +75,9 @@ class Poses:
     def __len__(self) -> int:
         return len(self.x)
 
+    def __repr__(self) -> str:
+        return f"<Poses: {len(self)}>"
+
     @property
     def axis_scales(self) -> FloatArray:
         """``(n, 2)`` canvas units per item unit along each item's own x and y.

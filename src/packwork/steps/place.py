@@ -157,8 +157,8 @@ def allowed_angles(job: Job, choose: Callable[[IntArray, Rotation], FloatArray])
     for k, one in enumerate(job.asked):
         if "rotate" in one.values and one.rotation:
             angles[k] = choose(np.array([k]), one.rotation)[0]
-        if "angle" in one.pin:
-            angles[k] = np.radians(one.pin["angle"])
+        if "angle_deg" in one.pin:
+            angles[k] = np.radians(one.pin["angle_deg"])
     return angles
 
 

@@ -170,7 +170,7 @@ def may_stand_upright(job: Job) -> bool:
     if len(job.items) != 1 or plan.rotation.is_still or plan.rotation.choices:
         return False
     asked = job.asked[0]
-    is_told = "rotate" in asked.values or "angle" in asked.pin or plan.is_from_layout
+    is_told = "rotate" in asked.values or "angle_deg" in asked.pin or plan.is_from_layout
     if is_told or plan.forces or plan.seconds is not None:
         return False
     return plan.is_exact and not plan.voids.fills

@@ -279,6 +279,9 @@ class WordCloud:
             SvgOptions(background=self._css_background(), text=text),
         )
 
+    def _repr_png_(self) -> bytes | None:
+        return self._encoded("cloud.png") if hasattr(self, "_placed") else None
+
     def to_html(self) -> str:
         """Not there, as in the other package; ``to_svg`` is."""
         raise NotImplementedError("use to_svg, which browsers show")

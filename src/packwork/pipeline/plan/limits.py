@@ -64,7 +64,7 @@ def job_leanings(job: Job) -> FloatArray:
         return found
     is_leaning = np.array(
         [
-            isinstance(item.art, PhotoArt) and one.rotation is None and "angle" not in one.pin
+            isinstance(item.art, PhotoArt) and one.rotation is None and "angle_deg" not in one.pin
             for item, one in zip(job.items, job.asked, strict=True)
         ]
     )
@@ -107,7 +107,9 @@ def item_limits(job: Job, nominal: FloatArray, scales: FloatArray, angles: Float
     container = job.container
     smallest, largest = _scale_ranges(job, nominal, scales)
     rotations = [one.rotation or job.plan.rotation for one in job.asked]
-    still = [r.is_still or "angle" in one.pin for r, one in zip(rotations, job.asked, strict=True)]
+    still = [
+        r.is_still or "angle_deg" in one.pin for r, one in zip(rotations, job.asked, strict=True)
+    ]
     turns = np.array([rotation.farthest for rotation in rotations])
     return Limits(
         x=_places(job, "x", container.width),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from packwork.errors import RecipeError
@@ -94,14 +95,17 @@ def _plain_source(source: object, own: dict[str, Any]) -> object:
         return {str(row[0]): row[1] for row in rows if len(row) > 1 and row[0] is not None}
     if source is None or isinstance(source, str | os.PathLike | Mapping):
         return source
+    words = list(source) if isinstance(source, Iterable) else []
+    if words and all(isinstance(word, str) for word in words):
+        return dict(Counter(words))
     pairs = getattr(source, "items", None)
     try:
         return dict(pairs())  # type: ignore[misc]
     except (TypeError, ValueError):
         raise RecipeError(
             "source",
-            f"is {type(source).__name__}; use a text, a file, or weights by word such as "
-            "{'bear': 2}",
+            f"is {type(source).__name__}; use a text, a file, or a list of words or weights "
+            "by word, such as {'bear': 2}",
         ) from None
 
 

@@ -1,0 +1,265 @@
+"""What Python people expect of values: sequences, colours, seeds, columns, displays, help."""
+
+from __future__ import annotations
+
+import logging
+import pickle
+import xml.etree.ElementTree as ET
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import packwork as pw
+from packwork.api.inputs import handed_over
+from packwork.errors import RecipeError
+
+DRAFT: dict[str, Any] = {"effort": "draft", "levels": "50"}
+
+
+@pytest.fixture(scope="module")
+def layout() -> pw.Layout:
+    return pw.fill("heart", ["star", "circle"], count=6, seed=0, **DRAFT)
+
+
+def test_a_layout_is_a_sequence_of_placements(layout: pw.Layout) -> None:
+    assert isinstance(layout, Sequence)
+    assert layout[1].name == "circle"
+    assert layout[-1] == list(layout)[5]
+    assert list(reversed(layout)) == list(layout)[::-1]
+    assert layout.index(layout[3]) == 3
+    with pytest.raises(IndexError):
+        layout[6]
+
+
+def test_a_slice_is_a_layout_of_some_items(layout: pw.Layout) -> None:
+    some = layout[1:4]
+    assert [one.pose for one in some] == [one.pose for one in layout][1:4]
+    assert "certified" not in some.manifest
+    assert layout[::2].items == layout.items[::2]
+
+
+def test_layouts_are_equal_by_what_they_hold(layout: pw.Layout) -> None:
+    again = pw.fill("heart", ["star", "circle"], count=6, seed=0, **DRAFT)
+    assert again == layout
+    assert hash(again) == hash(layout)
+    assert pickle.loads(pickle.dumps(layout)) == layout  # noqa: S301
+    moved = replace(layout, poses=replace(layout.poses, x=layout.poses.x + 1))
+    assert moved != layout
+    assert moved[0] != layout[0]
+    assert layout != replace(layout, weights=layout.weights * 2)
+    assert layout != "layout"
+
+
+def test_pixels_as_a_picture_and_as_an_array(layout: pw.Layout) -> None:
+    shown = layout.to_image(pixels=120, background="white")
+    assert (shown.mode, max(shown.size)) == ("RGBA", 120)
+    assert (layout.to_array(pixels=120, background="white") == np.asarray(shown)).all()
+    assert layout.to_array(pixels=40, background="none")[0, 0, 3] == 0
+
+
+def test_a_frame_of_geopandas_has_outlines_in_place(layout: pw.Layout) -> None:
+    pytest.importorskip("geopandas")
+    frame = layout.to_geodataframe()
+    assert frame.area.to_numpy() == pytest.approx(layout.areas, rel=1e-9)
+    assert frame["item"].tolist() == [item.name for item in layout.items]
+
+
+def test_patches_as_matplotlib_knows_them(layout: pw.Layout) -> None:
+    pytest.importorskip("matplotlib")
+    axes = layout.plot(ec="red", alpha=0.5)
+    assert {patch.get_edgecolor()[:3] for patch in axes.patches} == {(1.0, 0.0, 0.0)}
+    assert len({patch.get_facecolor() for patch in axes.patches}) == 2
+    assert {p.get_facecolor() for p in layout.plot(color="teal").patches} == {
+        (0, 128 / 255, 128 / 255, 1)
+    }
+
+
+def test_title_and_keys_of_a_chart_are_on_the_axes() -> None:
+    pytest.importorskip("matplotlib")
+    sold = {"kg": [3, 1, 2], "kind": ["a", "b", "a"]}
+    chart = pw.chart("heart", sold, size_by="kg", color_by="kind", title="Fruit", **DRAFT)
+    axes = chart.plot()
+    assert axes.get_title() == "Fruit"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    ("palette", "first"),
+    [
+        ([(1, 0, 0), (0, 0.5, 1)], "#ff0000"),
+        (np.array([[1, 0, 0], [0, 0.5, 1]]), "#ff0000"),
+        ((0, 0, 1), "#0000ff"),
+        ("okabe-ito", "okabe-ito"),
+    ],
+)
+def test_colours_are_rgb_or_names(palette: Any, first: str) -> None:
+    made = pw.fill("heart", "star", count=3, palette=palette, **DRAFT)
+    asked = made.manifest["recipe"]["palette"]
+    assert (asked if isinstance(asked, str) else asked[0]) == first
+
+
+def test_colormaps_run_their_own_way() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    data = {"kg": [1.0, 2.0, 3.0]}
+    by_name = pw.chart("heart", data, color_by="kg", palette="magma_r", **DRAFT)
+    made = pw.chart("heart", data, color_by="kg", palette=matplotlib.colormaps["magma_r"], **DRAFT)
+    colours = [item.art.fill for item in by_name.items]  # type: ignore[attr-defined]
+    assert colours == [item.art.fill for item in made.items]  # type: ignore[attr-defined]
+    light = [sum(Image.new("RGB", (1, 1), one).getpixel((0, 0))) for one in colours]  # type: ignore[arg-type]
+    assert light == sorted(light, reverse=True)
+
+
+def test_colours_by_category_may_be_numbers() -> None:
+    data = {"kg": [3, 1], "kind": ["a", "b"]}
+    made = pw.chart("heart", data, color_by="kind", palette={"a": (1, 0, 0), "b": "navy"}, **DRAFT)
+    assert {i.art.fill for i in made.items} == {"#ff0000", "#000080"}  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("palette", [[(2, 0, 0)], [(1, 0)], "no colour", 3, [3, 4]])
+def test_what_is_no_colour_is_refused(palette: Any) -> None:
+    with pytest.raises(RecipeError, match="palette: "):
+        pw.fill("heart", "star", palette=palette, **DRAFT)
+
+
+def test_a_session_takes_the_same_colours(layout: pw.Layout) -> None:
+    with layout.edit() as session:
+        session.recolor("star#1", (1.0, 0.0, 0.0))
+    assert session.layout.to_dataframe()["color"][0] == "#ff0000"
+
+
+def test_seeds_of_generators_and_of_the_system() -> None:
+    def seed_of(seed: Any) -> int:
+        made = pw.fill("circle", "star", seed=seed, effort="draft", levels="16")
+        return int(made.manifest["seed"])
+
+    assert seed_of(np.random.default_rng(5)) == seed_of(np.random.default_rng(5))
+    assert len({seed_of(None) for _ in range(3)}) > 1
+    assert seed_of(np.int64(7)) == 7
+
+
+def test_weights_are_a_series_a_dict_or_numbers_in_order() -> None:
+    pandas = pytest.importorskip("pandas")
+    items, asked = ["star", "circle"], {"sizes": "shared", **DRAFT}
+    plain = pw.fill("heart", items, weights={"star": 3, "circle": 1}, **asked)
+    for weights in (pandas.Series({"star": 3, "circle": 1}), np.array([3, 1]), [3, 1]):
+        assert pw.fill("heart", items, weights=weights, **asked) == plain
+    with pytest.raises(RecipeError, match="weights: takes a number for each of 2 items"):
+        pw.fill("heart", items, weights=[1, 2, 3], **asked)
+
+
+def test_cells_may_stand_where_a_column_may() -> None:
+    pandas = pytest.importorskip("pandas")
+    asked = {"size_by": "kg", "color_by": "kind", **DRAFT}
+    plain = pw.chart("heart", {"kg": [3, 1], "kind": ["a", "b"]}, **asked)
+    cells = {**asked, "size_by": np.array([3, 1])}
+    made = pw.chart("heart", {"kind": ["a", "b"]}, **cells)
+    assert made.areas == pytest.approx(plain.areas, rel=1e-9)
+    cells["color_by"] = pandas.Series(["a", "b"], name="kind")
+    made = pw.chart("heart", pandas.DataFrame({"fig": [1, 2]}), **cells)
+    assert made.to_dataframe()["category"].tolist() == ["a", "b"]
+    of_rows = pw.chart("heart", [{"fig": 1}, {"fig": 2}], **{**cells, "color_by": None})
+    assert of_rows.areas == pytest.approx(plain.areas, rel=0.2)
+    sizes = pandas.Series([3, 1], index=pandas.Index(["fig", "kiwi"], name="fruit"), name="kg")
+    assert pw.chart("heart", sizes, **DRAFT).to_dataframe().loc["fig", "kg"] == 3
+    with pytest.raises(RecipeError, match="size_by: must be a column's name"):
+        pw.chart("heart", "table.csv", size_by=[1, 2])
+
+
+@pytest.mark.parametrize("kind", [list, tuple, iter, np.array])
+def test_words_are_counted(kind: Any) -> None:
+    tokens = ["bear", "fox", "bear", "owl"]
+    assert pw.words("heart", kind(tokens), **DRAFT) == pw.words("heart", Counter(tokens), **DRAFT)
+
+
+def test_the_best_of_several_seeds() -> None:
+    asked = {"count": 5, "seed": 3, **DRAFT}
+    tried = [pw.fill("heart", "star", **{**asked, "seed": seed}) for seed in (3, 4, 5)]
+    best = pw.fill("heart", "star", best_of=3, **asked)
+    assert best == max(tried, key=lambda one: one.metrics["exact"]["coverage"])
+    even = pw.fill("heart", pw.read_items("star"), best_of=3, best_by="-unevenness", **asked)
+    assert even.metrics["LnU"] == min(one.metrics["LnU"] for one in tried)
+    with pytest.raises(RecipeError, match="best_of: must be a whole number"):
+        pw.fill("heart", best_of=0)
+
+
+def test_a_hero_a_force_and_an_anchor_are_values() -> None:
+    items = ["owl", "star"]
+    hero = pw.Hero("owl", x=0.5, y=0.45, size=0.35)
+    asked: dict[str, Any] = {"count": 6, **DRAFT}
+    assert pw.fill("heart", items, hero=hero, **asked) == pw.fill(
+        "heart", items, hero="owl@50%,45%=35%", **asked
+    )
+    force = [pw.Force("towards", (0.2, 0.3), strength=2, items="star"), pw.Force(30)]
+    made = pw.fill("heart", items, force=force, **asked)
+    assert made.manifest["recipe"]["force"] == ["towards 20%,30% strength=2 items=star", "30deg"]
+    near = {"star": [1.0, 0.0], "owl": [0.0, 1.0]}
+    placed = pw.fill("heart", items, embeddings=near, anchors=pw.Anchor("left", "star"), **asked)
+    assert placed.manifest["recipe"]["anchors"] == ["left=star"]
+
+
+@pytest.mark.parametrize(
+    ("force", "text"),
+    [
+        (
+            pw.Force("away", [(0.1, "20mm"), (0.5, 0.5)], by_weight=True),
+            "away 10%,20mm 50%,50% by=weight",
+        ),
+        (
+            pw.Force("towards", "my curves/arc.svg", reach="30mm"),
+            'towards "my curves/arc.svg" reach=30mm',
+        ),
+        (pw.Force("align", "horizontal"), "align horizontal"),
+    ],
+)
+def test_a_force_is_written_as_on_the_command_line(force: pw.Force, text: str) -> None:
+    assert str(force) == text
+
+
+def test_measures_have_full_names(layout: pw.Layout) -> None:
+    for table in (layout.metrics, layout.metrics["exact"]):
+        assert table["coverage"] == table["LC"]
+        assert table["overlap"] == table["OO"]
+        assert table["outside"] == table["EA"]
+    assert pw.measure(layout)["unevenness"] == layout.metrics["LnU"]
+
+
+def test_values_show_themselves(layout: pw.Layout) -> None:
+    item, container = layout.items[0], layout.container
+    for shown in (item, container, layout.edit()):
+        root = ET.fromstring(shown._repr_svg_())  # type: ignore[union-attr]  # noqa: S314
+        assert root.find(".//{*}path") is not None
+    years = {1999: {"bear": 3, "fox": 2}, 2000: {"bear": 2, "owl": 2}}
+    assert pw.series("heart", years)._repr_png_().startswith(b"\x89PNG")
+
+
+def test_reprs_are_short(layout: pw.Layout) -> None:
+    assert repr(layout.items[0]) == "<Item: star, 95.11 x 90.45>"
+    assert repr(layout.container) == "<Container: heart, 600 x 552 px>"
+    assert repr(layout.items[0].outline) == "<Outline: 1 ring, 10 points>"
+    assert repr(layout.poses) == "<Poses: 6>"
+    assert repr(layout.edit()) == "<Session: 6 items in heart>"
+
+
+def test_help_says_what_each_option_does() -> None:
+    said = pw.fill.__doc__ or ""
+    assert "size_ratio\n    With free sizes: 2 lets an item be" in said
+    assert "command line" not in said
+    assert " --" not in said
+
+
+def test_messages_name_options_as_python_does() -> None:
+    with pytest.raises(RecipeError, match=r"graded sets words.*leave out start, force") as refused:
+        pw.words("heart", {"a": 2, "b": 1}, sizes="graded", force="down")
+    assert "--" not in refused.value.problem + str(refused.value)
+
+
+def test_notices_name_options_as_python_does(caplog: pytest.LogCaptureFixture) -> None:
+    with handed_over():
+        logging.getLogger("packwork").warning("%d are smaller than --size-ratio allows", 3)
+    logging.getLogger("packwork").warning("use --size-ratio")
+    assert caplog.messages == ["3 are smaller than size_ratio allows", "use --size-ratio"]
