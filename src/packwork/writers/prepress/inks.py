@@ -75,14 +75,16 @@ class InkWriter:
             elif operator.lower() == "cs":
                 current[is_stroke] = _components(spaces.get(operands[0]))
             elif operator.lower() == "scn" and current.get(is_stroke):
-                written += self._set(_bytes_of(operands), is_stroke, resources)
-                continue
+                rgb = _bytes_of(operands)
+                if self._profile is not None or rgb in self._spots:
+                    written += self._set(rgb, is_stroke, resources)
+                    continue
             written.append(one)
         stream.write(pikepdf.unparse_content_stream(written))
         self._resources(resources)
 
     def _set(self, rgb: _Channels, is_stroke: bool, resources: Any) -> list[Any]:
-        """Instructions that set a colour, sRGB, in its ink; the colour space is set before."""
+        """Instructions that set a colour, sRGB, in its ink."""
 
         def instruction(operands: list[Any], name: str) -> Any:
             name = name.upper() if is_stroke else name
@@ -94,8 +96,7 @@ class InkWriter:
                 resources.ColorSpace = Dictionary()
             resources.ColorSpace[spot] = self._separation(rgb)
             return [instruction([spot], "cs"), instruction([1], "scn")]
-        name = "rg" if self._profile is None else "k"
-        return [instruction([_decimal(v) for v in self._inks(rgb)], name)]
+        return [instruction([_decimal(v) for v in self._inks(rgb)], "k")]
 
     def _separation(self, rgb: _Channels) -> Any:
         """Colour space of a spot ink, seen as the press or else the screen has its colour."""
