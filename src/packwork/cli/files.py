@@ -41,6 +41,10 @@ class SideFiles(Options):
     """Write the diagnostic picture (PNG): container yellow, items grey, overlap red, what sticks
     out blue."""
 
+    preflight: Annotated[bool, Offer(group=Group.PRINTED)] = False
+    """Print what a print shop looks at in each PDF and SVG: resolution of pictures, thin lines,
+    small text, transparency, what ends near the trim, colours that are no inks."""
+
     save_recipe: Path | None = None
     """Write the recipe (TOML) that repeats this run."""
 

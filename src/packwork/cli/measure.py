@@ -22,13 +22,20 @@ def measure(
     layout: Annotated[
         Path,
         typer.Argument(
-            metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg, .dxf or .packwork."
+            metavar="LAYOUT",
+            help="A layout that was saved, as .geojson, .svg, .dxf or .packwork; or any PDF.",
         ),
     ],
     painted: Annotated[
         bool,
         typer.Option(
             "--painted", help="Paint an SVG, too: pixels outside, and in more than one item."
+        ),
+    ] = False,
+    preflight: Annotated[
+        bool,
+        typer.Option(
+            "--preflight", help="What a print shop looks at in a PDF (always) or an SVG, instead."
         ),
     ] = False,
     *,
@@ -46,8 +53,13 @@ def measure(
     [bold]packwork measure bear.geojson --diagnose bear-check.png[/]
 
     [bold]packwork measure cut.dxf[/]
+
+    [bold]packwork measure flyer.pdf[/]
     """
     with clear_errors():
+        if preflight or layout.suffix.lower() == ".pdf":
+            _show_preflight(layout, quiet)
+            return
         from packwork import writers
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.metrics import certificate
@@ -101,6 +113,15 @@ def measure(
             say(f"{layout}: {sentence}")
         if faults:
             raise typer.Exit(SHORTFALL)
+
+
+def _show_preflight(path: Path, quiet: bool) -> None:
+    from packwork.cli.show import Paper, preflight_table, printing
+    from packwork.verify.preflight import preflight
+
+    checks = preflight(path)
+    with printing():
+        Paper(quiet).print(preflight_table(path.name, checks))
 
 
 def _painted(path: Path, layout: Layout) -> PaintedPixels:

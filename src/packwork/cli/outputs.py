@@ -40,6 +40,7 @@ class Outputs:
     recipe: Path | None = None
     saliency: Path | None = None
     keeps_files: bool = False
+    preflight: bool = False
     choosing: Choosing = field(default_factory=Choosing)
     drawing: Mapping[str, Any] = field(default_factory=dict)
 
@@ -125,6 +126,7 @@ def outputs_asked(
         recipe=asked["save_recipe"],
         saliency=asked.get("show_saliency"),
         keeps_files=asked["no_clobber"],
+        preflight=asked["preflight"],
         choosing=validated(Choosing, {name: asked[name] for name in Choosing.model_fields}),
         drawing=drawing,
     )

@@ -17,7 +17,7 @@ from packwork import pipeline, precompile, threads, uses, verify, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, WATCH, Interrupt
 from packwork.cli.files import Choosing
 from packwork.cli.outputs import Outputs, check_room, outputs_asked, saving, with_room
-from packwork.cli.show import Paper, printing, show_results
+from packwork.cli.show import Paper, preflight_table, printing, show_results
 from packwork.cli.start_up import START_UP
 from packwork.cli.terminal import MOST_LINES, NOTICES, joined_notices, printable, say
 from packwork.display.bar import TerminalBar
@@ -103,7 +103,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         for error in undrawn:
             say(f"not written: {' '.join(str(error).split())}")
         names = [f"{path} (replaced)" if path in replaced else f"{path}" for path, _ in written]
-        _print_results(results, names, console, run.layout.container.unit)
+        _print_results(results, names, console, run.layout, drawn if outputs.preflight else ())
         if was_cut_short:
             worth = "certified" if run.certified else "not certified"
             say(f"stopped by Ctrl-C; this is the best so far, {worth}")
@@ -118,14 +118,29 @@ def _bounds_resolution(job: pipeline.Job) -> bool:
 
 
 def _print_results(
-    results: Mapping[str, Any], names: Sequence[str], console: Console, unit: str
+    results: Mapping[str, Any],
+    names: Sequence[str],
+    console: Console,
+    layout: Layout,
+    looked_at: Sequence[tuple[Path, bytes]],
 ) -> None:
     try:
         with printing():
+            unit = layout.container.unit
             show_results(results, [printable(name) for name in names], console, unit)
+            _print_preflight(looked_at, layout, console)
     except WriteError as error:
         # The files are there; that is what was asked for.
         say(f"{error}; all files are written")
+
+
+def _print_preflight(files: Sequence[tuple[Path, bytes]], layout: Layout, console: Console) -> None:
+    for path, data in files:
+        if path.suffix.lower() in {".pdf", ".svg"}:
+            # Loads what reads PDFs.
+            from packwork.verify.preflight import preflight_of
+
+            console.print(preflight_table(path.name, preflight_of(data, path, layout)))
 
 
 def on_background(recipe: Recipe, options: writers.WriteOptions) -> Recipe:

@@ -6,13 +6,16 @@ import os
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
 
 from packwork.errors import PackworkError, WriteError
 from packwork.phrasing import number_of
+
+if TYPE_CHECKING:
+    from packwork.verify.preflight import Check
 
 
 class Paper(Console):
@@ -93,6 +96,16 @@ def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
         table.add_row("empty places", _percent(metrics["bare"]), "", "bare")
     gap = exact.get("min_gap")
     table.add_row(f"smallest gap, {unit}", "", "" if gap is None else f"{gap:.3g}", "")
+    return table
+
+
+def preflight_table(name: str, checks: Sequence[Check]) -> Table:
+    """Lines of a preflight; what is to be looked at has a mark."""
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    for heading in ("", f"before {name} is printed", "met"):
+        table.add_column(heading)
+    for one in checks:
+        table.add_row("" if one.is_well else "!", one.about, one.found)
     return table
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from packwork.errors import RecipeError
-from packwork.scene.palette import colours_by_name
 
 if TYPE_CHECKING:
     from packwork.writers.prepress.profile import PressProfile
@@ -61,6 +60,9 @@ def spot_inks(value: str | Mapping[str, str] | None) -> dict[str, str]:
     """
     if value is None:
         return {}
+    # Loads the picture library, which the command line's help can do without.
+    from packwork.scene.palette import colours_by_name
+
     try:
         named = colours_by_name(value)
     except ValueError as error:

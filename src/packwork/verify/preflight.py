@@ -1,0 +1,367 @@
+"""Preflight: what a print shop looks at in a PDF or SVG before it prints.
+
+The page's content is followed with all that it paints (operators of ISO 32000-1, annex A); an SVG
+is set on a page first.
+"""
+
+from __future__ import annotations
+
+import io
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, final
+
+import numpy as np
+import pikepdf
+import typst
+
+from packwork.arrays import FloatArray
+from packwork.errors import ReadError
+from packwork.geometry import affine
+from packwork.phrasing import number_of
+from packwork.readers.files import read_bytes
+from packwork.readers.gate.door import parse_xml
+from packwork.readers.reading import reading_file
+from packwork.readers.svg_syntax.coordinates import read_page
+from packwork.scene.layout import Layout
+from packwork.units import convert
+
+MAX_BYTES = 500_000_000
+"""Bytes of a file at most. Chosen."""
+
+LEAST_DPI = 300.0
+"""Pixels to the inch that print shops ask of pictures."""
+
+LEAST_LINE_PT = 0.25
+"""Width below which a line may break in print."""
+
+LEAST_TEXT_PT = 5.0
+"""Em below which letters may fill up in print."""
+
+NEAR_MM = 3.0
+"""Width along the trim within which a knife may stray, and within which nothing should end."""
+
+_HAIR_PT = 0.01
+"""Distance that is rounding."""
+
+_SEEN_PT = 0.1
+"""Overlap of art in the bleed with art on the sheet, at most."""
+
+_DEEPEST = 40
+_PAINTING = frozenset({"f", "F", "f*", "B", "B*", "b", "b*", "S", "s"})
+_STROKES = frozenset({"S", "s", "B", "B*", "b", "b*"})
+_POINTS = {"m": 1, "l": 1, "c": 3, "v": 2, "y": 2}
+_DEVICE = {"rg": "RGB", "g": "grey", "k": "CMYK"}
+_EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
+
+
+@dataclass(frozen=True)
+class Check:
+    """One line of a preflight: what was looked at, what was met, and whether that is well."""
+
+    about: str
+    found: str
+    is_well: bool
+
+
+@dataclass(frozen=True)
+class _State:
+    matrix: FloatArray
+    window: FloatArray = field(default_factory=lambda: _EVERYWHERE)
+    width: float = 1.0
+    spaces: tuple[str, str] = ("grey", "grey")
+    em: float = 0.0
+
+
+def preflight(path: str | Path) -> list[Check]:
+    """Checks of a PDF or SVG file.
+
+    A ReadError if it is none, or has more pages than one.
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in {".pdf", ".svg"}:
+        raise ReadError(path, "is no PDF or SVG, which alone are looked at before they are printed")
+    return preflight_of(read_bytes(path, MAX_BYTES), path)
+
+
+def preflight_of(data: bytes, path: str | Path, layout: Layout | None = None) -> list[Check]:
+    """Checks of a file's content; of the words of its layout too, which are curves in a PDF."""
+    with reading_file(str(path)):
+        if Path(path).suffix.lower() == ".svg":
+            data = _printed(data, path)
+        try:
+            with pikepdf.open(io.BytesIO(data)) as pdf:
+                if len(pdf.pages) != 1:
+                    raise ReadError(path, f"has {len(pdf.pages)} pages; one is looked at")
+                found = _Content(pdf)
+                return found.checks(_ems(layout))
+        except pikepdf.PdfError as error:
+            raise ReadError(path, f"is no PDF that can be read ({error})") from None
+
+
+def _printed(data: bytes, path: str | Path) -> bytes:
+    """PDF of an SVG, at its size."""
+    page = read_page(parse_xml(data))
+    if page is None:
+        raise ReadError(path, "has no size")
+    width, height = (convert(side, "px", "pt") for side in (page.width, page.height))
+    source = (
+        f"#set page(width: {width:.9f}pt, height: {height:.9f}pt, margin: 0pt)\n"
+        '#image(bytes(sys.inputs.drawing), format: "svg", width: 100%, height: 100%)'
+    )
+    try:
+        return typst.compile(source.encode(), sys_inputs={"drawing": data.decode("utf-8")})
+    except (RuntimeError, UnicodeDecodeError) as error:
+        raise ReadError(path, f"cannot be rendered ({error})") from None
+
+
+def _ems(layout: Layout | None) -> list[float]:
+    """Heights of an em, in points, of the words of a layout."""
+    if layout is None:
+        return []
+    scales, pt = layout.poses.scale.tolist(), convert(1.0, layout.container.unit, "pt")
+    return [
+        run.size * _scale_of(item.art.matrix) * scale * pt
+        for item, scale in zip(layout.items, scales, strict=True)
+        if item.text is not None and hasattr(item.art, "matrix")
+        for run in item.text.runs
+    ]
+
+
+def _scale_of(matrix: FloatArray) -> float:
+    return float(np.sqrt(abs(np.linalg.det(matrix[:, :2]))))
+
+
+@final
+class _Content:
+    """All that a page paints, counted."""
+
+    def __init__(self, pdf: pikepdf.Pdf) -> None:
+        page = pdf.pages[0]
+        self._trim = _box(page.trimbox)
+        self._bleed = _box(page.obj.get("/BleedBox", page.trimbox))
+        self._intents = [
+            str(one.get("/OutputConditionIdentifier", ""))
+            for one in pdf.Root.get("/OutputIntents", [])
+        ]
+        with pdf.open_metadata() as meta:
+            self._standard = str(meta.get("pdfxid:GTS_PDFXVersion", ""))
+        self._dpi: list[float] = []
+        self._lines: list[float] = []
+        self._ems: list[float] = []
+        self._spaces: Counter[str] = Counter()
+        self._inks: set[str] = set()
+        self._clear: Counter[str] = Counter()
+        self._painted_boxes: list[FloatArray] = []
+        self._follow(page.obj, page.obj.get("/Resources", {}), _State(affine.identity()), 0)
+
+    def checks(self, ems: Sequence[float]) -> list[Check]:
+        """Lines of the table; ``ems`` are heights of letters that are curves here."""
+        return [
+            self._boxes(), self._resolution(), self._thin(), self._letters([*self._ems, *ems]),
+            self._transparency(), self._edge(), self._colours(), self._intent(),
+        ]  # fmt: skip
+
+    def _boxes(self) -> Check:
+        width, height = np.diff(self._trim, axis=0)[0] / 72 * 25.4
+        bleed = float(np.min([self._trim[0] - self._bleed[0], self._bleed[1] - self._trim[1]]))
+        told = f"bleed {bleed / 72 * 25.4:.3g} mm" if bleed > _HAIR_PT else "no bleed"
+        return Check("trimmed sheet", f"{width:.4g} x {height:.4g} mm, {told}", bleed > _HAIR_PT)
+
+    def _resolution(self) -> Check:
+        low = [dpi for dpi in self._dpi if dpi < LEAST_DPI]
+        told = number_of(len(self._dpi), "picture") if self._dpi else "none"
+        if self._dpi:
+            told += f", {min(self._dpi):.0f} to {max(self._dpi):.0f} pixels to the inch"
+        told += f"; {len(low)} under {LEAST_DPI:.0f}" if low else ""
+        return Check("pictures", told, not low)
+
+    def _thin(self) -> Check:
+        thin = [width for width in self._lines if width < LEAST_LINE_PT - _HAIR_PT]
+        told = f"thinnest {min(self._lines):.2f} pt" if self._lines else "none"
+        told += f"; {len(thin)} under {LEAST_LINE_PT} pt" if thin else ""
+        return Check("lines", told, not thin)
+
+    @staticmethod
+    def _letters(ems: Sequence[float]) -> Check:
+        small = [em for em in ems if em < LEAST_TEXT_PT]
+        told = f"smallest {min(ems):.1f} pt" if ems else "none"
+        told += f"; {len(small)} under {LEAST_TEXT_PT:g} pt" if small else ""
+        return Check("text", told, not small)
+
+    def _transparency(self) -> Check:
+        told = [number_of(count, *names.split("|")) for names, count in self._clear.items()]
+        return Check("transparency", ", ".join(told) or "none", not told)
+
+    def _edge(self) -> Check:
+        count = self._ending()
+        told = f"{number_of(count, 'shape ends', 'shapes end')} there"
+        return Check(f"within {NEAR_MM:g} mm of the trim", told if count else "none", not count)
+
+    def _ending(self) -> int:
+        """Number of shapes that end near the trim and are not continued beyond it."""
+        boxes = np.reshape(self._painted_boxes, (-1, 2, 2))
+        # Distances of left, low, right and high inwards from the trim.
+        gaps = np.hstack([boxes[:, 0] - self._trim[0], self._trim[1] - boxes[:, 1]])
+        inner = np.minimum(boxes[:, 1], self._trim[1]) - np.maximum(boxes[:, 0], self._trim[0])
+        on_sheet = (inner > _SEEN_PT).all(axis=1)
+        count = 0
+        near = on_sheet & (gaps < NEAR_MM * 72 / 25.4 - _HAIR_PT).any(axis=1)
+        for k in np.flatnonzero(near).tolist():
+            ends = [side for side in range(4) if -_HAIR_PT < gaps[k, side] < NEAR_MM * 72 / 25.4]
+            count += any(
+                gaps[k, side] > _HAIR_PT or not self._goes_on(boxes, gaps, k, side) for side in ends
+            )
+        return count
+
+    @staticmethod
+    def _goes_on(boxes: FloatArray, gaps: FloatArray, k: int, side: int) -> bool:
+        """Whether something beyond one side of the trim adjoins all of a shape that ends there."""
+        across, opposite = 1 - side % 2, (side + 2) % 4
+        length = gaps[k, opposite] + float(np.ptp(boxes[k, :, side % 2]))
+        beyond = (gaps[:, side] < -_SEEN_PT) & (gaps[:, opposite] < length + _SEEN_PT)
+        low = boxes[:, 0, across] < boxes[k, 0, across] + _SEEN_PT
+        high = boxes[:, 1, across] > boxes[k, 1, across] - _SEEN_PT
+        return bool((beyond & low & high).any())
+
+    def _colours(self) -> Check:
+        told = [f"{space} {count:,}" for space, count in sorted(self._spaces.items())]
+        told += [f"ink {name}" for name in sorted(self._inks)]
+        return Check("colours", ", ".join(told) or "none", "RGB" not in self._spaces)
+
+    def _intent(self) -> Check:
+        told = " ".join([*self._intents, self._standard]).strip()
+        return Check("output intent", told or "none", bool(told))
+
+    def _follow(self, stream: Any, resources: Any, state: _State, depth: int) -> None:
+        if depth > _DEEPEST:
+            return
+        kept: list[_State] = []
+        points: list[FloatArray] = []
+        clips = False
+        for one in pikepdf.parse_content_stream(stream):
+            operands, name = one.operands, str(one.operator)
+            if name in _POINTS:
+                points.append(np.reshape([float(v) for v in operands], (-1, 2)))
+            elif name == "re":
+                x, y, wide, high = (float(v) for v in operands)
+                points.append(
+                    np.array([[x, y], [x + wide, y + high], [x, y + high], [x + wide, y]])
+                )
+            elif name in {"W", "W*"}:
+                clips = True
+            elif name in _PAINTING or name == "n":
+                box = _bounds(points, state) if points else None
+                if box is not None and name != "n":
+                    self._painted(box, name in _STROKES, name not in {"S", "s"}, state)
+                if clips and box is not None:
+                    state = replace(state, window=box)
+                points, clips = [], False
+            elif name == "q":
+                kept.append(state)
+            elif name == "Q" and kept:
+                state = kept.pop()
+            elif name == "Do":
+                self._drawn(resources["/XObject"][operands[0]], resources, state, depth)
+            elif name in {"Tj", "TJ", "'", '"'}:
+                self._ems.append(state.em * _scale_of(state.matrix))
+                self._spaces[state.spaces[0]] += 1
+            else:
+                state = self._changed(state, name, operands, resources)
+
+    def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: _State) -> None:
+        if strokes:
+            self._lines.append(state.width * _scale_of(state.matrix))
+        for space in (state.spaces[:1] if fills else ()) + (state.spaces[1:] if strokes else ()):
+            self._count(space)
+        self._painted_boxes.append(box)
+
+    def _count(self, space: str) -> None:
+        if space.startswith("ink "):
+            self._inks.add(space.removeprefix("ink "))
+        elif space:
+            self._spaces[space] += 1
+
+    def _drawn(self, drawn: Any, resources: Any, state: _State, depth: int) -> None:
+        if drawn.Subtype == "/Image":
+            box = _bounds([np.array([[0, 0], [1, 0], [0, 1], [1, 1]])], state)
+            self._painted_boxes.append(box)
+            if (box[1] > self._trim[0] + _SEEN_PT).all() and (
+                box[0] < self._trim[1] - _SEEN_PT
+            ).all():
+                inches = np.hypot(*state.matrix[:, :2]) / 72
+                size = np.array([float(drawn.Width), float(drawn.Height)])
+                self._dpi.append(float((size / inches).min()))
+            self._count(_space_name(drawn.get("/ColorSpace", "/DeviceGray"), resources))
+            if "/SMask" in drawn:
+                self._clear["soft edge|soft edges"] += 1
+            return
+        own = affine.compose(state.matrix, _matrix(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
+        self._follow(
+            drawn, drawn.get("/Resources", resources), replace(state, matrix=own), depth + 1
+        )
+
+    def _changed(self, state: _State, name: str, operands: Any, resources: Any) -> _State:
+        if name == "cm":
+            return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
+        if name == "w":
+            return replace(state, width=float(operands[0]))
+        if name == "gs":
+            self._transparent(resources["/ExtGState"][operands[0]])
+        elif name == "Tf":
+            return replace(state, em=float(operands[1]))
+        elif name == "Tm":
+            return replace(state, em=state.em * _scale_of(_matrix(operands)))
+        elif name.lower() in {"cs", *_DEVICE}:
+            spaces = list(state.spaces)
+            is_named = name.lower() == "cs"
+            found = _space_name(operands[0], resources) if is_named else _DEVICE[name.lower()]
+            spaces[name.isupper()] = found
+            return replace(state, spaces=(spaces[0], spaces[1]))
+        elif name.lower() == "scn" and operands and isinstance(operands[-1], pikepdf.Name):
+            shading = resources["/Pattern"][operands[-1]].get("/Shading")
+            if shading is not None:
+                self._count(_space_name(shading.ColorSpace, resources))
+        return state
+
+    def _transparent(self, settings: Any) -> None:
+        if min(float(settings.get("/ca", 1)), float(settings.get("/CA", 1))) < 1:
+            self._clear["opacity|opacities"] += 1
+        if settings.get("/BM", "/Normal") != "/Normal":
+            self._clear["blend mode|blend modes"] += 1
+        if isinstance(settings.get("/SMask"), pikepdf.Dictionary):
+            self._clear["mask|masks"] += 1
+
+
+def _space_name(space: Any, resources: Any) -> str:
+    """Plain name of a colour space; empty of patterns."""
+    if isinstance(space, pikepdf.Name):
+        named = resources.get("/ColorSpace", {}).get(space)
+        if named is not None:
+            return _space_name(named, resources)
+        plain = {"/DeviceRGB": "RGB", "/DeviceCMYK": "CMYK", "/DeviceGray": "grey"}
+        return plain.get(str(space), "")
+    kind = str(space[0])
+    if kind == "/ICCBased":
+        return {1: "grey", 3: "RGB", 4: "CMYK"}[int(space[1].N)]
+    if kind in {"/Separation", "/DeviceN"}:
+        return f"ink {str(space[1]).removeprefix('/')}" if kind == "/Separation" else "CMYK"
+    return {"/CalRGB": "RGB", "/CalGray": "grey", "/Indexed": "RGB"}.get(kind, "")
+
+
+def _bounds(points: Sequence[FloatArray], state: _State) -> FloatArray:
+    """Corners of the box of points on the page, as far as the clip lets it through."""
+    placed = affine.apply(state.matrix, np.concatenate(points))
+    low = np.maximum(placed.min(axis=0), state.window[0])
+    return np.array([low, np.maximum(np.minimum(placed.max(axis=0), state.window[1]), low)])
+
+
+def _box(box: Any) -> FloatArray:
+    return np.reshape([float(v) for v in box], (2, 2))
+
+
+def _matrix(numbers: Any) -> FloatArray:
+    a, b, c, d, e, f = (float(v) for v in numbers)
+    return np.array([[a, c, e], [b, d, f]])
