@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from defusedxml import ElementTree
-from fontTools.ttLib import TTFont
+from fontTools.ttLib import TTFont, newTable
+from fontTools.ttLib.tables._k_e_r_n import KernTable_format_0
 
 import packwork as pw
 from made_fonts import variable_font
@@ -152,6 +153,24 @@ def test_a_variable_font_is_embedded_at_the_weight_of_the_word() -> None:
     (font,) = embedded(svg_text(layout("a", fonts=fonts), LIVE))
     assert "fvar" not in font
     assert font["glyf"]["a"].xMax == 200
+
+
+def test_a_font_keeps_the_pairs_of_an_old_kern_table() -> None:
+    font = TTFont(io.BytesIO(INTER))
+    names = font.getBestCmap()
+    pair = KernTable_format_0()
+    pair.coverage, pair.version, pair.apple = 1, 0, False
+    pair.kernTable = {(names[ord("o")], names[ord("x")]): -300}
+    font["kern"] = newTable("kern")
+    font["kern"].version, font["kern"].kernTables = 0, [pair]
+    del font["GPOS"]
+    made = io.BytesIO()
+    font.save(made)
+    (part,) = embedded(
+        svg_text(layout("ox", fonts=Fonts([Typeface(made.getvalue(), "old")])), LIVE)
+    )
+    assert part["kern"].kernTables[0].kernTable
+    assert len(part.getBestCmap()) == 2
 
 
 def test_files_are_the_same_every_time() -> None:

@@ -7,14 +7,13 @@ browsers shape text with too, sets the words with that part just as it did with 
 from __future__ import annotations
 
 import base64
-import io
 import logging
 import struct
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+import zlib
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from packwork.errors import WriteError
 from packwork.scene.colour import Colour, hex_colour
@@ -125,20 +124,12 @@ _PERMITTED = 0x000C
 """Bits that allow embedding where they stand beside ``RESTRICTED``: the most permissive
 of them holds."""
 
+_KERN = int.from_bytes(b"kern")
+"""Name of a table, as HarfBuzz has it in sets."""
+
 STEP = 2e-3
 """Share of an em by which glyphs may stand elsewhere than in the whole font: rounding of
 variable fonts. Smaller refuses some of them. Chosen."""
-
-MOST_STEPS = 3_000_000
-"""Bytes of programs that cutting down one font may run, each call counted: some seconds. A cloud
-of 500 words in a PostScript font takes a twentieth of it. Chosen."""
-
-_FAILURES = (
-    AssertionError, AttributeError, IndexError, KeyError, OverflowError, TypeError, ValueError,
-    NotImplementedError, RecursionError, struct.error,
-)  # fmt: skip
-"""What fontTools raises on damaged tables, beside errors of its own."""
-
 
 _RunText: TypeAlias = tuple[TextRun, str]
 """A run and its language."""
@@ -176,43 +167,12 @@ def may_be_embedded(fs_type: int) -> bool:
 
 
 def _embed(family: str, font: FontFile, runs: Sequence[_RunText]) -> Embedded:
-    try:
-        with _bounded_programs():
-            part = _font_part(font, _characters(run.text for run, _ in runs))
-    except _FAILURES as error:
-        raise WriteError(
-            font.name, f"its tables cannot be cut down ({type(error).__name__})"
-        ) from None
+    part = _font_part(font, _characters(run.text for run, _ in runs))
     if not all(_is_same(part, run, language) for run, language in runs):
         raise WriteError(font.name, "a part of it would set the words otherwise")
     data = base64.b64encode(_as_woff(part)).decode("ascii")
     source = f'url(data:font/woff;base64,{data})format("woff")'
     return Embedded(family, f'@font-face{{font-family:"{family}";src:{source}}}')
-
-
-@contextmanager
-def _bounded_programs() -> Iterator[None]:
-    """Let fontTools run no more of a PostScript font's programs than ``MOST_STEPS``.
-
-    It follows calls of calls of calls while it cuts a font down, whatever they come to; at more of
-    them a ValueError is raised.
-    """
-    from fontTools.misc.psCharStrings import SimpleT2Decompiler  # type: ignore[import-untyped]
-
-    run, left = SimpleT2Decompiler.execute, MOST_STEPS
-
-    def execute(self: Any, program: Any) -> None:
-        nonlocal left
-        left -= 1 + len(program.bytecode or program.program or ())
-        if left < 0:
-            raise ValueError("its programs do not end")
-        run(self, program)
-
-    SimpleT2Decompiler.execute = execute
-    try:
-        yield
-    finally:
-        SimpleT2Decompiler.execute = run
 
 
 def _characters(texts: Iterable[str]) -> str:
@@ -223,41 +183,42 @@ def _characters(texts: Iterable[str]) -> str:
 
 def _font_part(font: FontFile, characters: str) -> bytes:
     """The font's glyphs of some characters, at one weight."""
-    from fontTools.subset import Options, Subsetter  # type: ignore[import-untyped]
-    from fontTools.ttLib import TTFont, TTLibError  # type: ignore[import-untyped]
-    from fontTools.varLib.instancer import instantiateVariableFont  # type: ignore[import-untyped]
+    import uharfbuzz as hb
 
+    face = hb.Face(font.data, font.index)
+    licence = face.reference_table("OS/2").data[8:10]
+    if licence and not may_be_embedded(int.from_bytes(licence)):
+        raise WriteError(font.name, "its licence does not allow a part of it to be embedded")
+    asked = hb.SubsetInput()
+    asked.unicode_set.set(set(map(ord, characters)))
+    asked.name_id_set.set({1, 2})
+    asked.flags = hb.SubsetFlags.NO_HINTING | hb.SubsetFlags.NOTDEF_OUTLINE
+    if "kern" in face.table_tags and "GPOS" not in face.table_tags:
+        # HarfBuzz does not cut this table down, which knows glyphs by their numbers.
+        asked.flags |= hb.SubsetFlags.RETAIN_GIDS
+        asked.drop_table_tag_set.discard(_KERN)
+        asked.no_subset_table_tag_set.add(_KERN)
+    for axis in face.axis_infos:
+        is_weight = axis.tag == "wght" and font.weight is not None
+        asked.pin_axis_location(face, axis.tag, font.weight if is_weight else axis.default_value)
     try:
-        opened = TTFont(io.BytesIO(font.data), fontNumber=font.index, recalcTimestamp=False)
-        if "OS/2" in opened and not may_be_embedded(opened["OS/2"].fsType):
-            raise WriteError(font.name, "its licence does not allow a part of it to be embedded")
-        options = Options(hinting=False, notdef_outline=True, legacy_kern=True, name_IDs=[1, 2])
-        subsetter = Subsetter(options)
-        subsetter.populate(text=characters)
-        subsetter.subset(opened)
-        if "fvar" in opened:
-            opened = instantiateVariableFont(opened, _location(opened, font.weight))
-        made = io.BytesIO()
-        opened.save(made)
-    except TTLibError as error:
-        raise ValueError(error) from None
-    return made.getvalue()
-
-
-def _location(font: Any, weight: float | None) -> Mapping[str, float]:
-    place = {axis.axisTag: axis.defaultValue for axis in font["fvar"].axes}
-    return place if weight is None else {**place, "wght": weight}
+        return bytes(asked.subset(face).blob.data)
+    except RuntimeError:
+        raise WriteError(font.name, "its tables cannot be cut down") from None
 
 
 def _as_woff(part: bytes) -> bytes:
-    """The same as WOFF: about half the size, and all browsers know it."""
-    from fontTools.ttLib import TTFont
-
-    font = TTFont(io.BytesIO(part), recalcTimestamp=False)
-    font.flavor = "woff"
-    made = io.BytesIO()
-    font.save(made)
-    return made.getvalue()
+    """The same as WOFF (W3C 2012), in which each table is compressed: all browsers know it."""
+    count = int.from_bytes(part[4:6])
+    offset, records, tables = 44 + 20 * count, b"", b""
+    for k in range(count):
+        tag, checksum, start, size = struct.unpack(">4sIII", part[12 + 16 * k : 28 + 16 * k])
+        plain = part[start : start + size]
+        packed = min(zlib.compress(plain, 9), plain, key=len)
+        records += struct.pack(">4sIIII", tag, offset + len(tables), len(packed), size, checksum)
+        tables += packed + bytes(-len(packed) % 4)
+    head = struct.pack(">4s4sIHHI", b"wOFF", part[:4], offset + len(tables), count, 0, len(part))
+    return head + bytes(24) + records + tables
 
 
 def _is_same(part: bytes, run: TextRun, language: str) -> bool:
