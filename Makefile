@@ -10,7 +10,7 @@ BIN := .venv/bin
 LOWEST_BIN := .lowest/bin
 endif
 
-.PHONY: demo gallery figures site setup-browser setup-page check-page test test-lowest check format clean
+.PHONY: demo gallery figures site check-site setup-browser setup-page check-page test test-lowest check format clean
 
 demo: .venv/installed
 	$(BIN)/packwork demo
@@ -25,6 +25,10 @@ figures: .venv/installed
 site: .venv/installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]"
 	$(BIN)/python tools/build_site.py
+
+# Links, the size of the first page, and axe-core where make setup-page has fetched it.
+check-site: .venv/installed-dev
+	$(BIN)/python tools/check_site.py
 
 # A Chromium for the studio's tests in a browser; without one they are skipped. Debian and Ubuntu.
 setup-browser:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,8 +25,8 @@ def tools(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     import reference
 
     yield build_site, reference
-    for name in ("build_site", "reference"):
-        sys.modules.pop(name)
+    for name in ("build_site", "check_site", "reference"):
+        sys.modules.pop(name, None)
 
 
 def test_every_page_is_in_the_sidebar(tools: Any) -> None:
@@ -36,6 +37,28 @@ def test_every_page_is_in_the_sidebar(tools: Any) -> None:
     paths = [path.relative_to(docs).with_suffix("") for path in docs.rglob("*.md")]
     pages = {path.as_posix() for path in paths if path.parts[0] not in site.LISTED}
     assert sorted(listed) == sorted(pages | written)
+
+
+def test_the_first_page_leads_to_files(tools: Any) -> None:
+    text = (tools[0].FIRST / "index.md").read_text(encoding="utf-8")
+    named = re.findall(r"\]\((\S+?)\)|src=\"(\S+?)\"", text)
+    assert len(named) > 15
+    assert [name for pair in named for name in pair if name and not (ROOT / name).is_file()] == []
+
+
+def test_a_link_that_leads_nowhere_is_found(
+    tools: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import check_site
+
+    monkeypatch.setattr(check_site, "SITE", tmp_path)
+    (tmp_path / "b.html").write_text('<p id="here">', encoding="utf-8")
+    links = ["b.html#here", "b.html#there", "c.html", "https://example.org", "#self"]
+    page = '<p id="self">' + "".join(f'<a href="{link}">' for link in links)
+    (tmp_path / "a.html").write_text(page, encoding="utf-8")
+    assert list(check_site.dead_links()) == [
+        "a.html: b.html#there is no heading", "a.html: c.html is no file",
+    ]  # fmt: skip
 
 
 def test_the_reference_has_every_command_and_option(tools: Any) -> None:

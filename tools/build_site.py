@@ -1,7 +1,8 @@
 """Builds the documentation as a site: ``python tools/build_site.py``, into build/site.
 
-Lays the pages out as they lie in the clone, so that their links lead on unchanged, writes the
-reference from the code (``reference.py``) and lets Sphinx build it; a warning is an error.
+Lays the pages out as they lie in the clone, so that their links lead on unchanged, adds a first
+page for strangers (``site/index.md``) and the reference, written from the code
+(``reference.py``), and lets Sphinx build it; a warning is an error.
 Needs ``packwork[docs]``.
 """
 
@@ -17,6 +18,9 @@ from reference import REFERENCE
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
 STAGE, SITE = BUILD / "site-source", BUILD / "site"
+FIRST = ROOT / "tools" / "site"
+CARD_PX = 480
+"""Longer side of a picture on the first page: two pixels for each of a screen's."""
 
 PAGES = {
     "Begin": ("README", "guide/tutorial", "guide/users", "how-it-works", "gallery"),
@@ -46,6 +50,8 @@ myst_enable_extensions = ["dollarmath", "html_image"]
 myst_heading_anchors = 4
 html_math_renderer = "mathml"
 html_theme = "furo"
+html_static_path = ["_site"]
+html_css_files = ["site.css"]
 smartquotes = False
 html_title = "Packwork"
 html_show_sphinx = False
@@ -85,20 +91,27 @@ def main() -> int:
     for path in _documents():
         copy = STAGE / path.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
-        if path.suffix == ".md":
-            copy.write_text(_readable(path), encoding="utf-8")
-        else:
-            shutil.copy(path, copy)
+        shutil.copy(path, copy)
     for name, write in REFERENCE.items():
         page = STAGE / "docs" / "reference" / f"{name}.md"
         page.parent.mkdir(exist_ok=True)
         page.write_text(write(), encoding="utf-8")
-    (STAGE / "README.md").rename(STAGE / "index.md")
-    with (STAGE / "index.md").open("a", encoding="utf-8") as index:
-        index.write("\n" + "\n".join(_toctrees()))
+    first = _with_small_pictures((FIRST / "index.md").read_text(encoding="utf-8"))
+    (STAGE / "index.md").write_text(first + "\n" + "\n".join(_toctrees()), encoding="utf-8")
+    (STAGE / "_site").mkdir()
+    shutil.copy(FIRST / "site.css", STAGE / "_site")
     (STAGE / "conf.py").write_text(CONF, encoding="utf-8")
     shutil.rmtree(SITE, ignore_errors=True)
-    return sphinx(["-W", "--keep-going", "-q", "-b", "html", str(STAGE), str(SITE)])
+    code = sphinx(["-W", "--keep-going", "-q", "-b", "html", str(STAGE), str(SITE)])
+    for path in SITE.rglob("*.html"):
+        path.write_text(_usable_by_keyboard(path.read_text(encoding="utf-8")), encoding="utf-8")
+    return code
+
+
+def _usable_by_keyboard(page: str) -> str:
+    """A page as the theme writes it; captions say how deep they are, code can be scrolled."""
+    deep = page.replace('role="heading">', 'role="heading" aria-level="2">')
+    return deep.replace("<pre>", '<pre tabindex="0">')
 
 
 def _documents() -> list[Path]:
@@ -110,11 +123,19 @@ def _documents() -> list[Path]:
     return [path for path in found if "__pycache__" not in path.parts]
 
 
-def _readable(path: Path) -> str:
-    """A page whose links to README.md lead to the index."""
-    text = path.read_text(encoding="utf-8")
-    up = len(path.parent.relative_to(ROOT).parts) * r"\.\./"
-    return re.sub(rf"\]\(({up})README\.md", r"](\1index.md", text)
+def _with_small_pictures(page: str) -> str:
+    """The first page, its PNGs as small WebP files, so that all of it is soon there."""
+    from PIL import Image
+
+    folder = STAGE / "_small"
+    folder.mkdir()
+    for name in set(re.findall(r'src="(\S+\.png)"', page)):
+        small = f"{name.replace('/', '-').removesuffix('.png')}.webp"
+        with Image.open(ROOT / name) as picture:
+            picture.thumbnail((CARD_PX, CARD_PX))
+            picture.save(folder / small, quality=80)
+        page = page.replace(f'"{name}"', f'"_small/{small}"')
+    return page
 
 
 def _toctrees() -> list[str]:
@@ -122,6 +143,7 @@ def _toctrees() -> list[str]:
     for folder, caption in LISTED.items():
         pages[caption] = _all(f"docs/{folder}", "*.md")
     pages["Examples"] = _all("examples", "*/README.md")
+    pages["Begin"] = ["Set up, first commands <README>", *pages["Begin"]]
     pages["About"] += ["CONTRIBUTING", "CHANGELOG"]
     return [
         TOCTREE.format(caption=caption, pages="\n".join(names)) for caption, names in pages.items()
