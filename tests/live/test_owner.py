@@ -148,6 +148,21 @@ def test_whoever_listens_is_told_of_every_frame(dozen: pw.Layout) -> None:
     assert owner.frame.entangled == ()
 
 
+def test_a_frame_tells_that_gaps_are_being_closed_until_they_are(dozen: pw.Layout) -> None:
+    told: list[tuple[bool, tuple[str, ...] | None]] = []
+    session = Session(Document.from_layout(dozen))
+    owner = Owner(
+        session, lambda: told.append((owner.frame.is_rough, owner.frame.in_the_way)), polishes=True
+    )
+    with owner:
+        owner.post(Move(item=0, x=300.0, y=300.0))
+        while not told or told[-1] != (False, ()):
+            time.sleep(0.02)
+    assert all(in_the_way == () for is_rough, in_the_way in told if is_rough)
+    assert (True, ()) in told
+    assert session.document.poses.x[0] == 300.0
+
+
 def test_what_was_not_settled_when_it_was_left_is_settled(dozen: pw.Layout) -> None:
     session = Session(Document.from_layout(dozen))
     session.apply(Move(item=0, x=300.0, y=300.0))

@@ -181,6 +181,22 @@ def test_a_replay_gives_the_same_bytes(dozen: pw.Layout, same: Same) -> None:
         assert same(again.document.poses, session.document.poses)
 
 
+def test_polish_wins_back_what_far_drags_cost(dozen: pw.Layout) -> None:
+    won = []
+    for seed in range(3):
+        session, rng = dozen.edit(), np.random.default_rng(seed)
+        for _ in range(4):
+            first, second = rng.choice(len(dozen.items), 2, replace=False).tolist()
+            poses = session.document.poses
+            drag(session, first, float(poses.x[second]), float(poses.y[second]))
+            session.settle()
+        before = session.document.areas.sum()
+        session.polish(60)
+        won.append(session.document.areas.sum() - before)
+        assert session.is_certified
+    assert sum(won) > 0.01 * dozen.container.outline.area * len(won)
+
+
 def test_polish_leaves_what_was_put_last_and_the_angle_of_what_was_put_before(
     session: pw.Session,
 ) -> None:

@@ -89,10 +89,10 @@ class Marks:
         Of these, what has the angle that the hand has given it.
     vacated
         What lay beside items before the hand took them away.
-    by_hand
-        Put somewhere or turned by hand since the last leap: polish leaves its angle.
+    turned_by_hand
+        Turned by hand since the last leap: polish leaves its angle.
     recent
-        Of these, since the last settle but one: polish leaves it where it is.
+        Put somewhere or turned by hand since the last settle but one: polish leaves it as it is.
     unpolished
         Settled, yet not polished.
     polished
@@ -105,7 +105,7 @@ class Marks:
     placed_by_user: set[int] = field(default_factory=set)
     turned: set[int] = field(default_factory=set)
     vacated: set[int] = field(default_factory=set)
-    by_hand: set[int] = field(default_factory=set)
+    turned_by_hand: set[int] = field(default_factory=set)
     recent: set[int] = field(default_factory=set)
     unpolished: set[int] = field(default_factory=set)
     polished: int = 0

@@ -110,7 +110,7 @@ class LocalSolver:
         """Have items keep their angles while others make room for them."""
         kept = set(numbers)
         self.marks.turned |= kept
-        self.marks.by_hand |= kept
+        self.marks.turned_by_hand |= kept
 
     def take(self, after: Document) -> None:
         """Go on with a document that a command has changed."""
@@ -146,11 +146,10 @@ class LocalSolver:
         turned, changed = now.angle != before.angle, differing(before, now)
         marks.placed_by_user |= set(numbers[moved].tolist())
         marks.turned |= set(numbers[turned].tolist())
-        by_hand = set(numbers[moved | turned].tolist())
+        marks.turned_by_hand |= set(numbers[turned].tolist())
         if not marks.touched:
             marks.recent.clear()
-        marks.recent |= by_hand
-        marks.by_hand |= by_hand
+        marks.recent |= set(numbers[moved | turned].tolist())
         new = np.flatnonzero(changed & ~np.isin(numbers, list(marks.touched)))
         if len(new):
             marks.vacated |= set(numbers[flow.contacts.rings(new, RINGS) >= 0].tolist())
@@ -218,16 +217,23 @@ class LocalSolver:
         self.marks.leapt()
         self.film()
 
+    @property
+    def is_rough(self) -> bool:
+        """Whether coverage may be won back where gestures have cost some."""
+        is_busy = self.grabbed or self.marks.touched or self.document.options.force
+        return bool(self.marks.unpolished) and not is_busy
+
     def polish(self, trials: int, stop: Stop) -> int | None:
         """Try turns of what was touched; how many items have moved, None where none was tried."""
         marks, before = self.marks, self.document
-        is_over = not marks.unpolished or before.options.force
-        if trials < 1 or self.grabbed or marks.touched or is_over:
+        if trials < 1 or not self.is_rough:
             return None
-        # What was put somewhere last stays there; what was before keeps its angle.
-        rows = self._rows(marks.unpolished - marks.recent)
+        # What was put somewhere last stays there; what was turned before keeps its angle.
+        self._flow.begin(self._strict(before))
+        around = self._flow.contacts.rings(self._rows(marks.unpolished), RINGS) >= 0
+        rows = np.setdiff1d(np.flatnonzero(around), self._rows(marks.recent))
         held = before.held.copy()
-        held[self._rows(marks.by_hand), PROPERTIES.index("angle")] = True
+        held[self._rows(marks.turned_by_hand), PROPERTIES.index("angle")] = True
         strict = replace(before, held=held)
         poses, is_clean = polish(strict, rows, trials, marks.polished + 1, self.shapes, stop)
         if stop():
@@ -292,7 +298,7 @@ class LocalSolver:
         nothing overlaps then.
         """
         now, base, marks = self.document, self.base, self.marks
-        by_hand = marks.placed_by_user | marks.by_hand
+        by_hand = marks.placed_by_user | marks.turned_by_hand
         _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
         back = ~np.isin(now.ids[rows], list(by_hand))
         poses = now.poses.with_some(rows[back], base.poses.subset(theirs[back]))

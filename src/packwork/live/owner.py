@@ -39,12 +39,12 @@ IDLE_SECONDS = 0.05
 """How long the thread waits for commands when nothing moves. Chosen."""
 
 
-POLISHED_AT_ONCE = 8
-"""Trials of one polish while nobody touches anything. More hold up what is posted meanwhile.
-Chosen."""
+POLISHED_AT_ONCE = 48
+"""Trials of one polish while nobody touches anything, which is lost if a command breaks it off.
+Fewer spend more on the rounds that each begins with. Chosen."""
 
 
-QUIET_SECONDS = 0.5
+QUIET_SECONDS = 0.4
 """How long nobody has touched anything until coverage is won back. Shorter holds up the next of
 several gestures, longer leaves gaps open for longer. Chosen."""
 
@@ -53,6 +53,9 @@ MOST_TRIES = 3
 """Settles in turn where one does not certify the whole. More take longer until what is in the way
 is told. Chosen."""
 
+
+WINNING_BACK = "Closing gaps"
+"""Work of winning back coverage, during which the layout is certified."""
 
 MAKING_ROOM = "Making room"
 """Work of commands and leaps, and of what follows them."""
@@ -97,6 +100,8 @@ class Frame:
         What is poor, and what would do, where it is certified.
     unmet
         Places and sizes that were asked for and not had, by the count of what was asked.
+    is_rough
+        Whether coverage that gestures have cost is about to be won back.
     """
 
     number: int
@@ -109,6 +114,7 @@ class Frame:
     can_redo: bool = False
     advice: tuple[str, ...] = ()
     unmet: Mapping[int, str] = field(default_factory=dict)
+    is_rough: bool = False
 
 
 class Owner:
@@ -241,6 +247,7 @@ class Owner:
         with self._changed:
             is_waiting = self._session.is_grabbed or not self._is_touched
             is_idle = self._session.is_at_rest and is_waiting
+            is_idle &= not (self._is_polishing and self._is_quiet)
             if not self._waiting and is_idle and not self._is_over:
                 self._changed.wait(IDLE_SECONDS)
             taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
@@ -257,7 +264,7 @@ class Owner:
             self._settle()
         elif taken:
             self._show(None if self._is_touched else self._session.in_the_way)
-        elif self._polishes and not is_over and self._is_quiet:
+        elif self._is_polishing and not is_over and self._is_quiet:
             self._polish()
         is_done = not self._waiting and (not self._is_touched or self._session.is_grabbed)
         return not (is_over and is_done)
@@ -274,8 +281,13 @@ class Owner:
 
     def _polish(self) -> None:
         """Try a few turns; shown only where they have moved something."""
-        if self._session.polish(POLISHED_AT_ONCE, self._is_wanted):
+        moved = self._session.polish(POLISHED_AT_ONCE, self._is_wanted)
+        if moved or not self._session.is_rough:
             self._show(self._session.in_the_way)
+
+    @property
+    def _is_polishing(self) -> bool:
+        return self._polishes and self._session.is_rough
 
     @property
     def _is_quiet(self) -> bool:
@@ -341,6 +353,7 @@ class Owner:
             session.history.can_redo,
             session.advice if in_the_way == () else (),
             session.requests.unmet(session.document) if in_the_way == () else {},
+            in_the_way is not None and self._is_polishing,
         )
 
 

@@ -107,6 +107,11 @@ class Session:
         return self._solver.is_at_rest
 
     @property
+    def is_rough(self) -> bool:
+        """Whether :meth:`polish` may win back coverage."""
+        return self._solver.is_rough
+
+    @property
     def violations(self) -> tuple[Violation, ...]:
         """Conflicts as of now, items by their numbers."""
         return self._solver.violations

@@ -39,7 +39,8 @@ _Ids = tuple[Annotated[int, Field(ge=0)], ...]
 
 
 _IN_FILE = {
-    "placed_by_user": "given", "vacated": "left", "recent": "lately", "unpolished": "rough"
+    "placed_by_user": "given", "vacated": "left", "turned_by_hand": "by_hand",
+    "recent": "lately", "unpolished": "rough",
 }  # fmt: skip
 """Names of marks that files have others for."""
 
