@@ -154,6 +154,8 @@ class Session(LiveSession):
     exchange = edits.exchange
     align = edits.align
     distribute = edits.distribute
+    group = edits.group
+    ungroup = edits.ungroup
     crop = edits.crop
     hold = edits.hold
     release = edits.release

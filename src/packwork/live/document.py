@@ -164,13 +164,14 @@ class Document:
         """The same with other options, and sizes that vary as these say.
 
         Free sizes are between those of the typical item, which is as large as the mean, over and
-        times the ratio; an item that is outside them already may stay as it is. Where forces pull,
-        nothing becomes larger than it is.
+        times the ratio; an item that is outside them already may stay as it is, and a group is as
+        many items as it has parts. Where forces pull, nothing becomes larger than it is.
         """
         scale = self.poses.scale
         smallest = largest = scale
         if options.sizes == "free" and len(self):
-            areas = self.own_areas
+            counts = [1 if one.parts is None else len(one.parts.items) for one in self.items]
+            areas = self.own_areas / counts
             typical = np.sqrt(np.mean(areas * scale**2) / areas)
             smallest = np.minimum(typical / options.size_ratio, scale)
             widest = np.maximum(typical * options.size_ratio, scale)

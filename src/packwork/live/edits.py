@@ -127,6 +127,22 @@ def flip(session: Session, which: Which, direction: Direction = "horizontal") ->
     session.do("flip", items=session.find(which), direction=direction)
 
 
+@edit(Flag("--group", "ITEM", "Have items keep their places to each other, as one.", of_many=True))
+def group(session: Session, which: Which) -> int:
+    """Have items keep their places to each other: one item is made of them; its number."""
+    number = session.document.next_id
+    session.do("group", items=session.find(which))
+    return number
+
+
+@edit(Flag("--ungroup", "ITEM", "Have the items of a group each by itself again.", of_many=True))
+def ungroup(session: Session, which: Which) -> tuple[int, ...]:
+    """Have the items of groups each by itself again, where they are; their numbers."""
+    first = session.document.next_id
+    session.do("ungroup", items=session.find(which))
+    return tuple(range(first, session.document.next_id))
+
+
 @edit(Flag("--scale", "ITEM=FACTOR", "Make an item so many times as large."))
 def scale(session: Session, which: Which, factor: float) -> None:
     """Make an item so many times as large; it then keeps about that size."""

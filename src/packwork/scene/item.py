@@ -13,6 +13,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline, OutlineLike
+from packwork.scene.pose import Poses
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,6 +247,18 @@ class Crop:
     y: float
 
 
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """Items that a group is made of; none of them is a group.
+
+    ``poses``: where they lie in its units; ``weights``: ``(m,)`` that they had by themselves.
+    """
+
+    items: tuple[Item, ...]
+    poses: Poses
+    weights: FloatArray
+
+
 Art: TypeAlias = FlatArt | VectorArt | PictureArt | PhotoArt
 
 _PLAIN, _UNLABELLED = FlatArt(), Label()
@@ -288,6 +301,8 @@ class Item:
         Which row of a data frame it came from, in memory only; None of all else.
     own_art
         How it was drawn before another colour was put on it; None if none was.
+    parts
+        Of a group the items that it is made of; None of any other.
 
     Raises
     ------
@@ -313,6 +328,7 @@ class Item:
     weight: float = 1.0  # of those kept on disk, too
     row: RowLabel | None = None
     own_art: Art | None = None
+    parts: Parts | None = None
 
     def __init__(
         self,
@@ -328,6 +344,7 @@ class Item:
         weight: float = 1.0,
         row: RowLabel | None = None,
         own_art: Art | None = None,
+        parts: Parts | None = None,
     ) -> None:
         if outline is None:
             raise ShapeError(f"the item {name!r} needs an outline, such as a Shapely polygon")
@@ -339,7 +356,8 @@ class Item:
                 f"the art of the item {name!r} must be a colour or an art, not {str(art)[:40]}"
             )
         values = (
-            name, source, solid, drawn, made, label, text, halo, datum, weight, row, own_art
+            name, source, solid, drawn, made, label, text, halo, datum, weight, row, own_art,
+            parts,
         )  # fmt: skip
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)

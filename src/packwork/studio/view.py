@@ -185,7 +185,8 @@ class Scenes:
             count=counted_weight(item),
             is_word=item.text is not None,
             held=(place, angle, size),
-            crop=_crop_of(item.art),
+            crop=None if item.parts is not None else _crop_of(item.art),
+            parts=0 if item.parts is None else len(item.parts.items),
         )
 
     def _drawing(self, item: Item) -> Drawing:

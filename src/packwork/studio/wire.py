@@ -63,6 +63,8 @@ class Thing(Message):
     held: tuple[bool, bool, bool]
     crop: tuple[float, float, float] | None
     """Zoom, x and y of a photograph in its frame; None of what is none."""
+    parts: int
+    """Number of items that a group is made of; 0 of what is none."""
 
 
 class DrawnNote(Message):

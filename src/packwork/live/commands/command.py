@@ -152,7 +152,9 @@ def named_item(library: Library, item: Item) -> str:
     """
     properties = (item.name, item.source, item.label, item.weight, item.halo, item.datum, item.row)
     drawn = _of_art(item.art)
-    parts = (repr(properties).encode(), _points(item.outline), _points(item.ink), drawn)
+    inner = () if item.parts is None else item.parts.items
+    within = [named_item(Library(), one).encode() for one in inner]
+    parts = (repr(properties).encode(), _points(item.outline), _points(item.ink), drawn, *within)
     name = hashlib.sha256(b"\0".join(parts)).hexdigest()
     library.items.setdefault(name, item)
     return name

@@ -30,8 +30,8 @@ from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.groups import of_each, turned_over
 from packwork.scene.item import MAX_LENGTH, Item, Label
-from packwork.scene.mapped import mirrored
 from packwork.scene.pose import Poses
 from packwork.scene.recolour import recoloured, with_own_art
 
@@ -64,7 +64,7 @@ class Add(Command):
         scale = math.sqrt(self.area / item.outline.area)
         pose = Poses([self.x], [self.y], math.radians(self.angle), scale)
         weight = item.weight if self.weight is None else self.weight
-        return sized(_joined(document, item, pose, weight), "add")
+        return sized(joined(document, item, pose, weight), "add")
 
 
 class Duplicate(Command):
@@ -80,7 +80,7 @@ class Duplicate(Command):
         k = index_of(document, self.item, "duplicate")
         pose, beside = document.poses.subset(np.array([k])), self.beside * document.container.side
         pose = replace(pose, x=pose.x + beside, y=pose.y + beside)
-        return _joined(document, document.items[k], pose, float(document.weights[k]))
+        return joined(document, document.items[k], pose, float(document.weights[k]))
 
 
 class Remove(Command):
@@ -92,15 +92,9 @@ class Remove(Command):
     def applied(self, document: Document, library: Library) -> Document:
         """The document without them; the others keep their numbers."""
         gone = [index_of(document, number, "remove") for number in self.items]
-        left = np.setdiff1d(np.arange(len(document)), gone)
-        if len(left) == 0:
+        if len(np.unique(gone)) == len(document):
             raise RecipeError("remove", "nothing would be left; keep one item at least")
-        return replace(
-            document,
-            items=tuple(document.items[k] for k in left),
-            poses=document.poses.subset(left),
-            **{name: getattr(document, name)[left] for name in _COLUMNS},
-        )
+        return without(document, np.array(gone))
 
 
 class Replace(Command):
@@ -166,11 +160,15 @@ class Recolour(Command):
         """The document with the colour."""
         colour = hex_colour(parse_colour("recolor", self.colour))
         made: dict[Item, Item] = {}
+
+        def put(item: Item) -> Item:
+            return with_own_art(recoloured(item, colour), item)
+
         for number in self.items:
             k = index_of(document, number, "recolour")
             item = document.items[k]
             if item not in made:
-                made[item] = with_own_art(recoloured(item, colour), item)
+                made[item] = of_each(item, put)
             document = _with_item(document, k, made[item])
         return document
 
@@ -192,7 +190,7 @@ class Flip(Command):
             k = index_of(document, number, "flip")
             item = document.items[k]
             if item not in made:
-                made[item] = mirrored(item)
+                made[item] = turned_over(item)
             angle[k] = nearest_angle(document, k, math.remainder(half - angle[k], math.tau))
             document = _with_item(document, k, made[item])
         manifest = document.kind.turned_over(document.manifest, self.items)
@@ -208,7 +206,19 @@ class Flip(Command):
 _COLUMNS = ("ids", "weights", "smallest", "largest", "held")
 
 
-def _joined(document: Document, item: Item, pose: Poses, weight: float) -> Document:
+def without(document: Document, rows: IntArray) -> Document:
+    """The document without the items of some rows."""
+    left = np.setdiff1d(np.arange(len(document)), rows)
+    return replace(
+        document,
+        items=tuple(document.items[k] for k in left),
+        poses=document.poses.subset(left),
+        **{name: getattr(document, name)[left] for name in _COLUMNS},
+    )
+
+
+def joined(document: Document, item: Item, pose: Poses, weight: float) -> Document:
+    """The document with one item more, at a pose of one."""
     if len(document) >= MAX_COUNT:
         raise RecipeError("add", f"{MAX_COUNT} items are the most; remove one first")
     joined = replace(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -13,6 +14,7 @@ from packwork.live.document import Document
 from packwork.live.file.records import Text
 from packwork.recipe.pictures import Shades, known_palette
 from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.groups import of_each
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, in_own_colours, with_own_art
@@ -37,7 +39,7 @@ class Paint(Command):
         """The document in these colours."""
         known_palette(list(self.palette) or None)
         palette = palette_colours(list(self.palette)) if self.palette else ()
-        items = tuple(in_own_colours(item) for item in document.items)
+        items = tuple(of_each(item, in_own_colours) for item in document.items)
         if any(item.datum is not None and item.datum.category for item in items):
             raise RecipeError("palette", "colours of a chart stand for its groups, as its keys say")
         if palette:
@@ -53,12 +55,16 @@ class Paint(Command):
         layout = replace(document, items=items).layout
         colours = given_out(palettes, layout, is_mixed=True, seed=0)
         known: dict[tuple[Item, str | None], Item] = {}
+
+        def put(way: Shades, colour: str | None, item: Item) -> Item:
+            if isinstance(item.art, PhotoArt):
+                return item
+            made = item if colour is None else in_shades_of(item, colour)
+            return with_own_art(in_palette(item, palette) if way == "nearest" else made, item)
+
         for pair in zip(items, colours, strict=True):
             if pair not in known:
-                item, colour = pair
-                made = item if colour is None else in_shades_of(item, colour)
-                made = in_palette(item, palette) if ways[item] == "nearest" else made
-                known[pair] = with_own_art(made, item)
+                known[pair] = of_each(pair[0], partial(put, ways[pair[0]], pair[1]))
         return tuple(known[pair] for pair in zip(items, colours, strict=True))
 
     def _way(self, item: Item) -> Shades:
@@ -98,7 +104,7 @@ class CropPhoto(Command):
         k = index_of(document, self.item, "crop")
         items = list(document.items)
         art = items[k].art
-        if not isinstance(art, PhotoArt):
+        if not isinstance(art, PhotoArt) or items[k].parts is not None:
             raise RecipeError("crop", f"is for photographs, and {items[k].name} is a drawing")
         made = cropped(art, items[k].outline, self.zoom, self.x, self.y)
         items[k] = replace(items[k], art=made)

@@ -19,6 +19,7 @@ from packwork.live.commands.container import (
     SetOption,
 )
 from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
+from packwork.live.commands.grouping import Group, Ungroup
 from packwork.live.commands.items import (
     Add,
     Duplicate,
@@ -37,6 +38,7 @@ SingleCommand: TypeAlias = Annotated[
     Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
+    | Group | Ungroup
     | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut
     | Paint | CropPhoto | Background | DrawContainer,
     Field(discriminator="kind"),

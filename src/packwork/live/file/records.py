@@ -215,6 +215,17 @@ class ItemRecord(Options):
     weight: Length = 1.0
     own_art: ArtRecord | None = None
     """How it was drawn before another colour was put on it."""
+    parts: Annotated[tuple[PartRecord, ...], Field(max_length=MOST_LINES)] = ()
+    """Of a group."""
+
+
+class PartRecord(Options):
+    """An item of a group, which is none."""
+
+    item: ItemRecord
+    pose: tuple[Number, Number, Number, Length, Length]
+    """x, y, angle, scale and stretch in the units of the group."""
+    weight: Number
 
 
 class BackdropRecord(Options):

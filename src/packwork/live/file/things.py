@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from dataclasses import fields
 from typing import TypeVar
 
 import numpy as np
@@ -17,6 +18,7 @@ from packwork.live.file.records import (
     ItemRecord,
     LabelRecord,
     OutlineRecord,
+    PartRecord,
     RunRecord,
     WordRecord,
     kept_text,
@@ -40,7 +42,8 @@ from packwork.readers.json_text import check_size
 from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal
 from packwork.scene.container import Backdrop, Container
-from packwork.scene.item import Datum, FontFile, Item, Label, LiveText, TextRun
+from packwork.scene.item import Datum, FontFile, Item, Label, LiveText, Parts, TextRun
+from packwork.scene.pose import Poses
 
 _Model = TypeVar("_Model", bound=BaseModel)
 
@@ -126,6 +129,7 @@ def item_record(item: Item, things: Things) -> ItemRecord:
         datum=None if datum is None else _datum_record(datum),
         weight=item.weight,
         own_art=None if own is None else art_record(own, item.outline.extent),
+        parts=() if item.parts is None else _part_records(item.parts, things),
     )
 
 
@@ -145,7 +149,25 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         None if datum is None else Datum(datum.row, datum.value, datum.category, datum.group),
         record.weight,
         own_art=None if record.own_art is None else art_of(record.own_art, outline),
+        parts=_parts_of(record.parts, shared) if record.parts else None,
     )
+
+
+def _part_records(parts: Parts, things: Things) -> tuple[PartRecord, ...]:
+    columns = (getattr(parts.poses, column.name).tolist() for column in fields(Poses))
+    rows = zip(parts.items, zip(*columns, strict=True), parts.weights.tolist(), strict=True)
+    return tuple(
+        PartRecord(item=item_record(item, things), pose=pose, weight=weight)
+        for item, pose, weight in rows
+    )
+
+
+def _parts_of(records: tuple[PartRecord, ...], shared: Shared) -> Parts:
+    if any(one.item.parts for one in records):
+        raise UnfitError("has a group within a group")
+    poses = Poses(*np.array([one.pose for one in records]).T)
+    items = tuple(item_of(one.item, shared) for one in records)
+    return Parts(items, poses, np.array([one.weight for one in records]))
 
 
 def container_record(container: Container) -> ContainerRecord:

@@ -82,6 +82,8 @@ function items(studio) {
     { id: "order", group: "Items", label: "Put them in an order …", keys: ["O"], when: orders, run: () => studio.ordering.open() },
     { id: "like", group: "Items", label: "Like beside like, by a table of vectors …", keys: ["L"], when: orders, run: () => studio.ordering.chooseVectors() },
     { id: "like-by-text", group: "Items", label: "Words that stand together in the text beside each other", keys: ["Shift+L"], when: () => studio.collage.items.some((item) => item.is_word), run: () => studio.ordering.byText() },
+    { id: "group", group: "Items", label: "Group: they keep their places to each other", keys: ["Mod+G"], icon: "group", when: () => choice.ids.size > 1 && kindOf(studio.collage).groups, run: () => studio.group(true) },
+    { id: "ungroup", group: "Items", label: "Ungroup", keys: ["Mod+Shift+G"], icon: "ungroup", when: () => studio.groups.length > 0, run: () => studio.group(false) },
     { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
     { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when: sizes, run: () => studio.resize(LARGER) },

@@ -10,7 +10,7 @@ const LEFT = ["undo", "redo", "pour"];
 /** Buttons whose drawing alone would be a riddle. */
 const LABELLED = new Set(["pour"]);
 const RIGHT = ["farther", "closer", "fit", "faults", "theme", "keys"];
-const CHOSEN = ["inspect", "hold", "release", "duplicate", "crop", "replace", "exchange", "remove"];
+const CHOSEN = ["inspect", "hold", "release", "duplicate", "crop", "replace", "group", "ungroup", "exchange", "remove"];
 
 export class Bar {
   /**

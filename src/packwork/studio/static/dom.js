@@ -16,6 +16,8 @@ const ICONS = {
   bin: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
   swap: "M7 4 3 8l4 4M3 8h14M17 12l4 4-4 4M21 16H7",
   replace: "M4 4h8v8H4zM20 12v8h-8M20 4l-5 5M15 5v4h4",
+  group: "M3 7V3h4M17 3h4v4M21 17v4h-4M7 21H3v-4M7 7h6v6H7zM13 11h4v6h-6v-4",
+  ungroup: "M4 4h7v7H4zM13 13h7v7h-7zM15 4h5v5M9 20H4v-5",
   layers: "M4 9a5 5 0 1 0 10 0 5 5 0 1 0-10 0M10 15a5 5 0 1 0 10 0 5 5 0 1 0-10 0",
   shape: "M12 4 20 10l-3 10H7L4 10z",
   left: "M4 4v16M8 7h12v3H8zM8 14h7v3H8z",

@@ -163,7 +163,7 @@ export class ItemList {
     less.disabled = collage.items.length < 2;
     const held = group.some((one) => one.held.some(Boolean));
     return h("li", {},
-      this.chooser(ids, [thumbOf(collage.look(first)), h("span", { class: "name" }, first.name), held && icon("pin")]),
+      this.chooser(ids, [thumbOf(collage.look(first)), h("span", { class: "name" }, first.name), first.parts > 0 && icon("group"), held && icon("pin")]),
       group.length > 1 && button("down", `Each ${first.name}`, () => this.unfold(group), { class: "each", "aria-expanded": String(this.isUnfolded(group)), "data-key": keyOf(first) }),
       grows && h("span", { class: "stepper", role: "group", "aria-label": `${group.length} ${first.name}` }, less, h("span", {}, String(group.length)), more));
   }

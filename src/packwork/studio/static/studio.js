@@ -361,6 +361,17 @@ export class Studio {
     this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "duplicate", item }))));
   }
 
+  /** Groups among what is chosen. */
+  get groups() {
+    return [...this.choice.ids].filter((id) => this.collage.item(id)?.parts);
+  }
+
+  /** Make one item of what is chosen, or take groups apart. @param {boolean} isJoined */
+  group(isJoined) {
+    this.choice.expect(this.collage.rows);
+    this.connection.do(isJoined ? { kind: "group", items: [...this.choice.ids] } : { kind: "ungroup", items: this.groups });
+  }
+
   /** @param {"horizontal" | "vertical"} direction */
   flip(direction) {
     this.connection.do({ kind: "flip", items: [...this.choice.ids], direction });

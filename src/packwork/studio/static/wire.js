@@ -19,7 +19,7 @@
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{kind: "crop", item: number, zoom: number, x?: number, y?: number}} CropPhoto
  * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} DrawnNote
  * @typedef {{kind: "drop"}} Drop
@@ -29,6 +29,7 @@
  * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null), without?: string[]}} Fill
  * @typedef {{kind: "flip", items: number[], direction?: ("horizontal" | "vertical")}} Flip
  * @typedef {{kind: "grab", items: number[]}} Grab
+ * @typedef {{kind: "group", items: number[]}} Group
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", n: number, to: ("undo" | "redo")}} LeapMessage
  * @typedef {{kind: "leave_out", words: any}} LeaveOut
@@ -62,10 +63,11 @@
  * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: any, can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, clip: string, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
- * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null)}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer)[]}} Together
+ * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null), parts: number}} Thing
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
+ * @typedef {{kind: "ungroup", items: number[]}} Ungroup
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
  * @typedef {{type: "words", words: [string, number][], font?: (string | null)}} Words
