@@ -151,8 +151,7 @@ class LocalSolver:
             marks.recent.clear()
         marks.recent |= set(numbers[moved | turned].tolist())
         new = np.flatnonzero(changed & ~np.isin(numbers, list(marks.touched)))
-        if len(new):
-            marks.vacated |= set(numbers[flow.contacts.rings(new, RINGS) >= 0].tolist())
+        marks.vacated |= set(numbers[flow.contacts.rings(new, RINGS) >= 0].tolist())
         marks.touched |= set(numbers[changed].tolist())
         flow.set_rules(after, self._strict(after))
         kept = marks.placed_by_user | set(numbers[changed].tolist()) | set(self.grabbed)
@@ -181,8 +180,7 @@ class LocalSolver:
         if self.document.options.force and self.document is not self.base and not stop():
             self._turn_to(fallen(self.document, self.shapes, stop, self._fell))
         is_over, is_wrong = stop() or not self.marks.touched, bool(self.violations)
-        back = None if is_over else taken_back(self.base, self.document, is_wrong=is_wrong)
-        if back is not None:
+        if back := None if is_over else taken_back(self.base, self.document, is_wrong=is_wrong):
             self.news = (back.message,)
             self._turn_to(back.document)
         moved = differing(before.poses, self.document.poses)
@@ -224,12 +222,12 @@ class LocalSolver:
         return bool(self.marks.unpolished) and not is_busy
 
     def polish(self, trials: int, stop: Stop) -> int | None:
-        """Try turns of what was touched; how many items have moved, None where none was tried."""
+        """Try turns of what was touched and those around it; how many have moved, or None."""
         marks, before = self.marks, self.document
         if trials < 1 or not self.is_rough:
             return None
-        # What was put somewhere last stays there; what was turned before keeps its angle.
         self._flow.begin(self._strict(before))
+        # What was put somewhere last stays there.
         around = self._flow.contacts.rings(self._rows(marks.unpolished), RINGS) >= 0
         rows = np.setdiff1d(np.flatnonzero(around), self._rows(marks.recent))
         held = before.held.copy()
@@ -307,9 +305,8 @@ class LocalSolver:
             self._turn_to(now.with_poses(poses))
             return True
         placed = np.isin(now.ids, list(by_hand))
-        clear = ~np.isin(
-            now.ids, [k for one in wrong for k in (one.item, one.other) if k is not None]
-        )
+        met = [k for one in wrong for k in (one.item, one.other) if k is not None]
+        clear = ~np.isin(now.ids, met)
         for start, still, near in ways_apart(now, poses, placed, clear):
             found = separated(now.with_poses(start), still, stop, near)
             if found is not None and not self._certificate.in_the_way(now.with_poses(found)):
@@ -359,8 +356,7 @@ class LocalSolver:
     def _refill(self, asked: Document, stop: Stop) -> bool:
         """Pour a cloud anew that a gesture, new words or weights have left emptier; if it was."""
         by_hand = self._rows(self.marks.placed_by_user | self.marks.turned)
-        found = None if stop() else refilled(self.base, asked, self.document, by_hand, stop)
-        if found is not None:
+        if found := None if stop() else refilled(self.base, asked, self.document, by_hand, stop):
             self.news = (found.message,)
             self._turn_to(found.document)
         return found is not None

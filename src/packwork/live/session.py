@@ -148,7 +148,6 @@ class Session:
         document, layout = self.document, self.document.layout
         kept = {k: v for k, v in layout.manifest.items() if k not in OF_PLACES}
         stated = {"promised": asdict(promise_of(document)), "certified": self.is_certified}
-        # What was asked of the run is not what holds now.
         manifest = {**kept, **stated, "edited": document.options.model_dump()}
         return replace(layout, manifest=manifest, track=self._solver.track)
 
@@ -287,12 +286,10 @@ class Session:
     def polish(self, trials: int, stop: Stop = never) -> int:
         """Win back coverage where gestures have cost some; the number of items that have moved.
 
-        By at most so many trials, 10,000 in one call, of 2 ms each, of turns of the items there.
-        None while something is grabbed or not settled, or once ``stop`` is true, which leaves all
-        as it was. The layout is as certified after it as before.
+        By at most so many trials, 10,000 in one call, of 2 ms each, of turns of the items there;
+        none unless :attr:`is_rough`, or once ``stop`` is true, which leaves all as it was.
         """
-        trials = min(trials, MOST_TRIALS)
-        moved = self._solver.polish(trials, stop)
+        moved = self._solver.polish(trials := min(trials, MOST_TRIALS), stop)
         if moved is None:
             return 0
         self.log.note("polish", trials)
