@@ -54,6 +54,8 @@ BAD: dict[str, list[Any]] = {
     "tint": [-0.1, 1.1, NAN, "much"],
     "detail": [-0.1, 1.1, NAN, "fine"],
     "ground": [3, "mauvish", "#ff000080"],
+    "grid": [3, "perhaps"],
+    "repeats": [0, -1, 2.5, "often"],
     "keep_clear": [3],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
     "canvas": [0, -600, NAN, INF, 1e7, "wide", "0x5mm", "5parsec", "-3in", "1e99mm", [200, 150]],

@@ -488,6 +488,13 @@ class PhotosKeywords(
 ):
     """Options of :func:`packwork.photos`."""
 
+    grid: bool
+    """Lay photos as squares in rows, -n of them (1,500 unless given), each where its colours and
+    its structure show --picture best. They repeat, and keep apart. Default: False."""
+
+    repeats: int | None
+    """With --grid: how often one photo may be used. Default: twice as often as it takes."""
+
     shape: Value | None
     """Cut photos to a shape: rounded, rounded:20% (radius as a share of the shorter side), or
     whatever can be a container, such as circle, heart or a mask. Default: none."""

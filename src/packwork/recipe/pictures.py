@@ -42,6 +42,15 @@ class MosaicOptions(Options):
     """Colour of the gaps, which the colours of --picture make up for. Default: that of
     --background, else the one that shows the picture best, which then is the background."""
 
+    grid: Annotated[bool, Offer(verbs=Verbs.PHOTOS, after="ground")] = False
+    """Lay photos as squares in rows, -n of them (1,500 unless given), each where its colours and
+    its structure show --picture best. They repeat, and keep apart."""
+
+    repeats: Annotated[
+        Annotated[int, Field(ge=1)] | None, Offer(verbs=Verbs.PHOTOS, after="grid")
+    ] = None
+    """With --grid: how often one photo may be used. Default: twice as often as it takes."""
+
     @field_validator("ground")
     @classmethod
     def _is_a_colour(cls, value: str | None) -> str | None:
@@ -55,9 +64,11 @@ class MosaicOptions(Options):
 
     @model_validator(mode="after")
     def _of_a_picture(self) -> MosaicOptions:
-        for key in ("tint", "detail", "ground"):
-            if self.picture is None and getattr(self, key) is not None:
+        for key in ("tint", "detail", "ground", "grid", "repeats"):
+            if self.picture is None and getattr(self, key) not in {None, False}:
                 raise RecipeError(key, "is of --picture; say which picture is shown")
+        if self.repeats is not None and not self.grid:
+            raise RecipeError("repeats", "is of --grid; photos that lie freely are repeated by -n")
         return self
 
 

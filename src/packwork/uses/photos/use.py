@@ -56,4 +56,9 @@ def starts_tried(job: Job) -> tuple[str, ...]:
 
 def read_collage(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None) -> Material:
     """Photographs of a recipe, and the items among them."""
+    if recipe.grid:
+        # Only what is asked for is loaded.
+        from packwork.uses.photos.grid import read_grid
+
+        return read_grid(recipe, room, given)
     return material_of(PhotosUse(crops(recipe)), recipe, room, given)

@@ -1,0 +1,112 @@
+"""Mosaics on a grid: places, repeats, what is shown."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.steps.lay_grid import APART, grid_in
+
+
+@pytest.fixture(scope="module")
+def album(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Forty photographs, from dark to bright, half of them dark above and bright below."""
+    folder = tmp_path_factory.mktemp("album")
+    rng = np.random.default_rng(0)
+    for k in range(40):
+        pixels = np.full((48, 64, 3), 255 * (k // 2 + 0.5) / 20)
+        if k % 2:
+            pixels[:24] *= 0.6
+        pixels += rng.normal(0, 4, pixels.shape)
+        name = folder / f"p{k:02}.png"
+        Image.fromarray(np.clip(pixels, 0, 255).astype(np.uint8)).save(name)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def ramp() -> np.ndarray:
+    """From dark at the left to bright at the right, a dark line across the middle."""
+    picture = np.tile(np.linspace(0, 1, 120), (120, 1))
+    picture[57:63] = 0
+    return np.repeat(picture[..., None], 3, axis=2)
+
+
+def names(layout: pw.Layout) -> Counter[str]:
+    return Counter(item.name for item in layout.items)
+
+
+def test_tiles_fill_a_sheet_and_are_certified(album: Path, ramp: np.ndarray) -> None:
+    layout = pw.photos("square", album, picture=ramp, grid=True, count=100)
+    assert len(layout.items) == 100
+    assert layout.certified
+    assert layout.metrics["exact"]["LC"] > 0.99
+    assert max(names(layout).values()) <= 5
+
+
+def test_repeats_are_bounded_and_apart(album: Path, ramp: np.ndarray) -> None:
+    layout = pw.photos("square", album, picture=ramp, grid=True, count=100, repeats=4)
+    assert max(names(layout).values()) <= 4
+    places = np.column_stack([layout.poses.x, layout.poses.y])
+    side = places[:, 0].max() - places[:, 0].min()
+    for name in names(layout):
+        own = places[[item.name == name for item in layout.items]]
+        away = np.abs(own[:, None] - own[None]).max(axis=2) + 1e9 * np.eye(len(own))
+        assert away.min() > (APART + 0.5) * side / 9
+
+
+def test_what_is_dark_lies_where_the_picture_is(album: Path, ramp: np.ndarray) -> None:
+    layout = pw.photos("square", album, picture=ramp, grid=True, count=100)
+    brightness = [int(item.name[1:]) for item in layout.items]
+    middle = np.median(layout.poses.y)
+    aside = np.abs(layout.poses.y - middle) > 0.12 * layout.container.height
+    assert np.corrcoef(np.array(brightness)[aside], layout.poses.x[aside])[0, 1] > 0.8
+
+
+def test_too_few_repeats_are_refused(album: Path, ramp: np.ndarray) -> None:
+    with pytest.raises(RecipeError, match="repeats: 40 photos make 80 tiles at most, not 100"):
+        pw.photos("square", album, picture=ramp, grid=True, count=100, repeats=2)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"grid": True}, "grid: is of picture"),
+        ({"repeats": 2}, "repeats: is of picture"),
+        ({"repeats": 2, "picture": "a"}, "repeats: is of grid"),
+    ],
+)
+def test_options_that_have_no_meaning_are_refused(
+    album: Path, ramp: np.ndarray, options: dict[str, object], told: str
+) -> None:
+    if "picture" in options:
+        options = {**options, "picture": ramp}
+    with pytest.raises(RecipeError, match=told):
+        pw.photos("square", album, **options)  # type: ignore[arg-type]
+
+
+def test_cells_lie_in_the_container() -> None:
+    disc = Outline.from_rings(
+        [
+            np.column_stack([50 + 50 * np.cos(t), 50 + 50 * np.sin(t)])
+            for t in [np.linspace(0, 6.28, 90)]
+        ]
+    )
+    grid = grid_in(disc, 200)
+    assert 150 < len(grid.cells) <= 200
+    corners = grid.centres[:, None] + grid.side / 2 * np.array([[-1, -1], [1, 1], [-1, 1], [1, -1]])
+    assert np.hypot(*(corners - 50).reshape(-1, 2).T).max() < 50.01
+
+
+def test_padding_is_kept(album: Path, ramp: np.ndarray) -> None:
+    layout = pw.photos(
+        "square", album, picture=ramp, grid=True, count=64, padding="1%", canvas="100mm"
+    )
+    assert layout.certified
+    assert layout.metrics["exact"]["min_gap"] >= 1.0
