@@ -429,6 +429,14 @@ class WordsKeywords(
     """merge: English plurals count as their singular, if that stands in the text too. Default:
     'merge'."""
 
+    along: Literal["limbs", "edge"] | None
+    """Words follow curves, and are set again until these are full; the heaviest are a cloud in what
+    is left. limbs: the middle of what is long and thin of the container; edge: its edge."""
+
+    ring: list[str] | tuple[str, ...]
+    """Text that follows the edge at the top of the container, as on a badge; a second one at its
+    bottom. The words lie inside."""
+
     photos: Mapping[str, Any] | None
     """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
 

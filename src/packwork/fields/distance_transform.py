@@ -14,6 +14,7 @@ along the medial axis of a snake they rise from head to tail.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TypeAlias
 
 import numpy as np
@@ -106,6 +107,38 @@ def lengthwise(mask: BoolArray) -> FloatArray:
         found[inside] = before + away
         before += float(away.max()) + 1.0
     return found
+
+
+def longest_paths(mask: BoolArray, least: float) -> Iterator[IntArray]:
+    """``(n, 2)`` columns and rows of pixels along the longest shortest path, then of what is left.
+
+    Those of ``least`` pixels and more; of loops the halves.
+
+    >>> mask = np.array([[True, True, True], [False, False, True], [True, False, True]])
+    >>> [path.tolist() for path in longest_paths(mask, 2)]
+    [[[0, 0], [1, 0], [2, 1], [2, 2]]]
+    """
+    from scipy.ndimage import find_objects, label
+    from scipy.sparse.csgraph import dijkstra
+
+    parts, _ = label(mask, np.ones((3, 3)))
+    for part, window in enumerate(find_objects(parts), start=1):
+        inside = parts[window] == part
+        if np.count_nonzero(inside) < least:
+            continue
+        graph = _graph(inside)
+        first = int(np.argmax(dijkstra(graph, directed=False, indices=0)))
+        away, before = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
+        path = [int(np.argmax(away))]
+        while path[-1] != first:
+            path.append(int(before[path[-1]]))
+        if len(path) < least:
+            continue
+        rows, columns = (found[path] for found in np.nonzero(inside))
+        inside[rows, columns] = False
+        corner = window[1].start, window[0].start
+        yield np.column_stack([columns, rows]) + corner
+        yield from (left + corner for left in longest_paths(inside, least))
 
 
 def _graph(inside: BoolArray):  # type: ignore[no-untyped-def] # of a library without types

@@ -10,7 +10,9 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.fonts import FONT_ENDINGS, MOST_FACES, installed_families
+from packwork.geometry.curves import Curve
 from packwork.readers.files import exists, read_bytes
+from packwork.readers.fonts.bent import bent_lettering
 from packwork.readers.fonts.face import MAX_FONT_BYTES, UNKNOWN_LANGUAGE, Typeface, bundled_typeface
 from packwork.readers.fonts.itemise import Piece, clusters, itemised
 from packwork.readers.fonts.lettering import Lettering, TypeSetting, lettering_of
@@ -44,6 +46,11 @@ class Fonts:
         True
         """
         return lettering_of(self.settings(lines), self._language)
+
+    def bent(self, line: str, curve: Curve, start: float, end: float) -> Lettering:
+        """Line along a curve, in ems, from one arc length to another."""
+        [setting] = self.settings([line])
+        return bent_lettering(setting, curve, start, end, self._language)
 
     def settings(self, lines: Sequence[str]) -> list[list[TypeSetting]]:
         """Pieces of lines, each with the font that draws it: the first that has all characters.

@@ -148,7 +148,7 @@ def lettering_of(
     (2, 'M')
     """
     units = lines[0][0].face.units
-    shaped = [_line(line, k, units, language) for k, line in enumerate(lines)]
+    shaped = [line_of_runs(line, k, units, language) for k, line in enumerate(lines)]
     runs = [run for line in shaped for run in line]
     pictures = tuple(picture for run in runs for picture in run.pictures())
     faces = list(dict.fromkeys(run.face for run in runs))
@@ -173,22 +173,22 @@ def _drawn_by(
     face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...]
 ) -> _DrawnWord:
     """Glyphs of one font, each run with the place where it begins: words recur as letters do."""
-    return _drawn([_GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], ())
+    return _drawn([GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], ())
 
 
-def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _DrawnWord:
+def _drawn(runs: Sequence[GlyphRun], pictures: Sequence[GlyphPicture]) -> _DrawnWord:
     boxes = [box for run in runs for box in run.boxes()]
     if not boxes and not pictures:
         raise UnfitError("has no outlines to draw it with")
     # The first run is in its font's own units.
     size = 1 / runs[0].face.units
-    covered = _covered(runs, pictures, _tolerance(boxes), size)
+    covered = _covered(runs, pictures, tolerance_of(boxes), size)
     curves = [(*one, run.scale) for run in runs for one in run.curves()]
     return _DrawnWord(covered, Curves(tuple(curves)))
 
 
 def _covered(
-    runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
+    runs: Sequence[GlyphRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
 ) -> ClearInk | Region:
     """Region of glyphs and pictures ``size`` times as large; curves followed to ``tolerance``."""
     glyphs = [glyph for run in runs for glyph in run.inks(tolerance)]
@@ -206,7 +206,7 @@ def _covered(
 
 
 @dataclass(frozen=True)
-class _GlyphRun:
+class GlyphRun:
     """Glyphs of one font at their place, in the word's units."""
 
     face: Typeface
@@ -232,6 +232,7 @@ class _GlyphRun:
         return [self._place(glyph) for glyph in self.glyphs]
 
     def pictures(self) -> list[GlyphPicture]:
+        """Those of its glyphs that are pictures."""
         face = self.face
         found = []
         for glyph in self.glyphs if face.has_pictures else ():
@@ -251,7 +252,7 @@ class _GlyphRun:
 
 
 @dataclass(frozen=True)
-class _FontRun(_GlyphRun):
+class _FontRun(GlyphRun):
     """A run of glyphs with the text that it is."""
 
     piece: Piece
@@ -272,7 +273,9 @@ class _FontRun(_GlyphRun):
         )
 
 
-def _line(line: Sequence[TypeSetting], number: int, units: float, language: str) -> list[_FontRun]:
+def line_of_runs(
+    line: Sequence[TypeSetting], number: int, units: float, language: str
+) -> list[_FontRun]:
     """Runs of one line beside each other, centred about 0 by what they draw."""
     runs: dict[int, _FontRun] = {}
     x = 0.0
@@ -287,7 +290,7 @@ def _line(line: Sequence[TypeSetting], number: int, units: float, language: str)
     return [replace(runs[k], x=runs[k].x - middle) for k in range(len(line))]
 
 
-def _tolerance(boxes: Sequence[FloatArray]) -> float:
+def tolerance_of(boxes: Sequence[FloatArray]) -> float:
     """Largest distance of chords from curves, in the word's units."""
     if not boxes:
         return 1.0

@@ -14,6 +14,7 @@ from shapely import affinity
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
+from packwork.geometry.curves import Curve
 from packwork.geometry.distance import CLEFT
 from packwork.geometry.outline import Outline, centre_of_area
 from packwork.readers.fonts.fallback import Fonts, open_fonts
@@ -86,7 +87,7 @@ def read_word_items(
     >>> [item.name for item in read.items], list(read.undrawn.values())
     (['bear'], ['has 200 characters; the most is 100'])
     """
-    fonts = open_fonts(options.fonts, options.font_weight, _one_language(options.language))
+    fonts = word_fonts(options)
     holes = "keep" if options.nest else holes
     items: list[Item] = []
     words: list[Word] = []
@@ -128,6 +129,11 @@ def _values(words: Sequence[Word]) -> dict[str, tuple[str, ...]]:
     }
 
 
+def word_fonts(options: WordOptions) -> Fonts:
+    """Fonts that words are set in."""
+    return open_fonts(options.fonts, options.font_weight, _one_language(options.language))
+
+
 def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
     """One word as an item: named after it, with a tooltip that tells its weight.
 
@@ -156,7 +162,7 @@ class ShapedWord:
     def item(self) -> Item:
         """The word as an item: named after it, with a tooltip that tells its weight."""
         drawn, text = self.drawn, None
-        if not drawn.pictures:
+        if drawn.runs and not drawn.pictures:
             text = LiveText(drawn.runs, drawn.path, self.language)
         label = Label(name=self.name, title=f"{self.name}: {self.word.weight:.6g}")
         art = _art(drawn, self.place)
@@ -177,8 +183,26 @@ def shaped_word(word: Word, fonts: Fonts, holes: Holes = "fill") -> ShapedWord:
     lines = lines_of(word.text)
     if not lines:
         raise UnfitError("has no letters")
-    drawn = fonts.lettering(lines)
-    name = " ".join(lines)
+    return _shaped(word, fonts.lettering(lines), fonts, holes)
+
+
+def bent_word(
+    word: Word, fonts: Fonts, curve: Curve, start: float, end: float, holes: Holes = "fill"
+) -> ShapedWord:
+    """One word on one line along a curve, in ems, from one arc length to another.
+
+    Examples
+    --------
+    >>> arc = Curve(np.array([[0.0, 1.0], [0.3, 0.3], [1.0, 0.0], [1.7, 0.3], [2.0, 1.0]]))
+    >>> word = bent_word(Word("oo", 2.0), open_fonts([]), arc, 0.5, 2.5)
+    >>> len(word.outline.rings), bool(word.outline.bounds[3] > 30)
+    (2, True)
+    """
+    return _shaped(word, fonts.bent(" ".join(lines_of(word.text)), curve, start, end), fonts, holes)
+
+
+def _shaped(word: Word, drawn: Lettering, fonts: Fonts, holes: Holes) -> ShapedWord:
+    name = " ".join(lines_of(word.text))
     with reading_file(name):
         outline, ink, place = _placed(drawn, holes)
     return ShapedWord(word, name, drawn, outline, ink, place, fonts.language)

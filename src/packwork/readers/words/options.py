@@ -62,6 +62,8 @@ def sound(text: str) -> str:
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
 
+Along: TypeAlias = Literal["limbs", "edge"]
+
 ColourOf: TypeAlias = Callable[[Word], str | None]
 """Any CSS colour of a word, by its ``text``, ``weight`` and ``columns``; None leaves the
 palette's first."""
@@ -75,6 +77,10 @@ MOST_BY_DEFAULT = 100
 
 
 _TYPE = Offer(group=Group.TYPE)
+
+
+def _one_is_a_tuple(texts: Any) -> Any:
+    return (texts,) if isinstance(texts, str) else texts
 
 
 def _path_text(font: Any) -> Any:
@@ -169,6 +175,14 @@ class WordOptions(Options):
 
     repeat: Annotated[Literal["none", "auto"], _TYPE] = "none"
     """auto: words are set again, smaller and grey, where nothing else finds a place."""
+
+    along: Along | None = None
+    """Words follow curves, and are set again until these are full; the heaviest are a cloud in what
+    is left. limbs: the middle of what is long and thin of the container; edge: its edge."""
+
+    ring: Annotated[tuple[str, ...], Field(max_length=2), BeforeValidator(_one_is_a_tuple)] = ()
+    """Text that follows the edge at the top of the container, as on a badge; a second one at its
+    bottom. The words lie inside."""
 
     color_by: Annotated[str | ColourOf | None, _TYPE] = None
     """weight (the palette from small to large), a column of the table, or a picture under

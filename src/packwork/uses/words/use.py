@@ -34,6 +34,7 @@ from packwork.steps.track import StartRecording
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer
 from packwork.uses.photos.crop import crops
+from packwork.uses.words.along import RoundTheEdge, SetAlong
 from packwork.uses.words.colours import check_colours, word_colours
 from packwork.uses.words.copies import (
     cast_words,
@@ -100,6 +101,13 @@ class WordsUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """Sizes in proportion; where they leave the container bare, sizes that give way in turn."""
+        if self.options.along is not None or self.options.ring:
+            recording = [StartRecording()] if job.is_recorded else []
+            placed = self._on_curves(job)
+            if self.options.ring:
+                placed = [RoundTheEdge(self.options.ring, self._on_curves)]
+            found = [*recording, *self._filled(job), *self.report(job)]
+            return [Replan(sizes="graded"), *placed, *found]
         graded = [Replan(sizes="graded"), *_closer(job, self._graded)]
         if job.plan.sizes == "graded" and (job.recipe.sizes != AUTO or can_give_way(job)):
             return graded
@@ -153,12 +161,21 @@ class WordsUse(Use):
 
     def _graded(self, job: Job) -> list[RunStep]:
         """Words each as large as it finds a place in its turn, measured."""
+        return [*self._graded_places(job), *self._filled(job), *self.report(job)]
+
+    def _on_curves(self, job: Job) -> list[RunStep]:
+        """Words along limbs or the edge where that is asked, else as large as they find a place."""
+        if self.options.along is None:
+            return self._graded_places(job)
+        return [SetAlong(self.options.along, self.letters, self._graded_places)]
+
+    def _graded_places(self, job: Job) -> list[RunStep]:
+        """The same before they are measured."""
         bounds: list[RunStep] = []
         if self.letters.largest is not None:
             bounds.append(LettersAtMost(self.letters.largest))
         places = GradedPlaces(self.letters)
-        placed = placing(job, suits_first_fit=True, bounds=bounds, place=places)
-        return [*placed, *self._filled(job), *self.report(job)]
+        return placing(job, suits_first_fit=True, bounds=bounds, place=places)
 
     def _filled(self, job: Job) -> list[RunStep]:
         """Copies in voids, and words set again in what is left."""
@@ -309,7 +326,8 @@ class ReportWords(RunStep):
             Unplaced(word[:40], index, reason)
             for index, (word, reason) in enumerate(use.read.undrawn.items(), start=state.placed)
         )
-        asked = len(use.read.items) + len(use.read.undrawn)
+        # Words along limbs may be set again and again.
+        asked = len({word.text for word in use.read.words}) + len(use.read.undrawn)
         words = WordsFound(use.read.found, asked, use.of_true(layout))
         return replace(state, unplaced=(*state.unplaced, *undrawn), words=words)
 
@@ -326,7 +344,8 @@ class RemarkWords(RunStep):
         if words := use.read.stopped:
             many = number_of(len(words), "function word is", "function words are")
             state = state.with_finding(Sentence.STOPWORDS, many=many, names=enumerated(words))
-        if use.gives_way and job.recipe.sizes == AUTO:
+        follows = use.options.along is not None or use.options.ring
+        if use.gives_way and job.recipe.sizes == AUTO and not follows:
             is_thin = found_sizes(job.recipe, job.container) == "graded"
             why = Sentence.THIN if is_thin else Sentence.LEFT_BARE
             state = state.with_finding(Sentence.GIVES_WAY, why=why.of())

@@ -1,0 +1,388 @@
+"""Words along the limbs of a container, and an ordinary cloud in what is wide of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, final
+
+import numpy as np
+from shapely.geometry import Polygon
+
+from packwork.arrays import FloatArray
+from packwork.compaction.options import HAIR
+from packwork.errors import RecipeError
+from packwork.geometry import affine
+from packwork.geometry.curves import Curve
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import Region, buffered, difference, union, valid
+from packwork.metrics.violations import violations
+from packwork.phrasing import number_of
+from packwork.pipeline.findings import Sentence
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.copies import ItemRules
+from packwork.pipeline.run import RunContext, RunStep, run_steps
+from packwork.pipeline.state import RunState
+from packwork.progress import Stop
+from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.regions import Holes
+from packwork.readers.words.items import EM_PX, WordsRead, bent_word, word_fonts
+from packwork.readers.words.options import Along, Word, lines_of
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.pose import Poses
+from packwork.start.lanes import FILLED, Lanes, Setting, WordShape
+from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
+from packwork.uses.words.copies import words_of
+from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way
+from packwork.uses.words.sizes import Letters, without
+
+if TYPE_CHECKING:
+    from packwork.uses.words.use import WordsUse
+
+CAPITAL = 0.73
+"""Height of a capital, ems: words of low letters are set no larger than others. Of the bundled
+font."""
+
+LARGEST, FINER = 3.0, 0.97
+"""Size that the heaviest word may ask for, over the width of the widest limb, so that later ones
+take all of it too; and the factor between sizes that are tried. Chosen."""
+
+WIDE = 0.05
+"""Share of a container that is a cloud of its own where it is no limb. Smaller puts words into
+joints and tips. Chosen."""
+
+LARGER_PART = 0.4
+"""Share of words in such a cloud from which it has the heaviest, and the limbs have the others;
+else it has the lightest. Chosen."""
+
+BAND = 0.09
+"""Width of the band along the edge, over the side of a square of the container's area. By eye."""
+
+RING, MOST_ROUND = 0.13, 0.42
+"""The same of rings of text at most, and the share of the edge that one of two texts takes at most.
+Larger leaves the words inside less room, smaller is read from less far. By eye."""
+
+SHRUNK, MOST_SHRUNK, SLACK = 0.95, 12, 0.9
+"""Factor on words that come too near to others or to the edge, how often it is tried, and how much
+of it words of the least size have room for. Chosen."""
+
+
+@final
+class SetAlong(RunStep):
+    """Words along limbs, set again until these are full, and a cloud in what is wide.
+
+    Parameters
+    ----------
+    along
+        Whether limbs are those of the container, or bands along its edge.
+    cloud
+        Steps of an ordinary cloud.
+    """
+
+    share = 1.0
+
+    def __init__(
+        self, along: Along, letters: Letters, cloud: Callable[[Job], Sequence[RunStep]]
+    ) -> None:
+        self._along, self._letters, self._cloud = along, letters, cloud
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State of these words; what finds no place counts as not drawn."""
+        job, read = state.job, words_of(state.job).read
+        _check(job, "along")
+        gap = job.plan.gap + HAIR * job.container.side
+        with job.clock.time("start"):
+            limbs = [replace(one, half=one.half - gap / 2) for one in self._limbs(job.container)]
+            wide = _wide_part(job.container, limbs, gap)
+        clouded, poses, rows = list[Item](), list[Poses](), list[int]()
+        share = 0.0 if wide is None else wide.area / (wide.area + sum(one.area for one in limbs))
+        inside = round(share * len(read.items))
+        if wide is not None and inside:
+            # The heaviest lie where most room is.
+            heavy = range(inside) if share > LARGER_PART else range(len(read.items))[-inside:]
+            found = run_steps(*self._inside(job, heavy, wide), context)
+            clouded, poses = list(found.job.items), [found.poses]
+            rows = [read.items.index(item) for item in clouded]
+        with job.clock.time("start"):
+            rest = np.setdiff1d(np.arange(len(read.items)), rows)
+            heights = np.sqrt(job.weights / [item.outline.area for item in job.items])
+            least = max(self._letters.smallest or 0.0, LEGIBLE * job.container.side)
+            line = _LineOfWords.of([read.words[k] for k in rest], words_of(job), job.plan.holes)
+            lanes = line.set_along(limbs, heights[rest], least / SLACK, gap, self._letters.largest)
+            settings = _in_order(lanes.found)
+            bent = line.bent(settings, job.container, gap, context.stop)
+        large = np.flatnonzero(bent.poses.scale * EM_PX >= least)
+        rows += [int(rest[settings[k].word]) for k in large]
+        poses.append(bent.poses.subset(large))
+        return _joined(state, rows, (*clouded, *(bent.items[k] for k in large)), poses)
+
+    def _limbs(self, container: Container) -> list[Limb]:
+        """Limbs, one at least."""
+        width = BAND * math.sqrt(container.outline.area)
+        found = edges_of(container, width) if self._along == "edge" else limbs_of(container)
+        if not found:
+            raise RecipeError(
+                "along",
+                f"{container.source} has no limbs: no part of it is {SLENDER:g} times as long as "
+                "wide; use edge, or leave it out",
+            )
+        return found
+
+    def _inside(
+        self, job: Job, rows: Sequence[int], wide: Region
+    ) -> tuple[Sequence[RunStep], RunState]:
+        """Steps of a cloud of some words in a part of the container; its first state."""
+        use = words_of(job)
+        read = _subset(use.read, rows, [use.read.items[k] for k in rows])
+        part = replace(
+            job.subset(rows),
+            use=replace(use, read=read),
+            container=replace(job.container, outline=Outline.from_region(wide)),
+        )
+        return self._cloud(part), RunState.of(part)
+
+
+@final
+class RoundTheEdge(RunStep):
+    """Texts round the inside of a container's edge, top and bottom, and words within.
+
+    Parameters
+    ----------
+    texts
+        One or two.
+    words
+        Steps that place the words.
+    """
+
+    share = 1.0
+
+    def __init__(self, texts: Sequence[str], words: Callable[[Job], Sequence[RunStep]]) -> None:
+        self._texts, self._words = texts, words
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State of the words, and of the texts, which come last."""
+        job, use = state.job, words_of(state.job)
+        _check(job, "ring")
+        gap = job.plan.gap + HAIR * job.container.side
+        with job.clock.time("start"):
+            texts = [Word(text, 1.0) for text in self._texts]
+            line = _LineOfWords.of(texts, use, job.plan.holes)
+            width = RING * math.sqrt(job.container.outline.area)
+            band, size = self._band(line, job.container, width, gap)
+            bent = line.bent(self._settings(line, band, size), job.container, gap, context.stop)
+            inner = _wide_part(job.container, [band], gap)
+        if inner is None:
+            raise RecipeError("ring", f"leaves no room for words in {job.container.source}")
+        part = replace(job, container=replace(job.container, outline=Outline.from_region(inner)))
+        found = run_steps(self._words(part), RunState.of(part), context)
+        whole = replace(
+            found.job,
+            container=job.container,
+            items=(*found.job.items, *bent.items),
+            asked=(*found.job.asked, *[ItemRules()] * len(bent.items)),
+            weights=np.append(found.job.weights, [item.outline.area for item in bent.items]),
+        )
+        poses = found.poses.followed_by(bent.poses)
+        return replace(
+            RunState.of(whole), poses=poses, nominal=poses.scale, method="along", is_tight=True,
+            findings=found.findings, conflicts=found.conflicts,
+        )  # fmt: skip
+
+    def _band(
+        self, line: _LineOfWords, container: Container, width: float, gap: float
+    ) -> tuple[Limb, float]:
+        """Band along the edge, and the size at which all texts have room there."""
+        bands = edges_of(container, width)
+        if not bands:
+            raise RecipeError("ring", f"has no room in {container.source}, which is too thin")
+        size = FILLED * (width - gap) / max(shape.height for shape in line.shapes)
+        most = MOST_ROUND * (2 if len(line.shapes) == 1 else 1) * bands[0].axis.length
+        longest = max(shape.length for shape in line.shapes) * size
+        if longest > most:
+            return self._band(line, container, width * max(most / longest, 0.5), gap)
+        return replace(bands[0], half=bands[0].half - gap / 2), size
+
+    def _settings(self, line: _LineOfWords, band: Limb, size: float) -> list[Setting]:
+        """The first text round the top, a second one round the bottom, read from left to right."""
+        points = band.axis.points[:-1]
+        is_above = points[:, 1] < points[:, 1].mean()
+        away = np.where(is_above, np.abs(points[:, 0] - points[0, 0]), np.inf)
+        from_above = np.roll(points, -int(np.argmin(away)), axis=0)
+        found = list[Setting]()
+        for k, shape in enumerate(line.shapes):
+            # Round the bottom anticlockwise, from above to above.
+            ring = points if k == 0 else from_above[::-1]
+            curve = Curve(np.concatenate([ring, ring[:1]]))
+            middle = from_above[0] if k == 0 else points[0]
+            along = curve.lengths[int(np.argmin(np.hypot(*(curve.points - middle).T)))]
+            half = shape.length * size / 2
+            found.append(Setting(k, curve, float(along) - half, float(along) + half, size))
+        return found
+
+
+def _check(job: Job, key: str) -> None:
+    if key == "along" and len(job.use.words) < len(job.items):
+        raise RecipeError("along", "sets words alone; leave out what is mixed in with them")
+    if not can_give_way(job) or job.recipe.sizes == "shared":
+        raise RecipeError(
+            key,
+            "gives words the sizes that limbs have room for; leave out --sizes, --start, --force, "
+            "--arrange, --embeddings, --share, losses, levels, --stretch and what is asked of "
+            "single items",
+        )
+
+
+def _wide_part(container: Container, limbs: Sequence[Limb], gap: float) -> Region | None:
+    """What of a container is neither a limb nor half as thin as one; None where it is little."""
+    bands = union([_band(limb, gap) for limb in limbs])
+    thin = min(float(np.median(limb.half)) for limb in limbs) / 2
+    left = difference(container.outline.region, bands)
+    wide = buffered(buffered(left, -thin), thin)
+    return wide if wide.area > WIDE * container.outline.area else None
+
+
+def _band(limb: Limb, gap: float) -> Region:
+    """Region of a limb's words, and of half of the gap round them."""
+    right, left = (limb.axis.shifted(side * limb.half).points for side in (1.0, -1.0))
+    return buffered(valid(Polygon(np.concatenate([right, left[::-1]]))), gap / 2)
+
+
+def _in_order(found: Sequence[Setting]) -> list[Setting]:
+    """Words in the order of their weights, the largest of each, then those set again."""
+    by_size = sorted(found, key=lambda one: (one.word, -one.size))
+    pairs = zip(by_size, [None, *by_size], strict=False)
+    firsts = [one for one, before in pairs if before is None or before.word != one.word]
+    return [*firsts, *(one for one in by_size if one not in set(firsts))]
+
+
+def _subset(read: WordsRead, rows: Sequence[int], items: Sequence[Item]) -> WordsRead:
+    """Some words, in any order, as other items."""
+    return replace(
+        read,
+        items=tuple(items),
+        areas=read.areas[list(rows)],
+        words=tuple(read.words[k] for k in rows),
+    )
+
+
+def _joined(
+    state: RunState,
+    rows: Sequence[int],
+    items: Sequence[Item],
+    poses: Sequence[Poses],
+) -> RunState:
+    """State of words in place, each with what was asked of the one that it is."""
+    job, use = state.job, words_of(state.job)
+    kept = set(rows)
+    gone = [item for k, item in enumerate(use.read.items) if k not in kept]
+    undrawn = {item.name: Sentence.UNREADABLE_WORD.of() for item in gone}
+    read = _subset(use.read, rows, items)
+    placed = replace(
+        job.subset(rows),
+        items=tuple(items),
+        use=replace(use, read=replace(read, undrawn={**undrawn, **read.undrawn}), gives_way=True),
+        fillers=without(job.fillers, gone),
+    )
+    whole = poses[0]
+    for more in poses[1:]:
+        whole = whole.followed_by(more)
+    found = replace(
+        RunState.of(placed), poses=whole, nominal=whole.scale, method="along", is_tight=True,
+    )  # fmt: skip
+    if len(rows) == len(kept):
+        return found
+    return found.with_finding(
+        Sentence.SET_AGAIN, many=number_of(len(rows) - len(kept), "word is", "words are")
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Bent:
+    """Bent words in place."""
+
+    items: tuple[Item, ...]
+    poses: Poses
+
+
+@dataclass(frozen=True, eq=False)
+class _LineOfWords:
+    """Words that are to be set along limbs, the heaviest first, and the fonts that draw them."""
+
+    words: Sequence[Word]
+    shapes: Sequence[WordShape]
+    fonts: Fonts
+    holes: Holes
+
+    @classmethod
+    def of(cls, words: Sequence[Word], use: WordsUse, holes: Holes) -> _LineOfWords:
+        """Words in the fonts of a use."""
+        fonts, shapes = word_fonts(use.options), list[WordShape]()
+        for word in words:
+            region = fonts.lettering([" ".join(lines_of(word.text))]).region
+            left, top, right, bottom = region.bounds
+            shapes.append(WordShape(right - left, max(bottom - top, CAPITAL)))
+        return cls(words, shapes, fonts, "keep" if use.options.nest else holes)
+
+    def set_along(
+        self,
+        limbs: Sequence[Limb],
+        heights: FloatArray,
+        least: float,
+        gap: float,
+        largest: float | None,
+    ) -> Lanes:
+        """Setting that keeps most of the steps between heights with all words readable.
+
+        Of those, that of the largest sizes with which all words find a place.
+        """
+        most = LARGEST * 2 * float(np.median(limbs[0].half))
+        count = max(int(np.log(least / most) / np.log(FINER)), 1)
+        for share in NEARER:
+            own = np.cumprod(np.append(1.0, share * heights[1:] / heights[:-1] + 1 - share))
+
+            def lanes(step: int, own: FloatArray = own) -> Lanes:
+                found = Lanes(self.shapes, most * FINER**step * own, least, gap, largest)
+                for limb in limbs:
+                    found.fill(limb)
+                return found
+
+            low, high, best = -1, count, lanes(count)
+            while best.left == [] and high - low > 1:
+                middle = (low + high) // 2
+                tried = lanes(middle)
+                low, high, best = (middle, high, best) if tried.left else (low, middle, tried)
+            if not best.left:
+                break
+        return best
+
+    def bent(self, found: Sequence[Setting], container: Container, gap: float, stop: Stop) -> _Bent:
+        """Words on their lines, smaller where they come too near to each other or to the edge."""
+        pairs = [self._bent(one) for one in found]
+        items, rows = zip(*pairs, strict=True)
+        poses = Poses(*np.array(rows).T)
+        for _ in range(MOST_SHRUNK):
+            outlines = [item.outline.mapped(poses.matrix(k)) for k, item in enumerate(items)]
+            wrong = violations(outlines, container.outline, gap)
+            if not wrong or stop():
+                break
+            scale = poses.scale.copy()
+            scale[[k for one in wrong for k in (one.item, one.other) if k is not None]] *= SHRUNK
+            poses = replace(poses, scale=scale)
+        return _Bent(tuple(items), poses)
+
+    def _bent(self, one: Setting) -> tuple[Item, tuple[float, float, float, float]]:
+        """A word on its line, upright in its own frame, and its pose."""
+        middle, size = (one.start + one.end) / 2, one.size
+        angle = float(one.line.angle(middle, (one.end - one.start) / 4))
+        x, y = one.line.at(middle).tolist()
+        place = affine.similarity(x, y, angle, size)
+        ends = one.start - size, one.end + size
+        along = one.line.lengths[(one.line.lengths > ends[0]) & (one.line.lengths < ends[1])]
+        points = one.line.at(np.concatenate([ends[:1], along, ends[1:]]))
+        curve = Curve.through(affine.apply(affine.inverse(place), points))
+        length = (one.end - one.start) / size
+        word = bent_word(self.words[one.word], self.fonts, curve, 1.0, 1.0 + length, self.holes)
+        [(x, y)] = affine.apply(place, -word.place[:, 2][None] / EM_PX)
+        return word.item, (float(x), float(y), angle, size / EM_PX)

@@ -1,0 +1,102 @@
+"""Words along limbs and edges, and text round them: certified, readable, near everywhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.readers.layouts.svg import layout_of_svg
+from packwork.readers.words.items import EM_PX
+
+LICENCE = Path(pw.__file__).with_name("bundled") / "fonts" / "LICENCE-Inter.txt"
+SPIRAL = Path(pw.__file__).with_name("bundled") / "icons" / "spiral.svg"
+FEW = {"honey": 3.0, "bear": 2.0, "bee": 1.0}
+
+
+def points(layout: pw.Layout) -> np.ndarray:
+    """Font sizes on a sheet in millimetres."""
+    return np.asarray(layout.poses.scale * EM_PX / 25.4 * 72)
+
+
+@pytest.fixture(scope="module")
+def spiral() -> pw.Layout:
+    return pw.words(SPIRAL, LICENCE, along="limbs", smallest="6pt", canvas="210x297mm")
+
+
+def test_a_hundred_words_of_a_licence_can_be_read_in_a_spiral(spiral: pw.Layout) -> None:
+    assert spiral.manifest["certified"]
+    assert len({item.name for item in spiral.items}) == 100
+    assert points(spiral).min() >= 6
+
+
+def test_nine_tenths_of_the_limb_are_near_a_word(spiral: pw.Layout) -> None:
+    assert spiral.metrics["bare"] < 0.1
+
+
+def test_no_word_stands_on_its_head(spiral: pw.Layout) -> None:
+    assert np.cos(spiral.poses.angle).min() > -0.2
+
+
+def test_heavy_words_are_larger(spiral: pw.Layout) -> None:
+    sizes = points(spiral)
+    assert np.median(sizes[:10]) > 2 * np.median(sizes[-50:])
+
+
+def test_few_words_are_set_again_and_read_back(tmp_path: Path) -> None:
+    layout = pw.words("snake", FEW, along="limbs", effort="draft")
+    assert layout.manifest["certified"]
+    assert len(layout.items) > 6
+    assert len({item.name for item in layout.items}) == 3
+    layout.save(tmp_path / "snake.svg")
+    again = layout_of_svg((tmp_path / "snake.svg").read_bytes(), "snake.svg")
+    assert [item.name for item in again.items] == [item.name for item in layout.items]
+
+
+def test_what_is_wide_is_a_cloud() -> None:
+    layout = pw.words("guitar", {f"word{k}": 1 / (1 + k) for k in range(40)}, along="limbs")
+    is_upright = np.abs(layout.poses.angle) < 1e-9
+    assert layout.manifest["certified"]
+    assert is_upright.sum() > 10
+    assert (~is_upright).sum() > 5
+
+
+def test_words_along_an_edge_lie_all_round() -> None:
+    layout = pw.words("circle", {f"word{k}": 1 / (1 + k) for k in range(40)}, along="edge")
+    bent = np.abs(layout.poses.angle) > 1e-9
+    x, y = layout.poses.x[bent], layout.poses.y[bent]
+    middle = layout.container.width / 2
+    turns = np.sort(np.arctan2(y - middle, x - middle))
+    assert layout.manifest["certified"]
+    assert np.diff(turns).max() < 1.0
+
+
+def test_texts_run_round_the_top_and_the_bottom() -> None:
+    layout = pw.words("circle", FEW, ring=("HONEY CLUB", "SINCE 1974"))
+    top, bottom = layout.items[-2:]
+    assert (top.name, bottom.name) == ("HONEY CLUB", "SINCE 1974")
+    y = layout.poses.y[-2:] / layout.container.height
+    assert y[0] < 0.3
+    assert y[1] > 0.7
+    assert np.cos(layout.poses.angle[-2:]).min() > 0.99
+    assert layout.manifest["certified"]
+    assert layout.manifest["words"]["asked"] == 3
+
+
+@pytest.mark.parametrize(
+    ("container", "options", "message"),
+    [
+        ("circle", {"along": "limbs"}, "has no limbs"),
+        ("snake", {"along": "limbs", "sizes": "shared"}, "leave out --sizes"),
+        ("snake", {"along": "limbs", "add": ["star"]}, "sets words alone"),
+        (SPIRAL, {"ring": "ROUND"}, "ring"),
+    ],
+)
+def test_what_cannot_be_is_refused(
+    container: object, options: dict[str, object], message: str
+) -> None:
+    with pytest.raises(RecipeError, match=message):
+        pw.words(container, FEW, **options)  # type: ignore[arg-type]
