@@ -674,10 +674,13 @@ class FilmKeywords(TypedDict, total=False):
     """How long the items of a film move. Default: 5.0."""
 
     hold: float
-    """Seconds for which the last picture of a film stays after that. Default: 1.0."""
+    """Seconds for which the layout stays after that. Default: 1.0."""
 
     loop: bool
     """Whether a film begins again at its end; in MP4 and WebM the player decides. Default: True."""
+
+    back: bool
+    """A film goes back the way it came, so that it begins again without a jump. Default: False."""
 
     easing: Literal["smooth", "linear"]
     """smooth: items of a film set off and stop softly; linear: straight from one recorded place to

@@ -89,11 +89,20 @@ class Film:
     @cached_property
     def frames(self) -> FloatArray:
         """``(frames, n, 5)`` numbers of all items, frame by frame, eased as asked."""
+        forth, options = self._forth, self.options
+        if not options.back:
+            return forth
+        stays = np.repeat(forth[-1:], round(options.hold * options.fps), axis=0)
+        return np.concatenate([forth, stays, forth[-2:0:-1]])
+
+    @property
+    def _forth(self) -> FloatArray:
+        """The same from the first places to the layout."""
         options = self.options
         if options.easing == "linear":
-            return self._sampled(np.linspace(0.0, 1.0, options.frames))
-        reach = round(min(SOFT_SECONDS * options.fps, SOFT_SHARE * options.frames) / 2)
-        return _softened(self._sampled, options.frames, reach)
+            return self._sampled(np.linspace(0.0, 1.0, options.forth))
+        reach = round(min(SOFT_SECONDS * options.fps, SOFT_SHARE * options.forth) / 2)
+        return _softened(self._sampled, options.forth, reach)
 
     def _sampled(self, times: FloatArray) -> FloatArray:
         """Poses at times of the track; those beyond its ends are its ends."""

@@ -38,10 +38,13 @@ class FilmOptions(Options):
     """How long the items of a film move."""
 
     hold: Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)] = 1.0
-    """Seconds for which the last picture of a film stays after that."""
+    """Seconds for which the layout stays after that."""
 
     loop: Annotated[bool, Offer(flags="--loop/--once")] = True
     """Whether a film begins again at its end; in MP4 and WebM the player decides."""
+
+    back: Annotated[bool, Offer(flags="--back")] = False
+    """A film goes back the way it came, so that it begins again without a jump."""
 
     easing: Easing = "smooth"
     """smooth: items of a film set off and stop softly; linear: straight from one recorded
@@ -61,11 +64,21 @@ class FilmOptions(Options):
         return self
 
     @property
-    def frames(self) -> int:
-        """Pictures in which the items move, the first and the last among them."""
+    def forth(self) -> int:
+        """Pictures from the first places to the layout, both among them."""
         return max(round(self.seconds * self.fps), 2)
+
+    @property
+    def frames(self) -> int:
+        """Pictures of the film, but for those for which the last one stays."""
+        return 2 * self.forth - 2 + round(self.hold * self.fps) if self.back else self.forth
+
+    @property
+    def stays(self) -> float:
+        """Seconds for which the last picture stays."""
+        return 0.0 if self.back else self.hold
 
     @property
     def total(self) -> float:
         """Seconds of the whole film."""
-        return self.frames / self.fps + self.hold
+        return self.frames / self.fps + self.stays

@@ -110,5 +110,5 @@ def _held(projector: Projector, film: Film, tell: Tell) -> Iterator[Picture]:
     for picture in projector.pictures(tell):
         last = np.ascontiguousarray(picture[:, :, :3])
         yield last
-    for _ in range(round(film.options.hold * film.options.fps)):
+    for _ in range(round(film.options.stays * film.options.fps)):
         yield last
