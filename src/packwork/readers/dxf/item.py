@@ -16,7 +16,6 @@ from pathlib import Path
 
 import numpy as np
 import shapely
-from scipy.spatial import KDTree
 from shapely.geometry import LineString, Polygon
 
 from packwork.arrays import FloatArray
@@ -183,6 +182,9 @@ def _why_none(
 def _open_at(loose: Sequence[CadLine], piece: CadLine) -> str:
     ends = np.concatenate([[one.line.points[0], one.line.points[-1]] for one in loose])
     own = np.array([piece.line.points[0], piece.line.points[-1]])
+    # Takes a quarter of a second to load, and most runs read no DXF.
+    from scipy.spatial import KDTree
+
     gaps = KDTree(ends).query(own, k=min(3, len(ends)))[0]
     # The nearest of those is the end itself; what it meets is no gap.
     free = max(range(2), key=lambda k: gaps[k][1])

@@ -8,9 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import KDTree
 from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray, IntArray
@@ -140,6 +137,11 @@ def _joined(pieces: Sequence[CadLine], tolerance: float) -> tuple[list[CadLine],
 
 def _nodes(ends: FloatArray, tolerance: float) -> IntArray:
     """Number of the place at which each end lies."""
+    # They take a quarter of a second to load, and most runs read no DXF.
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import KDTree
+
     tree = KDTree(ends)
     if tree.count_neighbors(tree, tolerance) > NEAR_PAIRS * len(ends) + 10_000:
         raise UnfitError("has far too many lines that end at one place; export the outlines alone")
