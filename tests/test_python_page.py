@@ -37,7 +37,7 @@ def names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 def test_every_block_is_one_that_a_test_runs() -> None:
     fences = re.findall(r"^```(.*)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
     assert set(fences) == {
-        "python", "python geopandas", "python torch", "python types", "",
+        "python", "python geopandas", "python torch", "python widget", "python types", "",
     }  # fmt: skip
 
 
@@ -69,6 +69,11 @@ def test_the_page_runs_with_geopandas(names: dict[str, Any]) -> None:
     pytest.importorskip("geopandas")
     exec(blocks("python", "python geopandas"), names)  # noqa: S102
     assert len(names["placed"]) == 3
+
+
+def test_the_page_runs_with_anywidget(names: dict[str, Any]) -> None:
+    pytest.importorskip("anywidget")
+    exec(blocks("python", "python widget"), names)  # noqa: S102
 
 
 def test_the_page_runs_with_pytorch(names: dict[str, Any]) -> None:

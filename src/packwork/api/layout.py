@@ -274,6 +274,10 @@ class Layout(Exported, Sequence[Placement]):
 
         return session_of(self, record=record)
 
+    def widget(self) -> Any:
+        """The layout under the hand in a notebook: as :meth:`edit` and :meth:`Session.widget`."""
+        return self.edit().widget()
+
     @cached_property
     def metrics(self) -> Metrics:
         """Measures: ``coverage``, ``overlap``, ``outside``, ``unevenness`` and more.

@@ -175,6 +175,20 @@ class Session(LiveSession):
     words = edits.words
     arrange = edits.arrange
 
+    def widget(self) -> Any:
+        """The session under the hand in a notebook, as the studio shows it; needs anywidget.
+
+        ``widget.layout`` is the layout as it is now.
+
+        Raises
+        ------
+        PackworkError
+            If anywidget is not installed.
+        """
+        from packwork.api.widget import widget_of
+
+        return widget_of(self)
+
     def recolor(self, which: Which, color: Colour) -> None:
         """Give items one colour, any of CSS or Matplotlib."""
         edits.recolor(self, which, plain_colour(color))
