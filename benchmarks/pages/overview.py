@@ -79,6 +79,7 @@ PAGES = {
     "quality": "before the exact finish and after, voids filled, many items",
     "words": "word clouds in fat and thin shapes, in the peer's own examples",
     "photos": "photographs, and a poster's memory",
+    "mosaics": "photographs on a grid that show a face, beside a program for that",
     "forces": "piles, round packs, stable words",
     "parts": "containers of several parts",
     "outlines": "outlines as a few curves",

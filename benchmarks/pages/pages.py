@@ -22,6 +22,7 @@ from benchmarks.quality import (
     evenness,
     forces,
     meaning,
+    mosaics,
     parts,
     photos,
     quality,
@@ -44,9 +45,9 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
         for name, module in {
             "arranging": arranging, "batch": batch, "embeddings": embeddings,
             "charts": charts, "colour": colour, "engine": engine, "files": files_page,
-            "films": film, "forces": forces, "live": live, "meaning": meaning, "nesting": nest,
-            "outlines": outlines, "parts": parts, "photos": photos, "quality": quality,
-            "robustness": robustness, "studio": studio,
+            "films": film, "forces": forces, "live": live, "meaning": meaning,
+            "mosaics": mosaics, "nesting": nest, "outlines": outlines, "parts": parts,
+            "photos": photos, "quality": quality, "robustness": robustness, "studio": studio,
         }.items()
     },
 }  # fmt: skip
