@@ -13,7 +13,6 @@ from packwork.api.plain import plain_seed
 from packwork.errors import RecipeError
 from packwork.finish.finish import finish as exact_finish
 from packwork.finish.options import FinishOptions
-from packwork.geometry.bezier import FLATTENING
 from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.measure import LayoutMetrics, Metrics
 from packwork.metrics.measure import measure as measure_layout
@@ -21,6 +20,7 @@ from packwork.progress import NOBODY, Listener, Stop, as_observer, never
 from packwork.readers.layouts.read import read_written
 from packwork.recipe.refusals import length_asked
 from packwork.scene import layout as scene
+from packwork.scene.item import bulge_between
 
 LARGEST = 2.0
 """Factor by which an item may grow in a finish that grows. As of free sizes."""
@@ -107,8 +107,7 @@ def finish(
     gap = length_asked("padding", padding, container.unit, container.side)
     scales = np.array(layout.poses.scale)
     largest = scales * (LARGEST if grow else 1.0)
-    extents = np.array([item.outline.extent for item in layout.items])
-    bulge = 2 * FLATTENING * float(np.max(extents * largest, initial=0.0))
+    bulge = bulge_between(layout.items, largest)
     options = FinishOptions(
         gap_cu=gap + bulge, largest=tuple(largest.tolist()), turning=turn, trials=trials,
         seed=plain_seed(seed),

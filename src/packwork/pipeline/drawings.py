@@ -109,7 +109,7 @@ def _names(source: str, folder: Path) -> Iterator[str]:
 
 def _is_same(drawing: Item, shape: Item) -> bool:
     own, other = drawing.outline.area, shape.outline.area
-    return abs(own - other) <= SAME_AREA * other and is_alike(drawing, shape)
+    return abs(own - other) <= SAME_AREA * drawing.coarseness * other and is_alike(drawing, shape)
 
 
 def _coloured(drawing: Item, fill: str, recipe: Mapping[str, Any]) -> Item:

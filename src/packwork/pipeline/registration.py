@@ -156,7 +156,7 @@ def coloured_as(item: Item, shape: Item) -> Item:
 def is_alike(item: Item, shape: Item) -> bool:
     """Whether an item's outline is the shape's, in the same units."""
     own, other = np.array(item.outline.bounds), np.array(shape.outline.bounds)
-    return bool(np.abs(own - other).max() <= ALIKE * item.outline.extent)
+    return bool(np.abs(own - other).max() <= ALIKE * item.coarseness * item.outline.extent)
 
 
 def turn_of(before: Outline, after: Outline) -> float:

@@ -9,8 +9,9 @@ import numpy as np
 import shapely
 
 from packwork.geometry import affine
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
-from packwork.scene.item import FlatArt, Item, Parts, PhotoArt, VectorArt
+from packwork.scene.item import FlatArt, Item, Parts, PhotoArt, VectorArt, bulge_between
 from packwork.scene.mapped import mirrored
 from packwork.scene.notation import decimals, matrix_text, path_data, with_fresh_ids
 from packwork.scene.pose import Poses
@@ -90,7 +91,11 @@ def _of_parts(parts: Parts, name: str) -> Item:
         )
     )
     weight = float(sum(one.weight for one in parts.items))
-    return Item(name, "group", outline, ink, _art(parts), weight=weight, parts=parts)
+    bulge = bulge_between(parts.items, parts.poses.scale) / (2 * FLATTENING)
+    return Item(
+        name, "group", outline, ink, _art(parts), weight=weight, parts=parts,
+        coarseness=max(bulge / outline.extent, 1.0),
+    )  # fmt: skip
 
 
 def _art(parts: Parts) -> VectorArt | PhotoArt:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Protocol, TypeAlias
 from urllib.parse import urlsplit
 
+import numpy as np
+
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.arcs import ArcLine
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline, OutlineLike
 from packwork.scene.pose import Poses
 
@@ -303,6 +306,8 @@ class Item:
         How it was drawn before another colour was put on it; None if none was.
     parts
         Of a group the items that it is made of; None of any other.
+    coarseness
+        Distance that its curves keep to its outline at most, over ``FLATTENING`` of its extent.
 
     Raises
     ------
@@ -329,6 +334,7 @@ class Item:
     row: RowLabel | None = None
     own_art: Art | None = None
     parts: Parts | None = None
+    coarseness: float = 1.0
 
     def __init__(
         self,
@@ -345,6 +351,7 @@ class Item:
         row: RowLabel | None = None,
         own_art: Art | None = None,
         parts: Parts | None = None,
+        coarseness: float = 1.0,
     ) -> None:
         if outline is None:
             raise ShapeError(f"the item {name!r} needs an outline, such as a Shapely polygon")
@@ -358,6 +365,7 @@ class Item:
         values = (
             name, source, solid, drawn, made, label, text, halo, datum, weight, row, own_art,
             parts,
+            coarseness,
         )  # fmt: skip
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
@@ -365,6 +373,19 @@ class Item:
     def __repr__(self) -> str:
         left, top, right, bottom = self.outline.bounds
         return f"<Item: {self.name}, {right - left:.4g} x {bottom - top:.4g}>"
+
+
+def bulge_between(items: Sequence[Item], largest: FloatArray) -> float:
+    """By how much curves of items come nearer than outlines at scales ``(n,)``, canvas units.
+
+    Examples
+    --------
+    >>> tile = Item("tile", outline=[(0, 0), (4, 0), (4, 2), (0, 2)])
+    >>> round(bulge_between([tile], np.array([10.0])), 6)
+    0.0016
+    """
+    extents = np.array([item.coarseness * item.outline.extent for item in items])
+    return 2 * FLATTENING * float(np.max(extents * largest, initial=0.0))
 
 
 def _known_colour(text: str) -> str:

@@ -15,7 +15,6 @@ from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
 from packwork.finish.shrink import separate_pinned
 from packwork.forces.forces import NO_FORCES
-from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
 from packwork.phrasing import number_of
@@ -25,6 +24,7 @@ from packwork.pipeline.plan.limits import check_found, job_leanings
 from packwork.pipeline.run import LEVELS, RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.progress import Observer, Step, until_over
+from packwork.scene.item import bulge_between
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds
@@ -276,9 +276,7 @@ def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
     largest
         ``(m,)`` how large they may become.
     """
-    extents = np.array([job.items[k].outline.extent for k in items])
-    bulge = 2 * FLATTENING * float(np.max(extents * largest))
-    return job.plan.gap + bulge
+    return job.plan.gap + bulge_between([job.items[k] for k in items], largest)
 
 
 def unfinished(state: RunState) -> tuple[Unplaced, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -12,8 +13,9 @@ from packwork.errors import ReadError, RecipeError
 from packwork.readers.fonts.face import Typeface, bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import EM_PX, read_word_items, word_item
+from packwork.readers.words.items import EM_PX, read_word_items, shaped_word, word_item
 from packwork.readers.words.options import Word, WordOptions
+from packwork.scene.item import bulge_between
 
 
 def read(source: dict[str, float], **options):
@@ -134,3 +136,12 @@ def test_long_words_that_begin_alike_are_each_told() -> None:
     read = read_word_items(WordOptions(source={"ox": 1, begun + "a": 1, begun + "b": 1}), "fill")
     assert len(read.items) == 1
     assert len(read.undrawn) == 2
+
+
+def test_small_words_have_coarser_outlines_and_say_how_far_from_their_curves() -> None:
+    fonts = open_fonts([])
+    fine, coarse = (shaped_word(Word("bogus", 1.0), fonts, "keep", em) for em in (1.0, 0.01))
+    assert fine.item.coarseness == 1 < coarse.item.coarseness
+    assert len(coarse.outline.points) < len(fine.outline.points) / 3
+    one = bulge_between([coarse.item], np.ones(1)) / 2
+    assert shapely.hausdorff_distance(fine.outline.region, coarse.outline.region) < one

@@ -130,6 +130,7 @@ def item_record(item: Item, things: Things) -> ItemRecord:
         weight=item.weight,
         own_art=None if own is None else art_record(own, item.outline.extent),
         parts=() if item.parts is None else _part_records(item.parts, things),
+        coarseness=item.coarseness,
     )
 
 
@@ -150,6 +151,7 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         record.weight,
         own_art=None if record.own_art is None else art_of(record.own_art, outline),
         parts=_parts_of(record.parts, shared) if record.parts else None,
+        coarseness=record.coarseness,
     )
 
 

@@ -16,7 +16,6 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
-from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import (
     difference,
@@ -32,6 +31,7 @@ from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.options import SizeMode
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
+from packwork.scene.item import bulge_between
 from packwork.scene.pose import Poses
 
 ROUNDS = 12
@@ -189,9 +189,8 @@ def _placed(document: Document, items: IntArray, shapes: ShapeCache) -> list[Out
 
 def gap_of(document: Document, items: IntArray) -> float:
     """Gap between outlines that leaves the one asked for between curves, canvas units."""
-    extents = np.array([document.items[k].outline.extent for k in items])
-    bulge = 2 * FLATTENING * float(np.max(extents * document.largest[items], initial=0.0))
-    return document.options.padding + bulge
+    of_items = bulge_between([document.items[k] for k in items], document.largest[items])
+    return document.options.padding + of_items
 
 
 def _options(document: Document, movable: IntArray, trials: int, seed: int) -> FinishOptions:

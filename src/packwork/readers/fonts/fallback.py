@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -39,13 +40,13 @@ class Fonts:
     language: str = ""
     _installed: list[Typeface] = field(default_factory=list)
 
-    def lettering(self, lines: Sequence[str]) -> Lettering:
-        """Lines as a word of its own.
+    def lettering(self, lines: Sequence[str], em: float = math.inf) -> Lettering:
+        """Lines as a word of its own; ``em``: of a picture's side, as in ``lettering_of``.
 
         >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
         True
         """
-        return lettering_of(self.settings(lines), self._language)
+        return lettering_of(self.settings(lines), self._language, em)
 
     def bent(self, line: str, curve: Curve, start: float, end: float) -> Lettering:
         """Line along a curve, in ems, from one arc length to another."""

@@ -93,6 +93,8 @@ class Lettering:
         Such units in one em.
     runs
         The same as text, in those units.
+    coarseness
+        Tolerance to which curves were followed, over ``FLATTENING`` of its extent.
     """
 
     covered: ClearInk | Region
@@ -100,6 +102,7 @@ class Lettering:
     units: float
     runs: tuple[TextRun, ...] = ()
     pictures: tuple[GlyphPicture, ...] = ()
+    coarseness: float = 1.0
 
     @cached_property
     def region(self) -> Region:
@@ -133,11 +136,12 @@ class TypeSetting:
 
 
 def lettering_of(
-    lines: Sequence[Sequence[TypeSetting]], language: str = UNKNOWN_LANGUAGE
+    lines: Sequence[Sequence[TypeSetting]], language: str = UNKNOWN_LANGUAGE, em: float = math.inf
 ) -> Lettering:
     """Word of one or several centred lines, each piece drawn by its own font.
 
-    Curves are followed to ``FLATTENING`` of the word's extent.
+    Curves are followed to ``FLATTENING`` of the word's extent, or of the side of a picture in which
+    an em is ``em`` of that side.
 
     >>> from packwork.readers.fonts.face import bundled_typeface
     >>> face = bundled_typeface()
@@ -152,12 +156,15 @@ def lettering_of(
     runs = [run for line in shaped for run in line]
     pictures = tuple(picture for run in runs for picture in run.pictures())
     faces = list(dict.fromkeys(run.face for run in runs))
+    boxes = [box for run in runs for box in run.boxes()]
+    coarseness = _coarseness(boxes, em / units)
     if pictures or len(faces) > 1:
-        drawn = _drawn(runs, pictures)
+        drawn = _drawn(runs, pictures, coarseness)
     else:
         [face] = faces
-        drawn = _drawn_by(face, tuple((run.glyphs, run.x, run.y) for run in runs))
-    return Lettering(drawn.covered, drawn.curves, units, tuple(run.text for run in runs), pictures)
+        drawn = _drawn_by(face, tuple((run.glyphs, run.x, run.y) for run in runs), coarseness)
+    texts = tuple(run.text for run in runs)
+    return Lettering(drawn.covered, drawn.curves, units, texts, pictures, coarseness)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,19 +177,21 @@ class _DrawnWord:
 
 @cached_by_identity(MOST_WORDS)
 def _drawn_by(
-    face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...]
+    face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...], coarseness: float
 ) -> _DrawnWord:
     """Glyphs of one font, each run with the place where it begins: words recur as letters do."""
-    return _drawn([GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], ())
+    return _drawn([GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], (), coarseness)
 
 
-def _drawn(runs: Sequence[GlyphRun], pictures: Sequence[GlyphPicture]) -> _DrawnWord:
+def _drawn(
+    runs: Sequence[GlyphRun], pictures: Sequence[GlyphPicture], coarseness: float
+) -> _DrawnWord:
     boxes = [box for run in runs for box in run.boxes()]
     if not boxes and not pictures:
         raise UnfitError("has no outlines to draw it with")
     # The first run is in its font's own units.
     size = 1 / runs[0].face.units
-    covered = _covered(runs, pictures, tolerance_of(boxes), size)
+    covered = _covered(runs, pictures, coarseness * tolerance_of(boxes), size)
     curves = [(*one, run.scale) for run in runs for one in run.curves()]
     return _DrawnWord(covered, Curves(tuple(curves)))
 
@@ -288,6 +297,16 @@ def line_of_runs(
     ends = [end for run in runs.values() for end in run.ends()]
     middle = float(np.round((min(ends) + max(ends)) / 2)) if ends else 0.0
     return [replace(runs[k], x=runs[k].x - middle) for k in range(len(line))]
+
+
+MOST_COARSE = 64.0
+"""Coarseness at most. Larger lets small letters lose their form, smaller takes memory. By eye."""
+
+
+def _coarseness(boxes: Sequence[FloatArray], shown: float) -> float:
+    """Side of a picture over a word's extent in it, a power of two; ``shown``: of it, of a unit."""
+    extent = float(np.ptp(np.concatenate(boxes), axis=0).max()) if boxes else 1.0
+    return 2.0 ** math.floor(math.log2(min(max(1.0 / (extent * shown), 1.0), MOST_COARSE)))
 
 
 def tolerance_of(boxes: Sequence[FloatArray]) -> float:

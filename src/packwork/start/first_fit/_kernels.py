@@ -16,12 +16,12 @@ SHARP = 0.5
 
 
 @kernel
-def smear(rows, words, top, bottom):
+def smear(rows, words, top, bottom, first, end):
     """Write whether any pixel of a box is taken, for rows from ``top`` to before ``bottom``.
 
-    ``rows[j, k, y, x] = any(rows[0, 0, y : y + 2**j, x : x + 2**k])`` in the first ``words``; all
-    is taken in the word after them and beyond, and free below the last row. Rows above ``top``
-    whose boxes reach down there are written as well.
+    ``rows[j, k, y, x] = any(rows[0, 0, y : y + 2**j, x : x + 2**k])`` in the words from ``first``
+    to before ``end``; all is taken beyond the first ``words``, and free below the last row. Rows
+    above ``top`` whose boxes reach down there are written as well.
     """
     tall, levels, height = rows.shape[:3]
     for y in range(top, bottom):
@@ -29,16 +29,16 @@ def smear(rows, words, top, bottom):
             shift = 1 << (k - 1)
             whole, part = shift >> 6, np.uint64(shift & 63)
             row = rows[0, k - 1, y]
-            for i in range(words - whole):
+            for i in range(first, min(words - whole, end)):
                 ahead = (row[i + whole] >> part) | ((row[i + whole + 1] << ONE) << (LAST - part))
                 rows[0, k, y, i] = row[i] | ahead
-            for i in range(max(words - whole, 0), words):
+            for i in range(max(words - whole, first), end):
                 rows[0, k, y, i] = ALL
     for j in range(1, tall):
         below = 1 << (j - 1)
         for k in range(levels):
             for y in range(max(top - 2 * below + 1, 0), bottom):
-                for i in range(words):
+                for i in range(first, end):
                     rows[j, k, y, i] = rows[j - 1, k, y, i]
                     if y + below < height:
                         rows[j, k, y, i] |= rows[j - 1, k, y + below, i]

@@ -158,17 +158,18 @@ class Occupancy:
         self._rows = np.full((*boxes, height, self._words + 1), _kernels.ALL, dtype=np.uint64)
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: NearestTaken | None = None
-        self._refresh(0, height)
+        self._refresh(0, height, 0, width)
 
-    def _refresh(self, top: int, bottom: int) -> None:
-        height, width = self.shape
-        inner = self.taken[self._margin : self._margin + height, self._margin :][:, :width]
-        bits = np.ones((bottom - top, self._words * 64), dtype=np.uint8)
-        bits[:, :width] = inner[top:bottom]
-        self._rows[0, 0, top:bottom, : self._words] = np.packbits(
-            bits, axis=1, bitorder="little"
-        ).view("<u8")
-        _kernels.smear(self._rows, self._words, top, bottom)
+    def _refresh(self, top: int, bottom: int, left: int, right: int) -> None:
+        """Bitmaps of what was taken in a part of the image."""
+        m, width = self._margin, self.shape[1]
+        first, end = max(left + 1 - (1 << WIDEST), 0) // 64, -(-right // 64)
+        bits = np.ones((bottom - top, (end - first) * 64), dtype=np.uint8)
+        inner = self.taken[m + top : m + bottom, m + 64 * first : m + min(64 * end, width)]
+        bits[:, : inner.shape[1]] = inner
+        words = np.packbits(bits, axis=1, bitorder="little").view("<u8")
+        self._rows[0, 0, top:bottom, first:end] = words
+        _kernels.smear(self._rows, self._words, top, bottom, first, end)
 
     def best_place(
         self,
@@ -238,7 +239,7 @@ class Occupancy:
         m = self._margin
         part = mask[top - row : bottom - row, left - column : right - column]
         self.taken[top + m : bottom + m, left + m : right + m] |= part
-        self._refresh(top, bottom)
+        self._refresh(top, bottom, left, right)
         if self._clearance is not None:
             self._clearance.add(part, top, left)
 

@@ -30,6 +30,9 @@ without a place, smaller lays items of a size side by side. Tried."""
 REACH, MOST_FRINGE = 4, 100
 """Width of the fringe in which taken pixels are counted, and how many of them. Tried."""
 
+BLOCK_PX = 64
+"""Side of the squares by which is told where no edge is. Divides tiles."""
+
 Pixel = TypeVar("Pixel", bound=np.generic)
 
 
@@ -51,7 +54,6 @@ class TileBoard:
         edge: Occupancy,
         inside: BoolArray,
         compared: int,
-        again: float,
         rng: np.random.Generator,
     ) -> None:
         height, width = inside.shape
@@ -70,9 +72,10 @@ class TileBoard:
         self._left = np.array([float(self._part(inside, *tile).sum()) for tile in self._tiles])
         self._free = np.empty((TILE_PX, TILE_WORDS), dtype=np.uint64)
         self._noise = NOISE * rng.random((TILE_PX, 64 * TILE_WORDS))
-        self._compared, self._again = compared, again
+        self._compared = compared
         # Smallest item that found no place in each: larger ones are tried there last.
         self._failed = np.full(len(self._tiles), np.inf)
+        self._bare = _sums_of_full(inside)
         self._clearance: NearestTaken | None = None
         self._roomiest = np.zeros(len(self._tiles))
 
@@ -105,7 +108,7 @@ class TileBoard:
             order = np.argsort(-self._left * (1 + LOT * self._rng.random(len(self._left))))
         else:
             order = np.argsort(-self._roomiest)
-        is_fresh = self._again * self._failed[order] > area
+        is_fresh = self._failed[order] > area
         rest = order[~is_fresh]
         for tiles in (order[is_fresh], rest[np.argsort(-self._failed[rest])]):
             found = list[tuple[float, int, int]]()
@@ -140,16 +143,27 @@ class TileBoard:
                 if is_near and before and column - reach < 64 * (word + TILE_WORDS):
                     self._roomiest[t] = self._room_in(t)
 
+    def _is_inside(self, tile: Tile, height: int, width: int) -> bool:
+        """Whether no stencil so large whose corner lies in a tile meets the edge."""
+        top, left = tile.top // BLOCK_PX, tile.word * 64 // BLOCK_PX
+        bottom = -(-(tile.top + TILE_PX + height) // BLOCK_PX)
+        right = -(-(64 * (tile.word + TILE_WORDS) + width) // BLOCK_PX)
+        sums = self._bare
+        if bottom >= sums.shape[0] or right >= sums.shape[1]:
+            return False
+        full = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
+        return bool(full == (bottom - top) * (right - left))
+
     def _best_in(
         self, tile: Tile, stencil: Stencil, boxes: IntArray, lowest: int, steps: IntArray
     ) -> tuple[float, int, int] | None:
         """Score and corner of the best place in a tile; None if there is none."""
         free = self._free[:, : min(TILE_WORDS, self._words - tile.word)]
         free[...] = _kernels.ALL
-        if not (
-            self._items.clear(boxes, lowest, free, *tile)
-            and self._edge.clear(stencil.boxes, len(stencil.mask), free, *tile)
-        ):
+        if not self._items.clear(boxes, lowest, free, *tile):
+            return None
+        is_inner = self._is_inside(tile, *stencil.mask.shape)
+        if not (is_inner or self._edge.clear(stencil.boxes, len(stencil.mask), free, *tile)):
             return None
         m, width = REACH + self._pad, self._taken.shape[1]
         begin, corner = (tile.top + m) * width + 64 * tile.word + m, np.zeros(2, dtype=np.int64)
@@ -162,3 +176,11 @@ class TileBoard:
             free, self._taken, begin, steps, self._noise, field, pull, corner, pull > 0.0
         )
         return float(score), tile.top + int(row), 64 * tile.word + int(column)
+
+
+def _sums_of_full(inside: BoolArray) -> IntArray:
+    """``(rows + 1, columns + 1)`` how many whole squares above and left of each are inside."""
+    rows, columns = (side // BLOCK_PX for side in inside.shape)
+    cut = inside[: rows * BLOCK_PX, : columns * BLOCK_PX]
+    full = cut.reshape(rows, BLOCK_PX, columns, BLOCK_PX).all(axis=(1, 3))
+    return np.pad(full.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))

@@ -43,36 +43,33 @@ FEW, OF_FEW = 250, 1_500
 """Items up to which all sizes are tried with care: tiles with a place of which the best is taken,
 times items. More take longer. Tried."""
 
-COMPARED = 5
+COMPARED = 3
 """Such tiles of more items at the last size; sizes before are sought with the first tile that has a
 place, in a third of the time. More take longer. Tried."""
 
-AGAIN = 0.9
-"""Area of one of more items, over the smallest that found no place in a tile, up to which it is
-tried there before all else. Larger looks at three times as many full tiles, smaller packs less.
-Tried."""
-
-FIRST_SHARE, STEEPER = 0.4, 0.052
+FIRST_SHARE, STEEPER = 0.46, 0.07
 """Share of the container that the first try's items cover, and how much more for each e times that
-the largest is larger than the smallest. Any others take more tries. Measured."""
+there are more of them than of alike ones of as much entropy. Any others take more tries.
+Measured."""
 
-STRIDE, WIDEST, CLOSE = 1.02, 1.04, 1.006
+STRIDE, WIDEST, CLOSE = 1.012, 1.04, 1.006
 """Factor between the first two sizes tried, squared while all fit up to the widest, and that
 between one that fits and one that does not at which the search ends. Smaller finds more. Chosen."""
 
-SHORT = 2.5
+SHORT = 1.5
 """By how much less all must cover, over the share that found no place. Smaller takes more tries,
 larger begins from below. Measured."""
 
-BETTER = (1.01, 1.004)
+BETTER = (1.006, 1.003)
 """Larger sizes that are tried in turn then. Larger ones mostly find no place. Measured."""
 
-MISSING = 0.03
+MISSING = 0.015
 """Share of all areas without a place from which a size is given up. Chosen."""
 
 
-LOOSE = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
-"""Shares of the items, the smallest, that go where there is most room, tried in turn. Chosen."""
+LOOSE, FEWER = 0.9, 0.75
+"""Share of the items, the smallest, that go where there is most room at first, and of those that
+found a place there how many do next. More take longer, fewer leave some in heaps. Tried."""
 
 MOST_LOOSE = 2_000
 """Items of which the smallest do so at most: of more, tiles are small beside the whole. Chosen."""
@@ -121,9 +118,11 @@ def tiled_fit(
     (True, 4)
     """
     own = np.array([outline.area for outline in outlines])
-    share = float((own * scales**2).sum()) / container.outline.area
+    areas = own * scales**2
+    share = float(areas.sum()) / container.outline.area
     search = _TiledSearch(container, outlines, scales, angles, own, rng, apart, margin_cu, attempts)
-    first = FIRST_SHARE + STEEPER * math.log(float(scales.max() / scales.min()))
+    parts = areas / areas.sum()
+    first = FIRST_SHARE + STEEPER * (math.log(len(parts)) + float(parts @ np.log(parts)))
     best = _largest(search, math.sqrt(first / share), tell, stop)
     if best is not None and len(outlines) > FEW:
         # Sizes were sought in haste.
@@ -192,7 +191,6 @@ class _TiledSearch:
         self._margin_px = margin_cu / 2 * self._px_per_cu + GRAZED
         self._urgency = self._areas.copy()
         self.compared = OF_FEW // len(outlines) if len(outlines) <= FEW else 1
-        self._again = 1.0 if len(outlines) <= FEW else AGAIN
         self._attempts = max(1, min(attempts, FEW // len(outlines)))
 
     def best_at(self, factor: float, stop: Stop) -> Tried | None:
@@ -216,18 +214,20 @@ class _TiledSearch:
         if count > MOST_LOOSE:
             return tight
         stencils = [self._stencil(k, tight.factor) for k in range(count)]
-        for share in LOOSE:
-            kept, board, poses = count - round(share * count), self._board(), tight.poses
+        loose = round(LOOSE * count)
+        while loose:
+            kept, board, poses = count - loose, self._board(), tight.poses
             for k in tight.order[:kept]:
                 place = np.array([poses.y[k], poses.x[k]]) * self._px_per_cu
                 board.take(stencils[k].mask, *(np.rint(place).astype(int) - stencils[k].origin))
             board.loosen()
             x, y = poses.x.copy(), poses.y.copy()
-            for k in tight.order[kept:]:
+            for found, k in enumerate(tight.order[kept:]):
                 if stop():
                     return tight
                 put = self._put(board, k, tight.factor, stencils[k])
                 if put is None:
+                    loose = int(FEWER * found)
                     break
                 x[k], y[k] = put
             else:
@@ -235,7 +235,7 @@ class _TiledSearch:
         return tight
 
     def _board(self) -> TileBoard:
-        return TileBoard(self._edge, self._inside, self.compared, self._again, self._rng)
+        return TileBoard(self._edge, self._inside, self.compared, self._rng)
 
     def _put_all(self, factor: float, stop: Stop) -> Tried | None:
         """Items put one after another at one size; None if stopped."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import final
@@ -9,7 +10,6 @@ from typing import final
 import numpy as np
 
 from packwork.compaction.options import HAIR
-from packwork.geometry.bezier import FLATTENING
 from packwork.offers import Verbs
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding, padded
@@ -18,6 +18,7 @@ from packwork.pipeline.state import RunState
 from packwork.progress import Step, until_over
 from packwork.readers.words.items import EM_PX
 from packwork.recipe.verbs import VERBS
+from packwork.scene.item import bulge_between
 from packwork.scene.pose import Poses
 from packwork.solve.solver import Ending
 from packwork.start.first_fit.tiled import tiled_fit
@@ -30,9 +31,6 @@ more beside 2 % of it; smaller lets two words of a line read as one. By eye."""
 
 FEWEST = 30
 """Words from which it is so: with 12 the usual finish fills some shapes better. Measured."""
-
-SPARE = 2 * HAIR + 4 * FLATTENING
-"""What curves reach beyond their polygons, and rounding, as a share of the canvas. Derived."""
 
 COVERED = 0.5
 """Share of the container that words come to cover, by which the least gap goes. Chosen."""
@@ -93,11 +91,14 @@ class FitWords(RunStep):
 
         with job.clock.time("start"):
             rng = np.random.default_rng(plan.seed)
+            # Were all of it covered: no scale is larger.
+            largest = unit * math.sqrt(job.container.outline.area / job.weights.sum())
+            spare = bulge_between(job.items, largest) + 2 * HAIR * job.container.side
             region = padded(job.container, plan.gap) if plan.gap else job.container
             poses = tiled_fit(
                 region, outlines, unit, first_angles(job, rng), rng,
                 apart=(BESIDE * EM_PX, ABOVE * EM_PX) if plan.gap else (0.0, 0.0),
-                margin_cu=plan.gap + SPARE * job.container.side, attempts=ATTEMPTS[plan.effort],
+                margin_cu=plan.gap + spare, attempts=ATTEMPTS[plan.effort],
                 tell=tell, stop=until_over(context.stop, job.seconds_left(0.9)),
             )  # fmt: skip
         if poses is None:
