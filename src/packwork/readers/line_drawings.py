@@ -95,7 +95,12 @@ def _with_engraved_layers(data: bytes) -> bytes:
 
     Names of layers do not come through the gate.
     """
-    root = parse_xml(unpacked(data))
+    plain = unpacked(data)
+    # Other encodings and references to characters might hide a name.
+    may_hide = b"\0" in plain or b"&" in plain
+    if not may_hide and not ENGRAVED_LAYER.search(plain.decode("utf-8", "replace")):
+        return data
+    root = parse_xml(plain)
     groups = [
         one for one in root.iter() if tag_of(one) == "g" and ENGRAVED_LAYER.search(name_of(one))
     ]

@@ -193,7 +193,7 @@ def cropped(art: PhotoArt, frame: Outline, zoom: float, x: float, y: float) -> P
     clip = f'<path clip-rule="evenodd" d="{rings}"/>'
     told = f"{whole.preview.markup}{rings}{zoom!r} {x!r} {y!r}".encode()
     name = f"crop-{hashlib.sha256(told).hexdigest()[:12]}"
-    window = Window(name, clip, affine.similarity(0.0, 0.0, 0.0, 1.0), is_traced=False)
+    window = Window(name, clip, affine.identity(), is_traced=False)
     original = CutOriginal(drawn.original, window)
     return PhotoArt(window.over(drawn.preview), original, Crop(whole, zoom, low * x, low * y))
 

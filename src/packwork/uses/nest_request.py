@@ -10,6 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
@@ -18,6 +20,7 @@ from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import holds_layout, read_written
 from packwork.recipe.rules import Rotation
+from packwork.scene.item import Item, VectorArt
 from packwork.units import Unit, canvas_size, convert, parse_length
 from packwork.uses.nested import Sheet, SheetPart
 
@@ -61,6 +64,23 @@ def _counted(text: str) -> tuple[str, int | None]:
     return (met["source"], int(met["count"])) if met else (text, None)
 
 
+SMOOTH = 0.3
+"""Turn, rad, up to which edges that follow one another may be chords of a curve. Chosen."""
+
+
+def _has_lines_to_lose(item: Item) -> bool:
+    """Whether a part has curves, or lines on it, that its outline does not hold."""
+    if isinstance(item.art, VectorArt) and "stroke=" in item.art.markup:
+        return True
+    for ring in item.outline.rings:
+        edges = np.diff(ring, axis=0, append=ring[:1])
+        turns = np.abs(np.angle(np.exp(1j * np.diff(np.arctan2(*edges.T[::-1])))))
+        is_smooth = (turns > 1e-6) & (turns < SMOOTH)
+        if (is_smooth[2:] & is_smooth[1:-1] & is_smooth[:-2]).any():
+            return True
+    return False
+
+
 def read_sheets(text: str) -> list[Sheet]:
     """Sheets of ``600x400mm*2,hide.svg``; all in the unit of the first."""
     found = list[Sheet]()
@@ -70,7 +90,7 @@ def read_sheets(text: str) -> list[Sheet]:
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
             layout = read_written(source)
-            if Path(source).suffix.lower() != ".dxf":
+            if Path(source).suffix.lower() != ".dxf" and any(map(_has_lines_to_lose, layout.items)):
                 _LOG.warning(
                     "%s: its parts go into a DXF as outlines, without arcs and engraved lines; "
                     "give that sheet's DXF to keep them", source,

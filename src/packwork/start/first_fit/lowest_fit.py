@@ -80,6 +80,11 @@ class Falling:
     is_free: BoolArray
     """``(n,)`` which may have any angle, and so turn on their way down."""
 
+    @property
+    def side(self) -> float:
+        """Side of the square of an item's mean area, canvas units."""
+        return math.sqrt(float(np.mean([one.area for one in self.outlines] * self.scales**2)))
+
 
 def lowest_fit(
     container: Container, falling: Falling, rng: np.random.Generator, stop: Stop
@@ -156,7 +161,7 @@ class FallingBoard:
     ) -> None:
         self._falling, self._corner = falling, corner_cu
         scales, fields = falling.scales, falling.fields
-        each = math.sqrt(float(np.mean([one.area for one in falling.outlines] * scales**2)))
+        each = falling.side
         px_each = np.clip(SIDE_PX / container.side * each, LEAST_EACH, MOST_EACH)
         self.resolution = math.ceil(px_each / each * container.side)
         image, self.px_per_cu = container_image(container, self.resolution)

@@ -7,7 +7,6 @@ cheapest paths over the pixels, where height costs; who follows another closely 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -87,10 +86,16 @@ class Poured:
     def rounds(self) -> Iterator[tuple[IntArray, FloatArray]]:
         """For each round the items that are in by then, and their ``(m, 3)`` points."""
         landed = max((one.start + len(one.points) for one in self.flights), default=0)
+        items, points = self.items, np.zeros((len(self.flights), 3))
+        starts = np.array([one.start for one in self.flights])
+        flying, came = list[int](), 0
         for now in range(landed):
-            there = [one for one in self.flights if one.start <= now]
-            points = [one.at(np.array([now]))[0] for one in there]
-            yield np.array([one.item for one in there]), np.array(points)
+            in_now = int(np.searchsorted(starts, now, side="right"))
+            flying, came = [*flying, *range(came, in_now)], in_now
+            for k in flying:
+                points[k] = self.flights[k].points[now - starts[k]]
+            flying = [k for k in flying if now + 1 < starts[k] + len(self.flights[k].points)]
+            yield items[:came], points[:came].copy()
 
 
 def pour(
@@ -125,14 +130,14 @@ class _Pouring:
         room = replace(container, outline=near, width=width, height=height, walls=None)
         self.board = FallingBoard(room, falling, rng, (-edge, -edge))
         own = replace(room, outline=container.outline.mapped(moved))
-        image, self._px_per_cu = container_image(own, self.board.resolution)
+        image, _ = container_image(own, self.board.resolution)
         self._within = Occupancy(image > 1 - TOUCHED, 0)
         self._corner, self._source, self._gap = edge, source, 2 * falling.margin_cu
-        self._columns, self._rows = np.round((source.points + edge) * self._px_per_cu).astype(int).T
-        self._stride_px = STRIDE * math.sqrt(
-            float(np.mean([one.area for one in falling.outlines] * falling.scales**2))
-        ) * self._px_per_cu  # fmt: skip
+        px_per_cu = self.board.px_per_cu
+        self._columns, self._rows = np.round((source.points + edge) * px_per_cu).astype(int).T
+        self._stride_px = STRIDE * falling.side * px_per_cu
         self.flights = list[Flight]()
+        self._in_air = list[Flight]()
 
     def let_in(self, item: int) -> None:
         """Put an item to the best place that it can reach, if there is one."""
@@ -147,7 +152,7 @@ class _Pouring:
         steps = np.arange(len(way) - 1, 0, -self._stride_px)[::-1].astype(int)
         poses = self.board.poses
         landed = poses.x[item], poses.y[item], poses.angle[item]
-        points = way[np.append(steps, len(way) - 1)] / self._px_per_cu - self._corner
+        points = way[np.append(steps, len(way) - 1)] / self.board.px_per_cu - self._corner
         turns = np.full(len(points), origin[2] - landed[2])
         on_way = np.column_stack([points, turns])
         self.flights.append(self._timed(item, np.vstack([on_way, [*landed[:2], 0.0]])))
@@ -227,15 +232,15 @@ class _Pouring:
         start = self.flights[-1].start + self._source.every if self.flights else 0
         while True:
             flight = Flight(item, start, points)
-            if not any(self._meet(flight, other) for other in self.flights):
+            in_air = [one for one in self._in_air if start < one.start + len(one.points) - 1]
+            if not any(self._meet(flight, other) for other in in_air):
+                self._in_air = [*in_air, flight]
                 return flight
             start += 1
 
     def _meet(self, flight: Flight, other: Flight) -> bool:
         """Whether the discs round two items come too near before the earlier one has landed."""
         rounds = np.arange(flight.start, other.start + len(other.points) - 1)
-        if len(rounds) == 0:
-            return False
         apart = np.hypot(*(flight.at(rounds) - other.at(rounds))[:, :2].T)
         least = self._radii[flight.item] + self._radii[other.item] + self._gap
         return bool((apart < least).any())

@@ -183,13 +183,14 @@ def _heaped(job: Job, heap: Heap, factor: float, context: RunContext) -> tuple[J
             shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
             is_round=is_alone,
         )
+        rng = np.random.default_rng(job.plan.seed)
         if source is not None and source.every:
-            rng, falling = _falling(job, poses, forces, options)
+            falling = _falling(job, poses, forces, options, rng)
             poured = pour(room.container, basin, falling, source, rng, context.stop)
             poses, rounds = poured.poses, poured.rounds()
             arrival = replace(arrival, known=poured.items, keeps=False, rounds=rounds)
         elif falls(arrival, forces):
-            rng, falling = _falling(job, poses, forces, options)
+            falling = _falling(job, poses, forces, options, rng)
             poses, known = lowest_fit(room.container, falling, rng, context.stop)
             arrival = replace(arrival, known=known, keeps=False)
         piled = pile(
@@ -206,15 +207,15 @@ def falls(arrival: Arrival, forces: Forces) -> bool:
 
 
 def _falling(
-    job: Job, poses: Poses, forces: Forces, options: SettleOptions
-) -> tuple[np.random.Generator, Falling]:
-    """Items in the order in which they fall, and the random numbers that this took some of."""
-    rng, outlines = np.random.default_rng(job.plan.seed), job.solid_outlines
+    job: Job, poses: Poses, forces: Forces, options: SettleOptions, rng: np.random.Generator
+) -> Falling:
+    """Items in the order in which they fall, by lot among those of about one size."""
+    outlines = job.solid_outlines
     angles = _angles_tried(job, poses.angle, rng)
     radii = np.array([outline.radius for outline in outlines]) * poses.scale
     mixed = radii * np.exp(rng.uniform(-SHUFFLE, SHUFFLE, len(radii)))
     rotations = [one.rotation or job.plan.rotation for one in job.asked]
-    return rng, Falling(
+    return Falling(
         outlines, poses.scale, angles, np.argsort(-mixed, kind="stable"), forces.fields,
         options.gap_cu / 2 + HAIR * job.container.side,
         np.array([rotation.is_free for rotation in rotations]),
