@@ -244,7 +244,7 @@ class Layout(Exported, Sequence[Placement]):
         Parameters
         ----------
         path
-            Its ending picks the format: .svg, .gif, .apng, .webp, .mp4, .webm, .json (Lottie).
+            Its ending picks the format: .svg, .gif, .webp, .mp4, .webm, .json (Lottie).
         options
             Those below.
 

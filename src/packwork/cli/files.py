@@ -21,7 +21,7 @@ class LayoutFiles(Options):
     .packwork, a session to go on from) picks the format. May be given several times."""
 
     film: Annotated[tuple[Path, ...], Offer(group=Group.FILM)] = ()
-    """Film of the run to write; the ending (.svg, .gif, .apng, .webp, .mp4, .webm, .json for
+    """Film of the run to write; the ending (.svg, .gif, .webp, .mp4, .webm, .json for
     Lottie) picks the format. May be given several times."""
 
 

@@ -152,7 +152,7 @@ INSTEAD: Mapping[str, str] = MappingProxyType(
 )
 """Endings that people ask for, and what the programs that want them read too."""
 
-ONLY_FILMS = frozenset({".gif", ".apng", ".mp4", ".webm"})
+ONLY_FILMS = frozenset({".gif", ".mp4", ".webm"})
 """Endings of pictures that move, which a layout alone is not."""
 
 

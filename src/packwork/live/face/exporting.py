@@ -44,7 +44,6 @@ FILM = "film."
 FILM_FORMATS: Mapping[str, str] = {
     "film.svg": "image/svg+xml",
     "film.gif": "image/gif",
-    "film.apng": "image/apng",
     "film.webp": "image/webp",
     "film.mp4": "video/mp4",
     "film.webm": "video/webm",

@@ -11,7 +11,6 @@ from typing import TypeAlias
 from packwork.errors import WriteError
 from packwork.writers.atomic import check_writable
 from packwork.writers.film.animated_svg import animated_svg_bytes
-from packwork.writers.film.apng import apng_bytes
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.lottie import lottie_bytes
@@ -25,7 +24,6 @@ FILMS: Mapping[str, FilmEncoder] = MappingProxyType(
     {
         ".svg": animated_svg_bytes,
         ".gif": gif_bytes,
-        ".apng": apng_bytes,
         ".webp": webp_bytes,
         ".mp4": mp4_bytes,
         ".webm": webm_bytes,
@@ -43,7 +41,7 @@ def check_film(path: str | Path) -> None:
     >>> check_film("way.png")
     Traceback (most recent call last):
     packwork.errors.WriteError: way.png: the ending '.png' is none of a film; use one of .svg,
-    .gif, .apng, .webp, .mp4, .webm, .json
+    .gif, .webp, .mp4, .webm, .json
     """
     _encoder(path)
     check_writable(path)
