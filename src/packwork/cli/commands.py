@@ -36,7 +36,7 @@ SUMMARIES: Mapping[str, str] = {
     "edit": "Change a saved layout here and there; the rest makes room, certified again.",
     "studio": "Open a page in the browser on which a layout is made by hand.",
     "measure": "Measure a saved layout: coverage, overlap, what sticks out, evenness, gaps.",
-    "inkscape": "Put the extensions into Inkscape: fill a shape, words in one, nest.",
+    "inkscape": "Put three extensions into Inkscape: fill a shape, words in one, nest.",
     "demo": "Make a collage of the built-in icons and write it as SVG and PNG.",
     "bench": "Run a benchmark of a checkout of the project and print its table.",
 }

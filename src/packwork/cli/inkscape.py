@@ -26,7 +26,7 @@ def inkscape(
         typer.Option("--into", help="Folder of user extensions. Default: where Inkscape says."),
     ] = None,
 ) -> None:
-    """Put three extensions into Inkscape 1.2 and later: fill a shape, words in one, nest.
+    """Put three extensions into Inkscape: fill a shape, words in one, nest.
 
     [bold]packwork inkscape install[/]  then start Inkscape: Extensions > Arrange
     """
