@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from packwork.geometry.curves import Curve
-from packwork.start.lanes import Lanes, Setting, WordShape
+from packwork.start.lanes import Lanes, WordOnLine, WordShape
 from packwork.start.limbs import Limb
 
 ANGLES = np.linspace(0.0, 4 * np.pi, 4_000)
@@ -23,7 +23,7 @@ def filled(wanted: np.ndarray, limb: Limb = SPIRAL, least: float = 2.0) -> Lanes
     return lanes
 
 
-def boxes(found: list[Setting]) -> list[shapely.Polygon]:
+def boxes(found: list[WordOnLine]) -> list[shapely.Polygon]:
     """Words as strips along their lines."""
     strips = []
     for one in found:

@@ -90,7 +90,7 @@ def test_texts_run_round_the_top_and_the_bottom() -> None:
     ("container", "options", "message"),
     [
         ("circle", {"along": "limbs"}, "has no limbs"),
-        ("snake", {"along": "limbs", "sizes": "shared"}, "leave out --sizes"),
+        ("snake", {"along": "limbs", "sizes": "shared"}, "leave out .*sizes"),
         ("snake", {"along": "limbs", "add": ["star"]}, "sets words alone"),
         (SPIRAL, {"ring": "ROUND"}, "ring"),
     ],

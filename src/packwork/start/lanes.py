@@ -76,7 +76,7 @@ class WordShape:
 
 
 @dataclass(frozen=True, eq=False)
-class Setting:
+class WordOnLine:
     """A word on its line.
 
     Parameters
@@ -196,7 +196,7 @@ class Lanes:
         self._heights = np.array([shape.height for shape in shapes])
         self._longest = max(shape.length for shape in shapes)
         self.left = list(range(len(shapes)))
-        self.found: list[Setting] = []
+        self.found: list[WordOnLine] = []
         self._turn = 0
 
     def fill(self, limb: Limb) -> None:
@@ -301,7 +301,7 @@ class Lanes:
             spread = [self._setting(lane, put, 0.0) for put in puts]
         self.found += spread
 
-    def _setting(self, lane: _Lane, put: _Put, shift: float) -> Setting:
+    def _setting(self, lane: _Lane, put: _Put, shift: float) -> WordOnLine:
         start, end = put.start + shift, put.end + shift
         size = min(put.size, self._size(lane.width(start, end), put.word))
         middle, half = (start + end) / 2, (end - start) / 2 * size / put.size
@@ -309,4 +309,4 @@ class Lanes:
         # Upright ones are read upwards.
         if math.cos(angle) < -LEVEL or (math.cos(angle) <= LEVEL and math.sin(angle) > 0):
             line, middle = line.reversed(), line.length - middle
-        return Setting(put.word, line, middle - half, middle + half, size)
+        return WordOnLine(put.word, line, middle - half, middle + half, size)

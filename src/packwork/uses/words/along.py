@@ -32,7 +32,7 @@ from packwork.readers.words.options import Along, Word, lines_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.start.lanes import FILLED, Lanes, Setting, WordShape
+from packwork.start.lanes import FILLED, Lanes, WordOnLine, WordShape
 from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
 from packwork.uses.words.copies import words_of
 from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way
@@ -204,13 +204,13 @@ class RoundTheEdge(RunStep):
             return self._band(line, container, width * max(most / longest, 0.5), gap)
         return replace(bands[0], half=bands[0].half - gap / 2), size
 
-    def _settings(self, line: _LineOfWords, band: Limb, size: float) -> list[Setting]:
+    def _settings(self, line: _LineOfWords, band: Limb, size: float) -> list[WordOnLine]:
         """The first text round the top, a second one round the bottom, read from left to right."""
         points = band.axis.points[:-1]
         is_above = points[:, 1] < points[:, 1].mean()
         away = np.where(is_above, np.abs(points[:, 0] - points[0, 0]), np.inf)
         from_above = np.roll(points, -int(np.argmin(away)), axis=0)
-        found = list[Setting]()
+        found = list[WordOnLine]()
         for k, shape in enumerate(line.shapes):
             # Round the bottom anticlockwise, from above to above.
             ring = points if k == 0 else from_above[::-1]
@@ -218,7 +218,7 @@ class RoundTheEdge(RunStep):
             middle = from_above[0] if k == 0 else points[0]
             along = curve.lengths[int(np.argmin(np.hypot(*(curve.points - middle).T)))]
             half = shape.length * size / 2
-            found.append(Setting(k, curve, float(along) - half, float(along) + half, size))
+            found.append(WordOnLine(k, curve, float(along) - half, float(along) + half, size))
         return found
 
 
@@ -249,7 +249,7 @@ def _band(limb: Limb, gap: float) -> Region:
     return buffered(valid(Polygon(np.concatenate([right, left[::-1]]))), gap / 2)
 
 
-def _in_order(found: Sequence[Setting]) -> list[Setting]:
+def _in_order(found: Sequence[WordOnLine]) -> list[WordOnLine]:
     """Words in the order of their weights, the largest of each, then those set again."""
     by_size = sorted(found, key=lambda one: (one.word, -one.size))
     pairs = zip(by_size, [None, *by_size], strict=False)
@@ -357,7 +357,9 @@ class _LineOfWords:
                 break
         return best
 
-    def bent(self, found: Sequence[Setting], container: Container, gap: float, stop: Stop) -> _Bent:
+    def bent(
+        self, found: Sequence[WordOnLine], container: Container, gap: float, stop: Stop
+    ) -> _Bent:
         """Words on their lines, smaller where they come too near to each other or to the edge."""
         pairs = [self._bent(one) for one in found]
         items, rows = zip(*pairs, strict=True)
@@ -372,7 +374,7 @@ class _LineOfWords:
             poses = replace(poses, scale=scale)
         return _Bent(tuple(items), poses)
 
-    def _bent(self, one: Setting) -> tuple[Item, tuple[float, float, float, float]]:
+    def _bent(self, one: WordOnLine) -> tuple[Item, tuple[float, float, float, float]]:
         """A word on its line, upright in its own frame, and its pose."""
         middle, size = (one.start + one.end) / 2, one.size
         angle = float(one.line.angle(middle, (one.end - one.start) / 4))
