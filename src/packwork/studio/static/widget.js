@@ -23,6 +23,7 @@ class Notebook {
     this.model = model;
     this.canvas = /** @type {HTMLCanvasElement} */ (h("canvas", { tabindex: "0", "aria-label": "Layout: arrow keys go through items, with Alt they move one" }));
     this.badge = h("output", {});
+    /** @type {[string, () => void][]} */
     const actions = [["Undo", () => this.send("undo")], ["Redo", () => this.send("redo")], ["Hold", () => this.hold()], ["Settle", () => this.send("settle")]];
     const buttons = actions.map(([name, act]) => h("button", { type: "button", onclick: act }, name));
     element.classList.add("packwork");
@@ -33,10 +34,13 @@ class Notebook {
     this.choice = new Choice(() => this.redraw());
     this.stage = new Stage(this.canvas, this.collage, this.view, this.sprites, this.choice);
     this.hand = new Hand(this.collage, /** @type {any} */ (this));
-    [this.count, this.done, this.timer, this.at] = [0, 0, 0, 0];
+    this.count = 0;
+    this.done = 0;
+    this.timer = 0;
+    this.at = 0;
     /** @type {{type: string, n: number, command: object} | null} */
     this.waiting = null;
-    /** @type {{x: number, y: number} | null} */
+    /** Where the hand has taken hold, canvas units. @type {{x: number, y: number} | null} */
     this.from = null;
     this.observer = new ResizeObserver(() => this.resized());
     this.observer.observe(this.canvas);
@@ -114,7 +118,7 @@ class Notebook {
 
   /**
    * Have a command done; its number. While others are on their way the newest place of the hand waits.
-   * @param {{kind: string}} command
+   * @param {{kind: string, items?: number[]}} command
    */
   do(command) {
     const message = { type: "do", n: ++this.count, command };
@@ -134,7 +138,9 @@ class Notebook {
 
   scene() {
     const scene = JSON.parse(this.model.get("scene"));
-    this.collage.addShapes(JSON.parse(this.model.get("shapes")).filter((shape) => !this.collage.looks.has(shape.key)));
+    /** @type {import("./wire.js").Shape[]} */
+    const shapes = JSON.parse(this.model.get("shapes"));
+    this.collage.addShapes(shapes.filter((shape) => !this.collage.looks.has(shape.key)));
     this.collage.setScene(scene);
     this.choice.keep(this.collage.rows);
     this.view.whole = { width: scene.width, height: scene.height };
