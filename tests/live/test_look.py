@@ -101,7 +101,7 @@ def test_a_file_with_a_free_edge_holds_the_same_layout(drawn: pw.Layout, tmp_pat
     for wrong in ("wide", "-1%", 7, True):
         with pytest.raises(RecipeError, match="margin"):
             check("png", {"margin": wrong})
-    check("film.gif", {"loop": "false"})
+    check("film.gif", {"loop": "once"})
 
 
 def test_the_same_background_twice_is_one_step(drawn: pw.Layout) -> None:

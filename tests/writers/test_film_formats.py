@@ -23,6 +23,7 @@ from packwork.errors import WriteError
 from packwork.scene.layout import Layout
 from packwork.scene.track import Leaving, track_of
 from packwork.writers.film.film import Film
+from packwork.writers.film.framing import in_frame
 from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.projector import Projector
@@ -69,7 +70,7 @@ def pictures_of(data: bytes, mode: str = "RGB") -> tuple[list[Pixels], list[floa
 
 
 def expected(film: Film, mode: str = "RGB") -> list[Pixels]:
-    return [p[:, :, : len(mode)].astype(np.int16) for p in Projector(film).pictures()]
+    return [p[:, :, : len(mode)].astype(np.int16) for p in Projector(in_frame(film)).pictures()]
 
 
 def difference(one: Pixels, other: Pixels) -> float:
@@ -104,7 +105,7 @@ def test_a_clear_background_stays_clear(make_film: MakeFilm, ending: str) -> Non
 def test_a_film_loops_unless_told_not_to(
     make_film: MakeFilm, ending: str, once: int | None
 ) -> None:
-    for loop, expected_loops in ((True, 0), (False, once)):
+    for loop, expected_loops in (("again", 0), ("back", 0), ("cycle", 0), ("once", once)):
         with Image.open(io.BytesIO(film_bytes(make_film(loop=loop), f"a{ending}"))) as film:
             assert film.info.get("loop") == expected_loops
 
@@ -262,7 +263,7 @@ def test_an_animated_svg_looks_like_the_film(
 
 
 def test_an_animated_svg_has_no_script_and_ends_as_the_layout(make_film: MakeFilm) -> None:
-    svg = film_bytes(make_film(loop=False), "a.svg").decode()
+    svg = film_bytes(make_film(loop="once"), "a.svg").decode()
     assert "<script" not in svg
     assert 'transform="translate(15 20)rotate(17.188' in svg
     assert "1.5s linear 1 both" in svg
@@ -272,7 +273,7 @@ def test_an_animated_svg_has_no_script_and_ends_as_the_layout(make_film: MakeFil
 
 def test_those_who_leave_are_seen_at_first_and_gone_by_the_middle(make_film: MakeFilm) -> None:
     shown, alone = (
-        [p[:, :, 3] > 0 for p in Projector(film).pictures()]
+        [p[:, :, 3] > 0 for p in Projector(in_frame(film)).pictures()]
         for film in (
             make_film(background="none", show_container=False, is_left=is_left)
             for is_left in (True, False)

@@ -34,21 +34,6 @@ def test_the_first_and_the_last_frame_are_the_tracks(leaping: Layout, easing: st
     np.testing.assert_array_equal(film.frames[0], leaping.track.numbers[0])
 
 
-@pytest.mark.parametrize("easing", ["smooth", "linear"])
-def test_a_film_that_goes_back_has_no_jump_where_it_begins_again(
-    leaping: Layout, easing: str
-) -> None:
-    once = Film(leaping, FilmOptions(fps=20, seconds=2, hold=0.5, easing=easing))
-    film = replace(once, options=once.options.model_copy(update={"back": True}))
-    assert len(film.frames) == film.options.frames == 40 + 10 + 38
-    assert film.options.total == 88 / 20
-    np.testing.assert_array_equal(film.frames[:40], once.frames)
-    np.testing.assert_array_equal(film.frames[39:50], np.repeat(once.frames[-1:], 11, axis=0))
-    around = np.concatenate([film.frames[-1:], film.frames[:1]])
-    assert np.abs(np.diff(around[:, 0, 0])).max() <= speeds(once).max()
-    np.testing.assert_array_equal(film.frames[:0:-1][:38], once.frames[1:39])
-
-
 def test_a_leap_is_drawn_out_where_it_is_smooth(leaping: Layout) -> None:
     smooth, linear = (
         speeds(Film(leaping, FilmOptions(fps=60, easing=easing))) for easing in ("smooth", "linear")

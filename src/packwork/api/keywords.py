@@ -674,17 +674,21 @@ class FilmKeywords(TypedDict, total=False):
     """How long the items of a film move. Default: 5.0."""
 
     hold: float
-    """Seconds for which the layout stays after that. Default: 1.0."""
+    """Seconds for which the last picture of a film stays after that. Default: 1.0."""
 
-    loop: bool
-    """Whether a film begins again at its end; in MP4 and WebM the player decides. Default: True."""
+    loop: Literal["again", "back", "cycle", "once"]
+    """again: at its end a film jumps to its beginning; back: items go back the way they came;
+    cycle: they glide to where they began, in half the time; once: it stays. In MP4 and WebM the
+    player decides whether it begins again. Default: 'again'."""
 
-    back: bool
-    """A film goes back the way it came, so that it begins again without a jump. Default: False."""
-
-    easing: Literal["smooth", "linear"]
+    easing: Literal["smooth", "linear", "ease-in", "ease-out", "ease-in-out"]
     """smooth: items of a film set off and stop softly; linear: straight from one recorded place to
-    the next. Default: 'smooth'."""
+    the next; ease-in, ease-out, ease-in-out: slow at the beginning, the end or both. Default:
+    'smooth'."""
+
+    film_ratio: str
+    """Width by height of a film, as 1:1, 4:5, 9:16 or 16:9, the layout in the middle; canvas: that,
+    and what sticks out of it in the first picture or when all have arrived. Default: 'canvas'."""
 
     film_pixels: int
     """Longer side of a film; MP4 and WebM need an even one. Default: 800."""

@@ -164,7 +164,8 @@ def film_options(recipes: FilmOptions | None = None, /, **given: Any) -> FilmOpt
     Examples
     --------
     >>> film_options(FilmOptions(fps=12, hold=3), fps=60, hold=None)
-    FilmOptions(fps=60.0, seconds=5.0, hold=3.0, loop=True, easing='smooth', film_pixels=800)
+    FilmOptions(fps=60.0, seconds=5.0, hold=3.0, loop='again', easing='smooth',
+                film_ratio='canvas', film_pixels=800)
     >>> film_options(film_pixels=0)
     Traceback (most recent call last):
         ...

@@ -174,19 +174,20 @@ def on_canvas(container: Container, size: CanvasSize | None) -> Container:
     return _mapped(container, affine.similarity(x, y, 0.0, scale), width, height, size.unit)
 
 
-def with_margin(container: Container, margin: float) -> Container:
-    """Container on a canvas with a free edge all round, canvas units.
+def with_margin(container: Container, margins: tuple[float, float, float, float]) -> Container:
+    """Container on a canvas with free edges, canvas units: left, top, right, bottom.
 
     Examples
     --------
     >>> from packwork.geometry.outline import Outline
     >>> tile = Container("tile", "tile", Outline.box(0.0, 0.0, 4.0, 3.0), 4.0, 3.0)
-    >>> wide = with_margin(tile, 1.0)
+    >>> wide = with_margin(tile, (1.0, 1.0, 1.0, 1.0))
     >>> wide.width, wide.height, wide.outline.bounds
     (6.0, 5.0, (1.0, 1.0, 5.0, 4.0))
     """
-    width, height = container.width + 2 * margin, container.height + 2 * margin
-    place = affine.similarity(margin, margin, 0.0, 1.0)
+    left, top, right, bottom = margins
+    width, height = left + container.width + right, top + container.height + bottom
+    place = affine.similarity(left, top, 0.0, 1.0)
     return _mapped(container, place, width, height, container.unit)
 
 

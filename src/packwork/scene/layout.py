@@ -103,13 +103,20 @@ class Layout:
         return np.asarray(own * self.poses.scale**2)
 
 
-def framed(layout: Layout, margin: float) -> Layout:
-    """Layout on a canvas with a free edge all round, canvas units; without its film."""
-    place = affine.similarity(margin, margin, 0.0, 1.0)
+def framed(layout: Layout, margins: tuple[float, float, float, float]) -> Layout:
+    """Layout, and its film, on a canvas with free edges, canvas units: left, top, right, bottom."""
+    left, top, *_ = margins
+    place = affine.similarity(left, top, 0.0, 1.0)
     notes = (replace(one, matrix=affine.compose(place, one.matrix)) for one in layout.notes)
-    poses = replace(layout.poses, x=layout.poses.x + margin, y=layout.poses.y + margin)
-    container = with_margin(layout.container, margin)
-    return replace(layout, container=container, poses=poses, notes=tuple(notes), track=None)
+    leaving, track = layout.leaving, layout.track
+    if leaving is not None:
+        way = None if leaving.track is None else leaving.track.moved(left, top)
+        leaving = replace(leaving, poses=leaving.poses.moved(left, top), track=way)
+    return replace(
+        layout, container=with_margin(layout.container, margins), notes=tuple(notes),
+        poses=layout.poses.moved(left, top), leaving=leaving,
+        track=None if track is None else track.moved(left, top),
+    )  # fmt: skip
 
 
 def ground_in(manifest: Mapping[str, Any]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -106,6 +106,10 @@ class Poses:
             float(self.x[k]), float(self.y[k]), float(self.angle[k]), float(self.scale[k])
         )
         return affine.compose(place, affine.stretched(float(self.stretch[k])))
+
+    def moved(self, x: float, y: float) -> Poses:
+        """Poses moved by so much."""
+        return replace(self, x=self.x + x, y=self.y + y)
 
     def subset(self, items: IntArray) -> Poses:
         """Poses of some items, ``(m,)`` indices.

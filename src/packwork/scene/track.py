@@ -77,6 +77,10 @@ class Track:
         """Number of items."""
         return int(self.numbers.shape[1])
 
+    def moved(self, x: float, y: float) -> Track:
+        """The track moved by so much."""
+        return Track(self.times, self.numbers + np.array([x, y, 0.0, 0.0, 0.0]))
+
     def at(self, time: float) -> Poses:
         """Poses at a time of 0 to 1; straight on between two keyframes.
 

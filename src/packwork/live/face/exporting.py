@@ -78,7 +78,7 @@ def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes
         raise WriteError(kind[:20], f"is no format; use one of {', '.join(FORMATS)}")
     drawing, margin = _drawing(options), _margin(options)
     if margin:
-        layout = framed(layout, margin * layout.container.side)
+        layout = framed(layout, (margin * layout.container.side,) * 4)
     return encoded(layout, f"layout.{kind}", drawing)
 
 

@@ -8,7 +8,7 @@ import { tell } from "./toasts.js";
 /** @typedef {import("./connection.js").Connection} Connection */
 /** @typedef {import("./collage.js").Collage} Collage */
 
-const FILMED = /** @type {const} */ (["seconds", "film_pixels", "loop", "background", "show_container"]);
+const FILMED = /** @type {const} */ (["seconds", "film_ratio", "film_pixels", "loop", "background", "show_container"]);
 
 /** Formats: ending, name, what it is for, which options it has. */
 const FORMATS = /** @type {const} */ ([
@@ -26,6 +26,9 @@ const FORMATS = /** @type {const} */ ([
   ["film.mp4", "Film, MP4", "the same, for players and posts", FILMED],
   ["film.svg", "Film, SVG", "the same, sharp at any size", FILMED],
 ]);
+
+/** Proportions of films. */
+const RATIOS = [["canvas", "those of the canvas"], ["1:1", "1:1, a square"], ["4:5", "4:5, a post"], ["9:16", "9:16, a phone upright"], ["16:9", "16:9, a screen"]];
 
 /** Those on nothing, where no background is asked for. */
 const CLEAR = new Set(["svg", "pdf"]);
@@ -185,12 +188,13 @@ function endingOf(kind) {
 const FIELDS = {
   text: () => h("label", {}, "Words", h("select", { name: "text" }, h("option", { value: "outlines" }, "as outlines"), h("option", { value: "live" }, "as text that can be selected"))),
   seconds: () => h("label", {}, "Seconds", h("input", { type: "number", name: "seconds", value: "5", min: "1", max: "60", step: "1" })),
+  film_ratio: () => h("label", {}, "Proportions", h("select", { name: "film_ratio" }, ...RATIOS.map(([value, label]) => h("option", { value }, label)))),
   film_pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "film_pixels", value: "800", min: "16", max: "4096", step: "2" })),
   lines: () => h("p", { class: "note" }, "In the folder: ", h("code", {}, "packwork run recipe.toml -o collage.svg"), ", or in Python: ", h("code", {}, 'packwork.run("recipe.toml").save("collage.svg")')),
   pixels: sizes,
   background: ground,
   margin: () => h("label", {}, "Free edge", h("select", { name: "margin" }, ...MARGINS.map(([value, label]) => h("option", { value }, label)))),
-  loop: () => h("label", {}, "At its end", h("select", { name: "loop" }, h("option", { value: "true" }, "it begins again"), h("option", { value: "false" }, "it stays"))),
+  loop: () => h("label", {}, "At its end", h("select", { name: "loop" }, h("option", { value: "again" }, "it begins again"), h("option", { value: "back" }, "it goes back the way it came"), h("option", { value: "cycle" }, "it glides to its beginning"), h("option", { value: "once" }, "it stays"))),
   show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),
   flatten: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "flatten" }), "Repeat drawings in place, for tools that choke on <use>"),
   bleed: () => h("label", {}, "Bleed", h("input", { type: "text", name: "bleed", placeholder: "3mm" })),

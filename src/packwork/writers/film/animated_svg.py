@@ -11,11 +11,10 @@ import hashlib
 import math
 from dataclasses import replace
 
-from packwork.arrays import FloatArray
 from packwork.scene.item import VectorArt
 from packwork.scene.notation import decimals, number, with_fresh_ids
 from packwork.scene.track import COLUMNS, poses_of
-from packwork.writers.film.film import Film, Tell, item_knots, tell_nobody
+from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import picture_frame
 from packwork.writers.svg import sheet_of, svg_document
 from packwork.writers.svg_symbols import element, item_ids, paint
@@ -61,13 +60,12 @@ def _style(film: Film, tell: Tell) -> str:
     ids = [f"{_LEAVING}-{k + 1}" for k in range(film.leaving)] + item_ids(film.layout.items)
     # Several films may stand in one page, whose keyframes have one namespace.
     name = "way-" + hashlib.sha256(film.frames.tobytes()).hexdigest()[:8]
-    count = "infinite" if film.options.loop else "1"
-    timing = f"{film.options.total:g}s linear {count} both"
+    count = "1" if film.options.loop == "once" else "infinite"
+    timing = f"{film.seconds.sum():g}s linear {count} both"
     lines = []
     for k, (item, own) in enumerate(zip(items, ids, strict=True)):
-        frames = film.frames[:, k]
         lines.append(f'[id="{own}"]{{animation:{name}-{k + 1} {timing}}}')
-        lines.append(f"@keyframes {name}-{k + 1}{{{_keyframes(film, frames, item.ink.radius)}}}")
+        lines.append(f"@keyframes {name}-{k + 1}{{{_keyframes(film, k, item.ink.radius)}}}")
         tell((k + 1) / len(items))
     still = (
         f"@media (prefers-reduced-motion:reduce){{#items *,#{_LEAVING} *"
@@ -76,17 +74,17 @@ def _style(film: Film, tell: Tell) -> str:
     return "\n".join(["<style>", *lines, still, "</style>"])
 
 
-def _keyframes(film: Film, frames: FloatArray, radius: float) -> str:
+def _keyframes(film: Film, item: int, radius: float) -> str:
     step = TOLERANCE * film.layout.container.side
-    chosen = item_knots(frames, radius, step)
+    frames, chosen = film.frames[:, item], film.knots(item, step)
     poses = poses_of(frames[chosen])
     reach = max(radius * float(poses.scale.max()), step)
     place, turn = decimals(step / 4), decimals(math.degrees(step / 4 / reach))
     size = decimals(step / 4 / radius)
     is_stretched = bool((frames[:, _STRETCH] != 1).any())
+    shares = 100 * film.starts[chosen] / film.seconds.sum()
     parts = []
-    for k, at in enumerate(chosen.tolist()):
-        share = 100 * at / film.options.fps / film.options.total
+    for k, share in enumerate(shares.tolist()):
         wide, high = (number(float(v), size) for v in poses.axis_scales[k])
         scale = f"{wide},{high}" if is_stretched else wide
         parts.append(

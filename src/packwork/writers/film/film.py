@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
@@ -14,7 +15,7 @@ from packwork.errors import WriteError
 from packwork.scene.colour import parse_colour
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.scene.track import Track
+from packwork.scene.track import TURN, Track
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.svg import SvgOptions
 
@@ -89,20 +90,43 @@ class Film:
     @cached_property
     def frames(self) -> FloatArray:
         """``(frames, n, 5)`` numbers of all items, frame by frame, eased as asked."""
-        forth, options = self._forth, self.options
-        if not options.back:
-            return forth
-        stays = np.repeat(forth[-1:], round(options.hold * options.fps), axis=0)
-        return np.concatenate([forth, stays, forth[-2:0:-1]])
+        way, back = self._way, self.options.frames_back
+        if not back:
+            return way
+        if self.options.loop == "back":
+            return np.concatenate([way, way[-1:], way[-2:0:-1]])
+        return np.concatenate([way, way[-1:], _glide(way[-1], way[0], back)])
+
+    @cached_property
+    def seconds(self) -> FloatArray:
+        """How long each frame is shown; that in which items have arrived is held."""
+        shown = np.full(len(self.frames), 1 / self.options.fps)
+        shown[self.arrival] += self.options.hold
+        return shown
+
+    @cached_property
+    def starts(self) -> FloatArray:
+        """When each frame begins, seconds."""
+        return np.cumsum(self.seconds) - self.seconds
+
+    def knots(self, k: int, tolerance: float) -> IntArray:
+        """Frames between which an item may go straight on, canvas units."""
+        # While it is held, it stays.
+        held = [at for at in (self.arrival, self.arrival + 1) if at < len(self.frames)]
+        return item_knots(self.frames[:, k], self.items[k].ink.radius, tolerance, held)
 
     @property
-    def _forth(self) -> FloatArray:
-        """The same from the first places to the layout."""
+    def arrival(self) -> int:
+        """Number of the frame in which the items have arrived."""
+        return self.options.frames - 1
+
+    @cached_property
+    def _way(self) -> FloatArray:
         options = self.options
-        if options.easing == "linear":
-            return self._sampled(np.linspace(0.0, 1.0, options.forth))
-        reach = round(min(SOFT_SECONDS * options.fps, SOFT_SHARE * options.forth) / 2)
-        return _softened(self._sampled, options.forth, reach)
+        if options.easing == "smooth":
+            reach = round(min(SOFT_SECONDS * options.fps, SOFT_SHARE * options.frames) / 2)
+            return _softened(self._sampled, options.frames, reach)
+        return self._sampled(_EASED[options.easing](np.linspace(0.0, 1.0, options.frames)))
 
     def _sampled(self, times: FloatArray) -> FloatArray:
         """Poses at times of the track; those beyond its ends are its ends."""
@@ -112,18 +136,34 @@ class Film:
         return np.concatenate([leaving.sampled(times), numbers], axis=1)
 
 
-def delays(options: FilmOptions, ticks: int) -> list[int]:
+_EASED: Mapping[str, Callable[[FloatArray], FloatArray]] = {
+    "linear": lambda t: t,
+    "ease-in": lambda t: t**3,
+    "ease-out": lambda t: 1 - (1 - t) ** 3,
+    "ease-in-out": lambda t: t * t * (3 - 2 * t),
+}
+"""Share of the way by share of the time."""
+
+
+def _glide(end: FloatArray, start: FloatArray, count: int) -> FloatArray:
+    """Frames between two moments, ``(n, 5)`` each, straight on; turns take the short way."""
+    goal = start.copy()
+    goal[:, TURN] += 2 * np.pi * np.round((end[:, TURN] - start[:, TURN]) / (2 * np.pi))
+    share = _EASED["ease-in-out"](np.arange(1, count + 1) / (count + 1))[:, None, None]
+    return np.asarray((1 - share) * end + share * goal)
+
+
+def delays(seconds: FloatArray, ticks: float) -> list[int]:
     """Time for which each frame is shown, in whole ticks of so many to the second.
 
     Their sum is true to the film's length.
 
     Examples
     --------
-    >>> delays(FilmOptions(fps=3, seconds=1, hold=0), 100)
+    >>> delays(np.full(3, 1 / 3), 100)
     [33, 34, 33]
     """
-    ends = np.append(np.arange(1, options.frames) / options.fps, options.total)
-    return [int(delay) for delay in np.diff(np.round(ticks * ends), prepend=0)]
+    return [int(delay) for delay in np.diff(np.round(ticks * np.cumsum(seconds)), prepend=0)]
 
 
 def _softened(sampled: Callable[[FloatArray], FloatArray], count: int, reach: int) -> FloatArray:
@@ -146,20 +186,20 @@ def _softened(sampled: Callable[[FloatArray], FloatArray], count: int, reach: in
     return frames
 
 
-def knots(path: FloatArray, tolerance: float) -> IntArray:
+def knots(path: FloatArray, tolerance: float, kept: Sequence[int] = ()) -> IntArray:
     """Frames between which a path may go straight on and be nowhere farther off.
 
     ``path`` are ``(frames, k)`` numbers, all of one unit, that of ``tolerance``. By the split of
     Douglas and Peucker (1973, see ``geometry.simplify``), with the largest difference of any number
-    at the same time for a distance.
+    at the same time for a distance. Those ``kept`` are among them.
 
     Examples
     --------
     >>> knots(np.array([[0.0], [1.0], [2.0], [2.0], [2.0]]), 0.1).tolist()
     [0, 2, 4]
     """
-    last = len(path) - 1
-    found, spans = {0, last}, [(0, last)]
+    ends = sorted({0, *kept, len(path) - 1})
+    found, spans = set(ends), list(pairwise(ends))
     while spans:
         begin, end = spans.pop()
         if end - begin < 2:
@@ -175,7 +215,9 @@ def knots(path: FloatArray, tolerance: float) -> IntArray:
     return np.array(sorted(found), dtype=np.int64)
 
 
-def item_knots(frames: FloatArray, radius: float, tolerance: float) -> IntArray:
+def item_knots(
+    frames: FloatArray, radius: float, tolerance: float, kept: Sequence[int] = ()
+) -> IntArray:
     """The same of the ``(frames, 5)`` numbers of one item: no point of it is farther off.
 
     ``radius`` is the item's in its own units, ``tolerance`` in canvas units for each of place, turn
@@ -184,4 +226,4 @@ def item_knots(frames: FloatArray, radius: float, tolerance: float) -> IntArray:
     x, y, angle, scale, stretch = frames.T
     reach = radius * float(scale.max())
     ways = (x, y, reach * angle, radius * scale, reach * np.sqrt(stretch))
-    return knots(np.column_stack(ways), tolerance)
+    return knots(np.column_stack(ways), tolerance, kept)

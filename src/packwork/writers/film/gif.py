@@ -51,9 +51,9 @@ def gif_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     lookup = _lookup(palette)
     frame, options = projector.frame, film.options
     out = io.BytesIO()
-    out.write(_head(frame.columns, frame.rows, palette, options.loop))
+    out.write(_head(frame.columns, frame.rows, palette, options.loop != "once"))
     indexed = (_indices(picture, lookup) for picture in projector.pictures(tell))
-    shown = delays(options, _HUNDREDTHS)
+    shown = delays(film.seconds, _HUNDREDTHS)
     for delay, (pixels, changed, part) in zip(shown, changes(indexed), strict=True):
         if film.is_opaque:
             pixels = np.where(changed, pixels, CLEAR)[part.rows, part.columns].astype(np.uint8)
@@ -77,7 +77,7 @@ def _slowed(film: Film) -> Film:
 
 def _palette(projector: Projector, film: Film) -> npt.NDArray[np.uint8]:
     """``(COLOURS, 3)`` colours of the first and the last frame."""
-    seen = [projector.picture(film.frames[k]) for k in (0, -1)]
+    seen = [projector.picture(film.frames[k]) for k in (0, film.arrival)]
     pixels = np.concatenate([picture[picture[:, :, 3] >= _HALF][:, :3] for picture in seen])
     if len(pixels) == 0:
         return np.zeros((COLOURS, 3), np.uint8)

@@ -22,7 +22,7 @@ from packwork.scene.colour import Colour, css_colour, hex_colour, parse_colour
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.track import poses_of
 from packwork.writers.film.animated_svg import TOLERANCE
-from packwork.writers.film.film import Film, Tell, item_knots, tell_nobody
+from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame
 from packwork.writers.pictures import as_picture
 from packwork.writers.svg import CONTAINER_STROKE, CONTAINER_STROKE_SHARE
@@ -46,7 +46,7 @@ def lottie_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     layers = [scene.layer(k, tell) for k in range(len(film.items))]
     # The first layer is the one on top.
     layers = [*layers[::-1], *_under(film, frame)]
-    end = film.options.total * film.options.fps
+    end = float(film.seconds.sum()) * film.options.fps
     for index, layer in enumerate(layers, start=1):
         layer |= {"ind": index, "ip": 0, "op": end, "st": 0}
     whole = {
@@ -74,15 +74,16 @@ class _Scene:
         """Layer of one item."""
         item, frames = self._items[k], self._film.frames[:, k]
         tolerance = TOLERANCE * self._film.layout.container.side
-        at = item_knots(frames, item.ink.radius, tolerance)
+        knots = self._film.knots(k, tolerance)
+        at = np.round(self._film.starts[knots] * self._film.options.fps).astype(np.int64)
         name = item.label.name or item.name
         tell((k + 1) / len(self._items))
         if isinstance(item.art, FlatArt):
             shapes = [_group(item.ink.rings, _fill(css_colour(item.art.fill)))]
-            moved = _transform(frames[at], at, self._frame.px_per_cu)
+            moved = _transform(frames[knots], at, self._frame.px_per_cu)
             return {"ty": _SHAPE, "nm": name, "ks": moved, "shapes": shapes}
         anchor, scale = self._picture(item)
-        moved = _transform(frames[at], at, self._frame.px_per_cu, anchor, scale)
+        moved = _transform(frames[knots], at, self._frame.px_per_cu, anchor, scale)
         reference = self.assets[shape_key(item)]["id"]
         return {"ty": _IMAGE, "nm": name, "ks": moved, "refId": reference}
 

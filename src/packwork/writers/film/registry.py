@@ -12,6 +12,7 @@ from packwork.errors import WriteError
 from packwork.writers.atomic import check_writable
 from packwork.writers.film.animated_svg import animated_svg_bytes
 from packwork.writers.film.film import Film, Tell, tell_nobody
+from packwork.writers.film.framing import in_frame
 from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.lottie import lottie_bytes
 from packwork.writers.film.video import mp4_bytes, webm_bytes
@@ -51,7 +52,8 @@ def film_bytes(film: Film, path: str | Path, tell: Tell = tell_nobody) -> bytes:
     """Bytes of a film in the format that a path's ending names."""
     # Labels on items would stay where the items end.
     beside = tuple(note for note in film.layout.notes if not note.is_on_item)
-    return _encoder(path)(replace(film, layout=replace(film.layout, notes=beside)), tell)
+    bare = replace(film, layout=replace(film.layout, notes=beside))
+    return _encoder(path)(in_frame(bare), tell)
 
 
 def _encoder(path: str | Path) -> FilmEncoder:

@@ -14,7 +14,7 @@ import numpy as np
 
 from packwork.errors import WriteError
 from packwork.raster.overlay import Picture
-from packwork.writers.film.film import PAPER, Film, Tell, tell_nobody
+from packwork.writers.film.film import PAPER, Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
 _LOG = logging.getLogger(__name__)
@@ -106,9 +106,9 @@ def _notice_odd(film: Film, projector: Projector, name: str) -> None:
 
 
 def _held(projector: Projector, film: Film, tell: Tell) -> Iterator[Picture]:
-    """RGB of each frame, the last again and again for as long as it is held."""
+    """RGB of each frame, again and again for as long as it is held."""
+    counts = iter(delays(film.seconds, film.options.fps))
     for picture in projector.pictures(tell):
-        last = np.ascontiguousarray(picture[:, :, :3])
-        yield last
-    for _ in range(round(film.options.stays * film.options.fps)):
-        yield last
+        plain = np.ascontiguousarray(picture[:, :, :3])
+        for _ in range(next(counts)):
+            yield plain

@@ -27,14 +27,14 @@ _LONGEST_MS = 2**24 - 1
 
 def webp_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     """WebP file of a film."""
-    projector, options = Projector(film), film.options
+    projector = Projector(film)
     frame = projector.frame
-    shown = delays(options, _MILLISECONDS)
+    shown = delays(film.seconds, _MILLISECONDS)
     flags = _ANIMATED | (0 if film.is_opaque else _ALPHA)
     size = _three(frame.columns - 1) + _three(frame.rows - 1)
     chunks = [
         _chunk(b"VP8X", bytes([flags, 0, 0, 0]) + size),
-        _chunk(b"ANIM", bytes(4) + struct.pack("<H", 0 if options.loop else 1)),
+        _chunk(b"ANIM", bytes(4) + struct.pack("<H", int(film.options.loop == "once"))),
     ]
     frames = changes(projector.pictures(tell))
     for delay, (picture, _, changed) in zip(shown, frames, strict=True):
