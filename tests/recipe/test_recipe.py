@@ -60,6 +60,7 @@ BAD: dict[str, list[Any]] = {
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
     "canvas": [0, -600, NAN, INF, 1e7, "wide", "0x5mm", "5parsec", "-3in", "1e99mm", [200, 150]],
     "margin": ["-1mm", "wide", "3parsec", [3]],
+    "tile": ["brick", "", 3],
     "seed": [-1, 2**63, 0.5, "lucky"],
     "sizes": ["huge", "", None],
     "size_ratio": [0.99, -2, 101, NAN],

@@ -91,6 +91,12 @@ class _FillWordsPhotos(TypedDict, total=False):
     """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or a
     box left,top,width,height such as 10%,20%,30%,30%."""
 
+    tile: Literal["square", "half-drop", "hexagon"] | None
+    """A canvas that repeats without a seam: items pass over its edge and come in again on the other
+    side. square: in rows and columns; half-drop: every other column half a tile lower; hexagon: the
+    same in a honeycomb, on a canvas of the height that this needs. Either way the file repeats by
+    itself, side by side. The container is page or square."""
+
     sizes: Literal["free", "shared", "fixed", "graded", "auto"]
     """free: each item finds its size; shared: all have equal areas, or areas in the shares of the
     weights; fixed: as large as in their files; graded (words alone): in proportion as far as there
@@ -616,6 +622,10 @@ class SaveKeywords(TypedDict, total=False):
 
     pixels: int
     """Longer side of a PNG or JPEG. Default: 1600."""
+
+    tiles: int
+    """Of a tile, draw so many each way side by side, 3 for a preview of 3 x 3: in SVG by a
+    <pattern>. Default: 1."""
 
     dpi: float | None
     """Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place of

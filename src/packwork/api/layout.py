@@ -29,8 +29,7 @@ from packwork.api.signatures import of_model
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean
-from packwork.metrics.exact import exact_metrics
-from packwork.metrics.measure import Metrics, measure
+from packwork.metrics.measure import Metrics, exact_of, measure
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session, read_written
 from packwork.recipe.verbs import film_options
@@ -311,8 +310,7 @@ class Layout(Exported, Sequence[Placement]):
         if isinstance(known, bool):
             return known
         promise = Promise.of(self.manifest) or Promise()
-        exact = exact_metrics(self.outlines, self.container.outline)
-        return len(self) > 0 and not unclean(promise, self, exact)
+        return len(self) > 0 and not unclean(promise, self, exact_of(self))
 
 
 def public(layout: scene.Layout) -> Layout:

@@ -307,7 +307,7 @@ def painting(
 ) -> dict[str, int] | None:
     """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
     data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
-    if data is None or len(data) > verify.PAINTED_BYTES:
+    if data is None or len(data) > verify.PAINTED_BYTES or writers.PREVIEW.encode() in data:
         return None
     painted = verify.painted_pixels(data, run.layout, is_own=True)
     if run.certified and (painted.outside or painted.double):

@@ -1,7 +1,8 @@
 """Polygons in place: items and container in one array of points, and where the items are now.
 
-Rounds work on outlines that are simplified to a tolerance (:class:`Detail`); conflicts of a layout
-are found by the true ones.
+Where they repeat by a lattice there are no walls: each item has images about it, which move as it
+does and must not be met either. Rounds work on outlines that are simplified to a tolerance
+(:class:`Detail`); conflicts of a layout are found by the true ones.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.kernels import broad_phase, distances
 from packwork.compaction.outer_simplify import Covers, inner_simplified
 from packwork.geometry.distance import distance
+from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, intersection, part_about
 from packwork.scene.container import Container
@@ -25,6 +27,9 @@ LEAST_STRIDE = 32
 """Successive edges of the container that share a box, at least; of many, their square root. Larger
 looks at more edges, smaller at more boxes. Tried."""
 
+FAR = 9
+"""Cells as far as which walls lie that no item meets. Derived: images reach two."""
+
 PAIRS_PER_ITEM = 16
 """Room for near pairs at first; more are counted and then looked for again."""
 
@@ -33,16 +38,31 @@ class Arrangement:
     """Polygons that must not meet, in place: the items, and last all that is not container.
 
     ``outlines``: one per item, canvas units, about its own origin, as when ``places`` is zero but
-    for the position; ``places``: ``(n, 4)`` x, y, turn in radians, logarithm of growth.
+    for the position; ``places``: ``(n, 4)`` x, y, turn in radians, logarithm of growth;
+    ``lattice``: by which they repeat, in place of the container's walls.
     """
 
-    def __init__(self, outlines: Sequence[Outline], container: Outline, places: FloatArray) -> None:
-        backwards = Outline.from_rings([ring[::-1] for ring in container.rings])
-        parts = [*outlines, backwards]
+    def __init__(
+        self,
+        outlines: Sequence[Outline],
+        container: Outline,
+        places: FloatArray,
+        lattice: Lattice | None = None,
+    ) -> None:
         self.count = len(outlines)
-        self.container = container
-        self._ring_sizes = np.concatenate([np.diff(part.starts) for part in outlines])
-        self._ring_items = np.repeat(np.arange(self.count), [len(o.starts) - 1 for o in outlines])
+        self.container, self.lattice = container, lattice
+        shifts = np.zeros((0, 2))
+        if lattice is not None:
+            shifts, far = lattice.neighbours(), FAR * max(lattice.width, lattice.height)
+            container = Outline.box(-far, -far, far, far)
+        backwards = Outline.from_rings([ring[::-1] for ring in container.rings])
+        images = [outline for outline in outlines for _ in shifts]
+        parts = [*outlines, *images, backwards]
+        items = np.arange(self.count)
+        self.owners = np.concatenate([items, np.repeat(items, len(shifts)), [self.count]])
+        """``(p,)`` item that each polygon is, or is an image of; last the container, ``count``."""
+        self._ring_sizes = np.concatenate([np.diff(part.starts) for part in parts[:-1]])
+        self._ring_items = np.repeat(self.owners[:-1], [len(o.starts) - 1 for o in parts[:-1]])
         own = np.concatenate([part.points for part in parts])
         starts = np.cumsum([0, *(len(part.points) for part in parts)])
         after, before = _neighbours(parts)
@@ -53,19 +73,27 @@ class Arrangement:
         stride = max(LEAST_STRIDE, math.isqrt(len(edges[0])))
         self.board = distances.Board(
             own, starts, after, before, own.copy(), boxes, _spans(*edges, stride), stride,
-            np.zeros((self.count, 4)), arms,
+            np.zeros((len(arms), 4)), arms, np.append(self.owners[:-1], len(arms)), shifts,
         )  # fmt: skip
-        self.put(np.arange(self.count), places)
+        self.put(items, places)
 
     @property
     def places(self) -> FloatArray:
         """``(n, 4)``: x, y, turn, growth; change them by :meth:`put` only."""
-        return self.board.places
+        return self.board.places[: self.count]
 
     @property
     def radii(self) -> FloatArray:
         """``(n,)`` largest distance of a vertex from its item's origin, now."""
-        return np.asarray(self.board.arms * np.exp(self.places[:, 3]))
+        return np.asarray(self.board.arms[: self.count] * np.exp(self.places[:, 3]))
+
+    def wrap(self, share: float) -> None:
+        """Cut the plane elsewhere: bring items into the cell that lies off by a share of one."""
+        if self.lattice is not None:
+            places = self.places.copy()
+            off = share * np.array([self.lattice.width, self.lattice.height])
+            places[:, :2] = self.lattice.wrapped(places[:, :2] + off) - off
+            self.put(np.arange(self.count), places)
 
     def put(self, items: IntArray, places: FloatArray) -> None:
         """Put items ``(m,)`` to places ``(m, 4)``: x, y, turn, growth, as in the class.
@@ -79,7 +107,10 @@ class Arrangement:
         distances.put(self.board, items, np.ascontiguousarray(places))
 
     def pairs(self, reach: float) -> IntArray:
-        """``(k, 2)`` polygons whose boxes are within ``reach``; each item with the container."""
+        """``(k, 2)`` polygons whose boxes are within ``reach``; each item with the container.
+
+        The first of two is an item, not an image.
+        """
         boxes = self.board.boxes[:-1]
         order = np.argsort(boxes[:, 0], kind="stable")
         found = np.empty((PAIRS_PER_ITEM * (self.count + 1), 2), dtype=np.int64)
@@ -87,15 +118,16 @@ class Arrangement:
         if count > len(found):
             found = np.empty((count, 2), dtype=np.int64)
             broad_phase.near_pairs(boxes, order, reach, found)
-        wall = np.column_stack([np.arange(self.count), np.full(self.count, self.count)])
-        return np.concatenate([found[:count], wall])
+        found = found[:count]
+        wall = np.column_stack([np.arange(self.count), np.full(self.count, len(boxes))])
+        return np.concatenate([found[found[:, 0] < self.count], wall])
 
     def distances(self, pairs: IntArray, reach: float) -> FloatArray:
         """``(k,)`` distances of pairs ``(k, 2)``, canvas units: 0 if they meet, or ``reach``."""
         return np.asarray(distances.distances(self.board, pairs, reach))
 
     def rings(self, items: IntArray) -> tuple[FloatArray, IntArray]:
-        """Points ``(p, 2)`` of items ``(m,)`` in place, and starts of their rings ``(r + 1,)``."""
+        """Points ``(p, 2)`` of items ``(m,)`` and images, and starts of rings ``(r + 1,)``."""
         chosen = np.isin(self._ring_items, items)
         sizes = self._ring_sizes[chosen]
         of_items = self.board.points[: self.board.starts[-2]]
@@ -103,7 +135,9 @@ class Arrangement:
         return points, np.concatenate([[0], np.cumsum(sizes)])
 
     def conflicts(self, pairs: IntArray, gap: float) -> IntArray:
-        """Those of pairs ``(k, 2)`` nearer than ``gap``, canvas units, that meet or stick out.
+        """Items of pairs ``(k, 2)`` nearer than ``gap``, canvas units, that meet or stick out.
+
+        The container is called ``count``.
 
         >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
         >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
@@ -111,7 +145,7 @@ class Arrangement:
         >>> two.conflicts(two.pairs(1.0), 0.6).tolist()
         [[0, 1]]
         """
-        return np.asarray(pairs[self.distances(pairs, gap) < gap])
+        return np.asarray(self.owners[pairs[self.distances(pairs, gap) < gap]])
 
 
 def _spans(begins: FloatArray, ends: FloatArray, stride: int) -> FloatArray:
@@ -147,11 +181,18 @@ class Detail:
     """Covers of the outlines at one tolerance, finer ones inside coarser ones.
 
     ``outlines``: one per item, item units; ``container``: canvas units; ``poses``: first poses,
-    whose scales, angles and stretches are taken in.
+    whose scales, angles and stretches are taken in; ``lattice``: by which all repeat.
     """
 
-    def __init__(self, outlines: Sequence[Outline], container: Outline, poses: Poses) -> None:
+    def __init__(
+        self,
+        outlines: Sequence[Outline],
+        container: Outline,
+        poses: Poses,
+        lattice: Lattice | None = None,
+    ) -> None:
         self._outlines, self._container, self._poses = outlines, container, poses
+        self._lattice = lattice
 
     def tolerance(self, least: float, distance_cu: float) -> float:
         """A distance in shares of the usual item's extent; no less than ``least``.
@@ -178,11 +219,12 @@ class Detail:
         sizes = [outline.extent for outline in self._outlines] * self._poses.scale
         slack = tolerance * float(np.median(sizes))
         container = Outline.from_region(inner_simplified(self._container.region, slack))
-        return Detail(outlines, container, self._poses)
+        return Detail(outlines, container, self._poses, self._lattice)
 
     def subset(self, items: IntArray, poses: Poses) -> Detail:
         """The same of items ``(m,)``, by their indices: of the same sizes, in other poses."""
-        return Detail([self._outlines[int(k)] for k in items], self._container, poses.subset(items))
+        own = [self._outlines[int(k)] for k in items]
+        return Detail(own, self._container, poses.subset(items), self._lattice)
 
     def arrangement(self, places: FloatArray) -> Arrangement:
         """Outlines in place: ``(n, 4)`` x, y, turn and growth against the first poses."""
@@ -191,7 +233,7 @@ class Detail:
             matrix = self._poses.matrix(k).copy()
             matrix[:, 2] = 0.0
             own.append(outline.mapped(matrix))
-        return Arrangement(own, self._container, places)
+        return Arrangement(own, self._container, places, self._lattice)
 
 
 ROUNDING = 1e-9
@@ -234,9 +276,12 @@ def find_conflicts(
         return ()
     zero = np.zeros(len(poses))
     places = np.column_stack([poses.x, poses.y, zero, zero])
-    arrangement = Detail(outlines, container.outline, poses).arrangement(places)
+    detail = Detail(outlines, container.outline, poses, container.lattice)
+    arrangement = detail.arrangement(places)
     bad = arrangement.conflicts(arrangement.pairs(gap), gap * (1 - ROUNDING))
-    return tuple(_conflict(container, outlines, poses, int(i), int(j), gap) for i, j in bad)
+    # Two that meet over an edge are found from either side.
+    pairs = dict.fromkeys((int(min(pair)), int(max(pair))) for pair in bad)
+    return tuple(_conflict(container, outlines, poses, i, j, gap) for i, j in pairs)
 
 
 def _conflict(
@@ -249,5 +294,7 @@ def _conflict(
         outside = float(difference(first, near).area)
         return Conflict(i, None, outside, 0.0 if outside > 0 else distance(near.boundary, first))
     second = outlines[j].mapped(poses.matrix(j)).region
+    if container.lattice is not None:
+        second = container.lattice.repeated(second, itself=i != j)
     shared = float(intersection(first, second).area)
     return Conflict(i, j, shared, distance(first, second))

@@ -68,7 +68,8 @@ def compact_all(
     """
     boxes = arrangement.board.boxes
     # What stands still is looked at from as far as two items come nearer; what moves, farther.
-    reach = gap + 2 * TRAVEL * trust
+    # Where items repeat, one block at a time: on the other side any two may be neighbours.
+    reach = gap + 2 * TRAVEL * trust if arrangement.lattice is None else np.inf
     for group in disjoint_groups(blocks(arrangement.places[:, :2], turn), boxes, reach):
         if stop():
             return

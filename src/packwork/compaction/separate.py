@@ -90,7 +90,7 @@ def separate(
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
         # All in conflict have changed: no other pair can be in one now.
-        changed = np.isin(np.arange(arrangement.count + 1), items)
+        changed = np.isin(arrangement.owners, items)
         near = arrangement.pairs(gap)
         near = near[changed[near].any(axis=1)]
     return np.unique(np.array(moved, dtype=np.int64))
@@ -198,12 +198,19 @@ def free_room(
     thickness = 2 * arrangement.container.area / arrangement.container.region.length
     wanted = max(PIXELS_PER_ITEM * np.sqrt(arrangement.count), ACROSS * side / thickness)
     px_per_cu = float(np.clip(wanted, LEAST_SIDE, MOST_SIDE)) / side
-    shape = int((bottom - top) * px_per_cu) + 2, int((right - left) * px_per_cu) + 2
-    corner = np.array([left, top])
+    lattice = arrangement.lattice
+    margin = 0 if lattice is None else round(side * px_per_cu / 2)
+    rows, columns = int((bottom - top) * px_per_cu) + 2, int((right - left) * px_per_cu) + 2
+    shape = rows + 2 * margin, columns + 2 * margin
+    corner = np.array([left, top]) - margin / px_per_cu
 
     def image(points: FloatArray, starts: IntArray) -> Image:
         return coverage((points - corner) * px_per_cu, starts, shape, np.float32)
 
-    inside = image(arrangement.container.points, arrangement.container.starts)
     taken = image(*arrangement.rings(items)) if len(items) else np.zeros(shape)
-    return Clearance((inside > 1 - TOUCHED) & (taken < TOUCHED)), px_per_cu, (left, top)
+    if lattice is not None:
+        room = Clearance(taken < TOUCHED, lattice.neighbours() * px_per_cu, margin)
+    else:
+        inside = image(arrangement.container.points, arrangement.container.starts)
+        room = Clearance((inside > 1 - TOUCHED) & (taken < TOUCHED))
+    return room, px_per_cu, (float(corner[0]), float(corner[1]))

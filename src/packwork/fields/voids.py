@@ -13,12 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.arrays import BoolArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.distance_transform import distance_inside
 
 
 class Clearance:
     """Radius of the largest free disc about each pixel's centre; ``free``: where there is room.
+
+    What repeats over the plane is taken away at all ``shifts`` ``(s, 2)``, px, too; nothing is put
+    into a ``margin`` of pixels at the image's edge, where the repeats are seen.
 
     >>> room = Clearance(np.ones((9, 9), dtype=bool))
     >>> room.largest()
@@ -28,10 +31,14 @@ class Clearance:
     True
     """
 
-    def __init__(self, free: BoolArray) -> None:
-        self._free = free
+    def __init__(self, free: BoolArray, shifts: FloatArray | None = None, margin: int = 0) -> None:
         self._radius = distance_inside(free)
         self._radius[~free] = -np.inf
+        self._shifts = [(0.0, 0.0), *([] if shifts is None else shifts.tolist())]
+        if margin:
+            inner = self._radius[margin:-margin, margin:-margin].copy()
+            self._radius[:] = -np.inf
+            self._radius[margin:-margin, margin:-margin] = inner
         self._largest: tuple[float, float, float] | None = None
 
     def largest(self) -> tuple[float, float, float]:
@@ -55,7 +62,11 @@ class Clearance:
     def occupy(self, x: float, y: float, radius: float) -> None:
         """Take a disc away; only the pixels it can concern are looked at."""
         room = max(self.largest()[2], 0.0)
-        reach = radius + room + 1
+        for right, down in self._shifts:
+            self._occupy(x + right, y + down, radius, radius + room + 1)
+        self._largest = None
+
+    def _occupy(self, x: float, y: float, radius: float, reach: float) -> None:
         rows, columns = self._radius.shape
         top, bottom = max(int(y - reach), 0), min(int(y + reach) + 1, rows)
         left, right = max(int(x - reach), 0), min(int(x + reach) + 1, columns)
@@ -66,7 +77,6 @@ class Clearance:
         )
         window = self._radius[top:bottom, left:right]
         np.minimum(window, away - radius, out=window)
-        self._largest = None
 
 
 class Void(NamedTuple):

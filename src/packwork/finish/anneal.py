@@ -19,7 +19,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.compact import compact_all
+from packwork.compaction.compact import FRACTIONS, compact_all
 from packwork.compaction.kernels.steps import TRAVEL, Objective
 from packwork.compaction.kernels.trials import (
     Rounds,
@@ -111,7 +111,9 @@ def anneal(
     done = kept = 0
     every = max(min(arrangement.count, trials // SWEEPS), 1)
     while done < trials and not stop():
-        most = min(AT_ONCE, every - done % every, trials - done)
+        # Where items repeat, trials far from each other may meet over the edge.
+        parallel = AT_ONCE if arrangement.lattice is None else 1
+        most = min(parallel, every - done % every, trials - done)
         heat = HEAT * lengths.spacing**2 * (1 - done / trials)
         gained = search.make_trials(most, heat)
         kept += sum(gained)
@@ -178,6 +180,7 @@ class _Search:
         """Rounds of compaction over all items."""
         lengths = self._lengths
         for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
+            self._arrangement.wrap(FRACTIONS[index])
             compact_all(
                 self._arrangement, self._objective, turn + index, trust, lengths.gap,
                 lengths.hair, stop,
@@ -199,9 +202,10 @@ class _Search:
         places = destinations(self._arrangement, moved)
         room = ROOM * lengths.spacing
         margin = lengths.gap + TRAVEL * max(*TRUST, ANGLE_TRUST) * lengths.spacing
-        chosen = allocate_batch(most, NEIGHBOURS, self._arrangement.count)
+        board = self._arrangement.board
+        chosen = allocate_batch(most, NEIGHBOURS, len(board.arms))
         count = choose_disjoint(
-            self._arrangement.board, self._arrangement.radii, moved, places, NEIGHBOURS, room,
+            board, self._arrangement.radii, moved, places, NEIGHBOURS, room,
             margin, chosen,
         )  # fmt: skip
         found = []

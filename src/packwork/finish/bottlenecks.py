@@ -62,6 +62,7 @@ def bottlenecks(arrangement: Arrangement, spacing: float) -> IntArray:
     reach = TOUCHING * spacing
     pairs = arrangement.pairs(reach)
     touching = pairs[arrangement.distances(pairs, reach) < reach]
+    touching = arrangement.owners[touching]
     near = touching[np.isin(touching, lowest).any(axis=1)]
     found = np.union1d(lowest, near[near < arrangement.count])
     return found[np.argsort(arrangement.radii[found], kind="stable")][:MOST_SUSPECTS]

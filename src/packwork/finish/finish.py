@@ -19,7 +19,7 @@ from packwork.compaction.arrangement import (
     Detail,
     find_conflicts,
 )
-from packwork.compaction.compact import compact_all
+from packwork.compaction.compact import FRACTIONS, compact_all
 from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
 from packwork.compaction.objective import LAGGARD, SharedSize, turn_ranges
 from packwork.compaction.options import HAIR
@@ -170,7 +170,7 @@ class _Finish:
         self._sizing = sizing_of(poses, own * poses.scale**2, options)
         self._force_term = force_term_of(forces, self._sizing)
         self._is_shared = isinstance(self._sizing, SharedSize)
-        exact = Detail(outlines, container.outline, poses)
+        exact = Detail(outlines, container.outline, poses, container.lattice)
         tolerance = COARSE if options.sizes == "free" else COMMON_COARSE
         tolerance = exact.tolerance(tolerance, COARSE_OF_GAP * options.gap_cu)
         is_exact = options.sizes == "fixed" or options.refining
@@ -302,6 +302,7 @@ class _Finish:
         return self._force_term.with_push(objective, self.arrangement)
 
     def _blocks(self, objective: Objective, trust: float) -> None:
+        self.arrangement.wrap(FRACTIONS[self.rounds % len(FRACTIONS)])
         compact_all(self.arrangement, objective, self.rounds, trust, self.gap, self.hair)
 
     def result(self) -> Poses:

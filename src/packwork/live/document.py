@@ -84,6 +84,7 @@ class Document:
 
         Of a nest, parts that may have other angles than most are held at theirs.
         """
+        layout.container.check_edge("tile", "session, in which it is edited by hand")
         count = len(layout.items)
         options = LiveOptions.from_manifest(layout.manifest)
         kind = kind_of(layout.manifest)

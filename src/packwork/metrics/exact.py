@@ -100,7 +100,7 @@ def exact_metrics(outlines: Sequence[Outline], container: Outline) -> ExactMetri
         exceeding=outside / whole.area,
         overlap_area=overlap,
         outside_area=outside,
-        min_gap=_smallest_gap(regions, whole) if clean else 0.0,
+        min_gap=smallest_gap(regions, whole) if clean else 0.0,
     )
 
 
@@ -184,7 +184,7 @@ def _total(regions: _Regions) -> float:
     return float(shapely.area(regions).sum())
 
 
-def _smallest_gap(regions: _Regions, whole: Region) -> float:
+def smallest_gap(regions: _Regions, whole: Region) -> float:
     """Smallest distance among regions that are disjoint and inside ``whole``.
 
     Looks within a short reach first and further only while nothing is found: exact

@@ -8,9 +8,12 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
 from packwork.metrics.pixel import PixelMetrics, ShapeMetrics, pixel_metrics, shape_metrics
+from packwork.metrics.torus import in_cell, torus_metrics
+from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.threads import at_once
@@ -133,17 +136,36 @@ class LayoutMetrics:
 
 
 def measure(layout: Layout) -> LayoutMetrics:
-    """Measure a layout's outlines, and the ink of its items, against its container."""
-    exact, (pixel, seen) = at_once(_of_kind, [(_exactly, layout), (_by_pixels, layout)])
+    """Measure a layout's outlines, and the ink of its items, against its container.
+
+    Of a tile on the torus: what lies in one cell of all that repeats.
+    """
+    if layout.container.lattice is not None:
+        return _measured_in_cell(layout, layout.container.lattice)
+    exact, (pixel, seen) = at_once(_of_kind, [(exact_of, layout), (_by_pixels, layout)])
     return LayoutMetrics(pixel=pixel, exact=exact, ink=_ink_coverage(layout, exact), seen=seen)
+
+
+def _measured_in_cell(layout: Layout, lattice: Lattice) -> LayoutMetrics:
+    seen, whole = in_cell(layout.outlines, lattice), layout.container.outline
+    cell = Container(layout.container.name, "", whole, lattice.width, lattice.height)
+    ink = exact_coverage(in_cell(layout.inks, lattice), whole)
+    return LayoutMetrics(
+        pixel_metrics(seen, cell), exact_of(layout), ink,
+        shape_metrics(seen, cell),
+    )  # fmt: skip
 
 
 def _of_kind(kind: Callable[[Layout], Any], layout: Layout) -> Any:
     return kind(layout)
 
 
-def _exactly(layout: Layout) -> ExactMetrics:
-    return exact_metrics(layout.outlines, layout.container.outline)
+def exact_of(layout: Layout) -> ExactMetrics:
+    """Exact measures of a layout's outlines: within its container, or on the torus of a tile."""
+    container = layout.container
+    if container.lattice is not None:
+        return torus_metrics(layout.outlines, container.lattice)
+    return exact_metrics(layout.outlines, container.outline)
 
 
 def _by_pixels(layout: Layout) -> tuple[PixelMetrics, ShapeMetrics]:

@@ -12,8 +12,10 @@ import shapely
 
 from packwork.arrays import IntArray
 from packwork.geometry.distance import distance
+from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, difference, intersection, part_about, valid
+from packwork.metrics.torus import images_about
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,39 @@ def sticking_out(k: int, one: Region, whole: Region, gap: float) -> Violation:
     near = part_about(whole, one, gap)
     outside = float(difference(one, near).area)
     return Violation(k, None, outside, 0.0 if outside > 0 else distance(near.boundary, one))
+
+
+def violations_on_torus(
+    outlines: Sequence[Outline], lattice: Lattice, gap: float
+) -> tuple[Violation, ...]:
+    """Each pair nearer than ``gap`` where all repeats; an item and its own image are one too.
+
+    Examples
+    --------
+    >>> bar = Outline.from_rings([[[0.0, 0], [9, 0], [9, 4], [0, 4]]])
+    >>> [(one.item, one.other) for one in violations_on_torus([bar], Lattice(9.5, 9.0), 1.0)]
+    [(0, 0)]
+    """
+    regions, owners = images_about(outlines, lattice, gap)
+    count = len(outlines)
+    first, second = shapely.STRtree(regions).query(
+        regions[:count], predicate="dwithin", distance=gap
+    )
+    found: dict[tuple[int, int], Violation] = {}
+    for i, q in zip(first.tolist(), second.tolist(), strict=True):
+        pair = min(i, int(owners[q])), max(i, int(owners[q]))
+        if i != q:
+            one = meeting(*pair, regions[i], regions[q])
+            found[pair] = min(found.get(pair, one), one, key=_by_depth)
+    return tuple(
+        found[pair] for pair in sorted(found)
+        if found[pair].overlap_cu2 > 0 or found[pair].gap_cu < gap
+    )  # fmt: skip
+
+
+def _by_depth(one: Violation) -> tuple[float, float]:
+    """Order of violations, the worst first."""
+    return -one.overlap_cu2, one.gap_cu
 
 
 class ViolationSet:

@@ -97,6 +97,45 @@ class Use(ABC):
 
 
 @dataclass(frozen=True, eq=False)
+class UseOf(Use):
+    """A way of placing what another use reads, which goes on to answer for it."""
+
+    content: Use
+
+    @property
+    def inner(self) -> Use:
+        """The use that read the items."""
+        return self.content
+
+    @property
+    def words(self) -> Sequence[Item]:
+        """Words among the items."""
+        return self.content.words
+
+    def subset(self, kept: IntArray) -> Use:
+        """The same of some of the items."""
+        return replace(self, content=self.content.subset(kept))
+
+    def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
+        """Colours that the content's data give."""
+        return self.content.colours(job, layout)
+
+    @property
+    def palette_tints(self) -> bool:  # type: ignore[override]
+        """As the content has it."""
+        return self.content.palette_tints
+
+    @property
+    def has_nearest(self) -> bool:  # type: ignore[override]
+        """As the content has it."""
+        return self.content.has_nearest
+
+    def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
+        """As the content draws them."""
+        return self.content.redrawn(job, gone)
+
+
+@dataclass(frozen=True, eq=False)
 class Region:
     """A zone, and the option that asked for it.
 

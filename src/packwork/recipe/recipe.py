@@ -38,6 +38,7 @@ from packwork.recipe.rules import (
     known_rotation,
     some_rules,
 )
+from packwork.recipe.tiles import TileOptions
 from packwork.recipe.typed import Hero
 from packwork.recipe_paths import check_names
 from packwork.solve.options import (
@@ -95,6 +96,7 @@ class Recipe(
     MosaicOptions,
     PictureOptions,
     MotionOptions,
+    TileOptions,
     TableFormat,
     ReadingOptions,
 ):

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.errors import ShapeError
+from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
+from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline, OutlineLike
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
@@ -55,6 +57,8 @@ class Container:
         The picture whose quiet part this is, if it is one's.
     walls
         Lines that are drawn of it, each ``(n, 2)``, where it has openings; None: its outline.
+    lattice
+        By which all repeats where it is a tile, whose outline is then no wall but the cell.
 
     Raises
     ------
@@ -76,6 +80,7 @@ class Container:
     unit: Unit
     backdrop: Backdrop | None
     walls: tuple[FloatArray, ...] | None
+    lattice: Lattice | None
 
     def __init__(
         self,
@@ -87,6 +92,7 @@ class Container:
         unit: Unit = "px",
         backdrop: Backdrop | None = None,
         walls: tuple[FloatArray, ...] | None = None,
+        lattice: Lattice | None = None,
     ) -> None:
         if outline is None:
             raise ShapeError("a container needs an outline, such as a Shapely polygon")
@@ -99,7 +105,7 @@ class Container:
         height = bottom if height is None else height
         if not (width > 0 and height > 0):
             raise ShapeError(f"a canvas needs a positive size, not {width:g} x {height:g}")
-        values = (name, source, shape, width, height, unit, backdrop, walls)
+        values = (name, source, shape, width, height, unit, backdrop, walls, lattice)
         for column, value in zip(fields(Container), values, strict=True):
             object.__setattr__(self, column.name, value)
 
@@ -117,6 +123,19 @@ class Container:
         {'width': 4.0, 'height': 3.0, 'unit': 'mm'}
         """
         return {"width": float(self.width), "height": float(self.height), "unit": self.unit}
+
+    def check_edge(self, key: str, what: str) -> None:
+        """Refuse what needs an edge where a tile goes on over it.
+
+        Examples
+        --------
+        >>> page = Container("page", outline=Outline.box(0.0, 0.0, 6.0, 4.0))
+        >>> tiled(page, "square").check_edge("cut", "lines for a cutter")
+        Traceback (most recent call last):
+        packwork.errors.RecipeError: cut: a tile goes on over its edge: it has no lines for a cutter
+        """
+        if self.lattice is not None:
+            raise RecipeError(key, f"a tile goes on over its edge: it has no {what}")
 
     @property
     def side(self) -> float:
@@ -218,6 +237,43 @@ def inside_margin(container: Container, margin: float) -> Container:
     return _mapped(container, place, container.width, container.height, container.unit)
 
 
+def tiled(container: Container, kind: str) -> Container:
+    """Canvas that repeats without a seam: its outline is one cell, of which it holds one or two.
+
+    A hexagonal lattice needs a canvas as high as its width over the root of three; of px, whole
+    ones. A ``ShapeError`` if the container is more than a canvas.
+
+    Examples
+    --------
+    >>> page = Container("page", "page", Outline.box(0.0, 0.0, 6.0, 4.0), 6.0, 4.0)
+    >>> tiled(page, "half-drop").lattice
+    Lattice(width=3.0, height=4.0, drop=2.0)
+    >>> tiled(page, "hexagon").height
+    3.0
+    """
+    width, height = container.width, container.height
+    if container.outline.bounds != (0.0, 0.0, width, height) or (
+        container.outline.area < width * height * (1 - _ROUNDING)
+    ):
+        raise ShapeError(
+            f"a tile has no walls, but {container.name} has a shape; use page or square"
+        )
+    if kind == "hexagon":
+        height = width / math.sqrt(3.0)
+        height = round(height) if container.unit == "px" else height
+    return repeating(replace(container, height=float(height)), kind)
+
+
+def repeating(container: Container, kind: str) -> Container:
+    """A canvas and its cell, as it repeats: ``square`` or in columns of half a drop."""
+    lattice = Lattice.of_canvas(container.width, container.height, kind)
+    return replace(container, outline=Outline.box(*lattice.cell), lattice=lattice)
+
+
+_ROUNDING = 1e-9
+"""Share of a canvas that its outline may lack. Derived."""
+
+
 def _mapped(
     container: Container, place: FloatArray, width: float, height: float, unit: Unit
 ) -> Container:
@@ -229,7 +285,7 @@ def _mapped(
         walls = tuple(affine.apply(place, line) for line in walls)
     return replace(
         container, outline=container.outline.mapped(place), width=width, height=height,
-        unit=unit, backdrop=behind, walls=walls,
+        unit=unit, backdrop=behind, walls=walls, lattice=None,
     )  # fmt: skip
 
 

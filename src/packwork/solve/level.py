@@ -36,8 +36,15 @@ class Level:
 
     ``outlines``: one per item, item units, as this level sees them; ``losses``: those that will be
     weighed; ``nominal``: ``(n,)`` scales that were asked for; ``free_space``: what there is to
-    fill, of the container unless given.
+    fill, of the container unless given; ``seen``: how many items share its image, if not all.
     """
+
+    corner = (0.0, 0.0)
+    """Canvas coordinates of the image's corner."""
+
+    shifts: FloatArray | None = None
+    margin = 0
+    """Translations, px, by which the image repeats within itself, and the margin of that."""
 
     def __init__(
         self,
@@ -49,6 +56,7 @@ class Level:
         limits: Limits = NO_LIMITS,
         forces: Forces = NO_FORCES,
         free_space: FreeSpace | None = None,
+        seen: int | None = None,
     ) -> None:
         self._forces = forces
         self.resolution = resolution
@@ -60,7 +68,7 @@ class Level:
         self.ensemble = Ensemble(outlines)
         self.areas = np.array([o.area for o in outlines])
         """``(n,)`` areas of the outlines as this level sees them, item units squared."""
-        self._fused = FusedAdjoint(self.container_image, len(outlines))
+        self._fused = FusedAdjoint(self.container_image, len(outlines) if seen is None else seen)
         self._container_area = container.outline.area
         self._nominal = np.ones(len(outlines)) if nominal is None else nominal
         self._kinds = limits.kinds if limits.binds else np.arange(len(outlines))
@@ -91,8 +99,7 @@ class Level:
         a pixel's area beyond the image or outside a zone; ``force``: factor on the slopes of the
         forces.
         """
-        points = self.ensemble.place(poses, self.px_per_cu)
-        self.rasteriser.sweep(points, self.ensemble.ring_starts)
+        self._sweep(poses)
         adjoint = self._adjoint(weights)
         by_points = self.rasteriser.pullback(adjoint, beyond=recall)
         for key, coloured in self._coloured.items():
@@ -167,9 +174,12 @@ class Level:
 
     def density(self, poses: Poses) -> Image:
         """Density image of these poses; their walk stays on record."""
+        self._sweep(poses)
+        return self.rasteriser.density()
+
+    def _sweep(self, poses: Poses) -> None:
         points = self.ensemble.place(poses, self.px_per_cu)
         self.rasteriser.sweep(points, self.ensemble.ring_starts)
-        return self.rasteriser.density()
 
     def shares(self, density: Image) -> tuple[float, float, float]:
         """Shares of the container, by a density: covered, covered twice, covered outside it."""

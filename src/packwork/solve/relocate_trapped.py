@@ -76,7 +76,8 @@ def relocate_trapped(
     worst = worst[shares[worst] > TRAPPED_SHARE]
     if len(worst) == 0:
         return poses, []
-    room = Clearance((level.container_image > 0.5) & (density < 0.5))
+    free = (level.container_image > 0.5) & (density < 0.5)
+    room = Clearance(free, level.shifts, level.margin)
     x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()
     relocations = []
 
@@ -93,7 +94,8 @@ def relocate_trapped(
         room, worst, taken_px, least_px=float(np.nextafter(0.0, 1.0)), among=homes.get
     ):
         scale[k] = fitted(k, free_px)
-        x[k], y[k] = x_px / level.px_per_cu, y_px / level.px_per_cu
+        x[k] = x_px / level.px_per_cu + level.corner[0]
+        y[k] = y_px / level.px_per_cu + level.corner[1]
         relocations.append(
             Relocation(
                 k, float(shares[k]), float(poses.x[k]), float(poses.y[k]),

@@ -28,6 +28,7 @@ from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
 from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import Relocation, relocate_trapped
+from packwork.solve.repeating import RepeatingLevel
 from packwork.solve.schedule import force_factor, growth, pace_of, rate_factor, weights_at
 
 EXCHANGES = (0.15, 0.3, 0.45)
@@ -137,10 +138,7 @@ class _Solve:
         seen = simplify_for_level(
             self._outlines, self.motion.poses, px_per_cu, self._options.margin
         )
-        level = Level(
-            self._container, seen, resolution, self._options.losses, self._nominal, self._limits,
-            self._forces,
-        )  # fmt: skip
+        level = self._at(resolution, seen)
         is_last = index == len(self._options.levels) - 1
         relocations: list[Relocation] | None = None if self._options.relocating else []
         while not self.pace.has_reached(index, 1.0):
@@ -159,6 +157,18 @@ class _Solve:
         return LevelReport(
             resolution, self._done - before, seconds, *shares, rescues=tuple(relocations or ())
         )
+
+    def _at(self, resolution: int, seen: Sequence[Outline]) -> Level:
+        container, losses = self._container, self._options.losses
+        if container.lattice is None:
+            return Level(
+                container, seen, resolution, losses, self._nominal, self._limits, self._forces
+            )
+        radii = np.array([outline.radius for outline in seen]) * self.motion.poses.scale
+        return RepeatingLevel(
+            container, container.lattice, seen, resolution, float(radii.max()), losses,
+            self._nominal, self._limits,
+        )  # fmt: skip
 
     def _epoch(self, level: Level) -> None:
         progress = self.pace.progress()

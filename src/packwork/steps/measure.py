@@ -11,7 +11,7 @@ import numpy as np
 from packwork.compaction.arrangement import Conflict
 from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import measure
-from packwork.metrics.violations import Violation, violations
+from packwork.metrics.violations import Violation, violations, violations_on_torus
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Finding, Sentence, Unplaced
 from packwork.pipeline.plan.counts import LEAST, items_needed
@@ -37,8 +37,12 @@ def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]
     gap
         What the rest has to keep, canvas units.
     """
-    wrong = violations(layout.outlines, layout.container.outline, gap)
-    unit = layout.container.unit
+    container = layout.container
+    if container.lattice is not None:
+        wrong = violations_on_torus(layout.outlines, container.lattice, gap)
+    else:
+        wrong = violations(layout.outlines, container.outline, gap)
+    unit = container.unit
     reasons = {one.item: reason(one, layout.items, unit) for one in wrong if one.other is None}
     areas = layout.areas
     pairs = [one for one in wrong if one.other is not None]

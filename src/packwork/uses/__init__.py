@@ -1,4 +1,4 @@
-"""Five uses of one road: icons, words, photographs, charts and piles; here runs begin.
+"""Uses of one road: icons, words, photographs, charts, piles and tiles; here runs begin.
 
 Each use reads what it places, and answers the questions of ``pipeline.job.Use`` in which it
 differs from the others. What one use alone needs is loaded when it is asked for.
@@ -95,7 +95,12 @@ def _material(
         room = PileRoom.of_recipe(recipe, recipe.pile, container)
         material = _content(recipe, room, items)
         heap = Heap(recipe.pile, room.mouths)
-        return replace(material, use=PileUse(heap, material.use))
+        return replace(material, use=PileUse(material.use, heap))
+    if recipe.tile is not None:
+        from packwork.uses.tiles import TileUse
+
+        material = _content(recipe, KnownContainer(read_room(recipe, container)), items)
+        return replace(material, use=TileUse(material.use))
     is_open = container is None and recipe.container == NO_CONTAINER and recipe.chart is not None
     return _content(
         recipe, KnownContainer(None if is_open else read_room(recipe, container)), items

@@ -163,6 +163,8 @@ def _room(layout: Layout, columns: int, rows: int) -> FloatArray:
     from packwork.raster.coverage import coverage
 
     outline = layout.container.outline
+    if layout.container.lattice is not None:
+        return np.ones((rows, columns))
     scale = np.array([columns / layout.container.width, rows / layout.container.height])
     return np.asarray(
         coverage(outline.points * scale, outline.starts, (rows, columns)), dtype=np.float64

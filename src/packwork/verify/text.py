@@ -11,7 +11,7 @@ import shapely
 from packwork import writers
 from packwork.errors import PackworkError
 from packwork.metrics.certificate import HAIR, Promise, unclean
-from packwork.metrics.exact import exact_metrics
+from packwork.metrics.measure import exact_of
 from packwork.phrasing import number_of
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.layouts.agreement import differences, shapes_of_svg
@@ -44,7 +44,7 @@ def faults_in_file(
 
     Transforms and outlines are those that stand in the text, curves followed anew. Of a PDF
     those of the SVG that it was made of, with which the paths in its own text have to agree.
-    Files that have no outlines break nothing.
+    Files that have no outlines break nothing, nor do previews of tiles side by side.
 
     ``path``: where to; its ending says what it is.
 
@@ -53,7 +53,8 @@ def faults_in_file(
     ()
     """
     ending = Path(path).suffix.lower()
-    if Promise.of(layout.manifest) is None or ending not in {*ENDINGS, ".pdf"}:
+    is_preview = options is not None and options.svg.repeats > 1
+    if Promise.of(layout.manifest) is None or ending not in {*ENDINGS, ".pdf"} or is_preview:
         return ()
     if ending != ".pdf":
         return _broken_in(data, path, layout)
@@ -79,9 +80,10 @@ def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]
     promise = Promise.of(found.manifest)
     if promise is None:
         return ("what was promised is not written",)
-    if is_clear(found, promise.least_gap(found.container.side)):
+    is_tile = found.container.lattice is not None
+    if not is_tile and is_clear(found, promise.least_gap(found.container.side)):
         return ()
-    return unclean(promise, found, exact_metrics(found.outlines, found.container.outline))
+    return unclean(promise, found, exact_of(found))
 
 
 def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str]) -> tuple[str, ...]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import struct
 import warnings
 import zlib
+from dataclasses import replace
 from io import BytesIO
 from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from packwork.errors import RecipeError, WriteError
 from packwork.raster.drawing import drawn_png, encoded_picture
@@ -40,12 +43,27 @@ def png_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = 
     >>> png_bytes(blank(), 16)[1:4]
     b'PNG'
     """
-    sheet = sheet_of(picture_frame(layout.container, longer_side_px))
+    options, container = options or ON_WHITE, layout.container
+    if options.repeats > 1 and container.lattice is not None:
+        return _laid_out(layout, longer_side_px, options)
+    sheet = sheet_of(picture_frame(container, longer_side_px), container)
     try:
-        png = drawn_png(svg_document(layout, options or ON_WHITE, sheet))
+        png = drawn_png(svg_document(layout, options, sheet))
     except ValueError as error:
         raise WriteError("PNG", f"an item's drawing cannot be rendered ({error})") from error
     return _with_density(png, dots_per_inch(layout.container, longer_side_px))
+
+
+def _laid_out(layout: Layout, longer_side_px: int, options: SvgOptions) -> bytes:
+    """Pixels of one tile, side by side: no renderer's pattern comes between them."""
+    from PIL import Image
+
+    side = max(longer_side_px // options.repeats, 1)
+    one = _drawn(layout, side, replace(options, repeats=1))
+    times = options.repeats, options.repeats, 1
+    whole = Image.fromarray(np.tile(np.asarray(one), times))
+    png = encoded_picture(whole, "PNG")
+    return _with_density(png, dots_per_inch(layout.container, side))
 
 
 def _with_density(png: bytes, dpi: float | None) -> bytes:

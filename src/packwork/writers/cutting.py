@@ -110,6 +110,8 @@ def cut_rings(layout: Layout, options: CutOptions) -> list[FloatArray]:
 
 def cut_group(layout: Layout, options: CutOptions, digits: int) -> list[str]:
     """Group ``cut`` of an SVG: hairlines without a fill; nothing if no lines are asked for."""
+    if options.is_asked:
+        layout.container.check_edge("cut", "lines for a cutter")
     rings = cut_rings(layout, options) if options.is_asked else []
     if not rings:
         return []

@@ -73,6 +73,7 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
     >>> b"LWPOLYLINE" in dxf_bytes(blank(unit="cm"))
     True
     """
+    layout.container.check_edge("output", "lines for a DXF")
     lines = [
         (lot, line)
         for lot in _lots(layout, cut or CutOptions())

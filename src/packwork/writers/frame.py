@@ -69,6 +69,10 @@ def picture_frame(container: Container, longer_side_px: int) -> PictureFrame:
     """
     check_side(longer_side_px)
     rows, columns = image_shape(container.width, container.height, longer_side_px)
+    if container.lattice is not None:
+        # Its edges are those of pixels, the nearest ones.
+        per_cu = longer_side_px / container.side
+        rows, columns = (max(round(v * per_cu), 1) for v in (container.height, container.width))
     if rows * columns > MAX_PIXELS:
         raise RecipeError(
             "pixels",

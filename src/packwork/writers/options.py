@@ -6,6 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
+from pydantic import Field
+
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 from packwork.writers.prepress.options import MarksChoice
@@ -44,6 +46,12 @@ class DrawingOptions(Options):
     halo: Annotated[HaloChoice, Offer(also=Group.COLOURS)] = "none"
     """A rim that makes items stand out from the background, in SVG, PNG, JPEG and PDF: faint (of
     those that are hardly to be seen on it) or all."""
+
+    tiles: Annotated[
+        Annotated[int, Field(ge=1, le=20)], Offer(verbs=Verbs.COLLAGES, after="pixels")
+    ] = 1
+    """Of a tile, draw so many each way side by side, 3 for a preview of 3 x 3: in SVG by a
+    <pattern>."""
 
     show_container: bool = False
     """Draw the container's line."""

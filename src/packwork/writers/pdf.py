@@ -68,7 +68,9 @@ def pdf_bytes(
     import pikepdf
 
     options, printing = options or SvgOptions(), printing or PrintOptions()
-    sheet = print_sheet(layout.container, printing.bleed, printing.marks)
+    container, times = layout.container, options.repeats
+    whole = replace(container, width=times * container.width, height=times * container.height)
+    sheet = print_sheet(whole, printing.bleed, printing.marks)
     cut = options.cut
     is_cut = cut is not None and cut.is_asked
     rings = cut_rings(layout, cut) if cut is not None and is_cut else []

@@ -14,9 +14,12 @@ import math
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from packwork.errors import RecipeError
 from packwork.geometry import affine
 from packwork.scene.colour import hex_colour, parse_colour
-from packwork.scene.container import Backdrop
+from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout, Note
 from packwork.scene.notation import (
@@ -47,6 +50,9 @@ _STEP_SHARE = PRECISION / 4
 rounding of its path, scale, turn and place: half a step each, in two directions for the
 path and the place, 2.4 half steps in all. Derived."""
 
+PREVIEW = '<defs><pattern id="tile"'
+"""Begin of the pattern in SVGs of tiles side by side, whose items are not at its top."""
+
 NAME_LENGTH = 80
 """Characters of a name that are kept: it is repeated on every copy. Chosen."""
 
@@ -69,7 +75,7 @@ class SvgOptions:
     the container's line, whose path is in the file either way. ``flatten`` writes every copy in
     full, for tools that do not know ``use``. ``text`` is ``live`` for words that can be selected
     and found, in fonts that the file carries, ``outlines`` for curves. Lines for a cutter (``cut``)
-    lie on top of all.
+    lie on top of all. Tiles are drawn ``repeats`` times each way.
     """
 
     background: str | None = None
@@ -77,6 +83,7 @@ class SvgOptions:
     flatten: bool = False
     text: TextChoice = "outlines"
     cut: CutOptions | None = None
+    repeats: int = 1
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -90,11 +97,24 @@ class SheetSize:
     size: tuple[float, float]
     unit: Unit
     view: tuple[float, float]
+    is_stretched: bool = False
+
+    def times(self, repeats: int) -> SheetSize:
+        """Sheet of so many each way."""
+        (width, height), (across, down) = self.size, self.view
+        size, view = (width * repeats, height * repeats), (across * repeats, down * repeats)
+        return replace(self, size=size, view=view)
 
 
-def sheet_of(frame: PictureFrame) -> SheetSize:
-    """Sheet of whole pixels both ways: renderers fit a fractional canvas with soft edges."""
+def sheet_of(frame: PictureFrame, container: Container) -> SheetSize:
+    """Sheet of whole pixels both ways: renderers fit a fractional canvas with soft edges.
+
+    A tile has to end where its pixels do, so it is stretched by less than a pixel.
+    """
     size = (float(frame.columns), float(frame.rows))
+    if container.lattice is not None:
+        view = (container.width, container.height)
+        return SheetSize(size=size, unit="px", view=view, is_stretched=True)
     view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
     return SheetSize(size=size, unit="px", view=view)
 
@@ -131,12 +151,14 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
     digits = decimals(layout.container.side * _STEP_SHARE)
     live = LiveWords(layout.items if options.text == "live" else ())
     shapes = _shapes(layout)
+    before, after = _repeated(layout.container, sheet, options.repeats)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        _root(sheet),
+        _root(sheet.times(options.repeats)),
         f"<title>{xml_text(layout.container.name[:NAME_LENGTH])}</title>",
         *live.style(),
         *([] if options.flatten else _definitions(shapes.values(), live)),
+        *before,
         *_background(options.background),
         *_backdrop(layout.container.backdrop),
         *_halos(layout, digits),
@@ -144,8 +166,10 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
         f'<g id="items"{attributes(_promise_attributes(layout))}>',
         *_copies(layout, shapes, digits, live, flatten=options.flatten),
         "</g>",
+        *_images(layout, digits, flatten=options.flatten),
         *_notes(layout),
         *([] if options.cut is None else cut_group(layout, options.cut, digits)),
+        *after,
         "</svg>",
         "",
     ]
@@ -196,10 +220,26 @@ def _shape(name: str, item: Item, scale: float, side: float) -> _Shape:
 def _root(sheet: SheetSize) -> str:
     width, height, view_width, view_height = (f"{v:.12g}" for v in (*sheet.size, *sheet.view))
     unit = "" if sheet.unit == "px" else sheet.unit
+    fit = ' preserveAspectRatio="none"' if sheet.is_stretched else ""
     return (
         '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
         f' width="{width}{unit}" height="{height}{unit}"'
-        f' viewBox="0 0 {view_width} {view_height}">'
+        f' viewBox="0 0 {view_width} {view_height}"{fit}>'
+    )
+
+
+def _repeated(container: Container, sheet: SheetSize, repeats: int) -> tuple[list[str], list[str]]:
+    """Pattern about a drawing, and a rectangle filled with it; nothing if it stands once."""
+    if repeats == 1:
+        return [], []
+    if container.lattice is None:
+        raise RecipeError("tiles", "draws them side by side; this is none, see --tile")
+    width, height = (f"{v:.12g}" for v in sheet.view)
+    box = f'width="{width}" height="{height}" patternUnits="userSpaceOnUse"'
+    whole = attributes({"width": "100%", "height": "100%", "fill": "url(#tile)"})
+    return (
+        [f"{PREVIEW} {box}>"],
+        ["</pattern></defs>", f"<rect{whole}/>"],
     )
 
 
@@ -247,6 +287,7 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
         {
             "id": "container",
             "data-name": container.name[:NAME_LENGTH],
+            "data-tile": "" if container.lattice is None else container.lattice.kind,
             "fill": "none",
             "stroke": CONTAINER_STROKE,
             "stroke-width": f"{container.side * CONTAINER_STROKE_SHARE:.6g}",
@@ -310,6 +351,27 @@ def _copies(
             drawn = _use(own, place, shape)
         copies.append(labelled(drawn, item.label))
     return copies
+
+
+def _images(layout: Layout, digits: int, *, flatten: bool) -> list[str]:
+    """Images of the items of a tile, where they cross its edge and come in again."""
+    container = layout.container
+    if container.lattice is None:
+        return []
+    if flatten:
+        container.check_edge("flatten", "items without <use>")
+    canvas, drawn = (0.0, 0.0, container.width, container.height), list[str]()
+    for name, ink, outline in zip(
+        item_ids(layout.items), layout.inks, layout.outlines, strict=True
+    ):
+        edges = np.array([ink.bounds, outline.bounds])
+        box = *edges[:, :2].min(axis=0).tolist(), *edges[:, 2:].max(axis=0).tolist()
+        for shift in container.lattice.meeting(box, canvas).tolist():
+            if any(shift):
+                x, y = (number(v, digits) for v in shift)
+                head = {"xlink:href": f"#{name}", "transform": f"translate({x} {y})"}
+                drawn.append(f"<use{attributes(head)}/>")
+    return ['<g id="images">', *drawn, "</g>"]
 
 
 def _use(own: dict[str, str], place: str, shape: _Shape) -> str:

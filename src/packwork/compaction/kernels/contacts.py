@@ -208,6 +208,12 @@ def constraint_rows(board, pairs, pair_of, numbers, where, trust, gap):
             part = 4
         if b >= 0:
             _motion(board, j, nx, ny, numbers[k, 4], numbers[k, 5], 1.0, row[part : part + 4])
+        if a == b:
+            # An item and an image of its own move alike, but turn and grow towards each other.
+            for c in range(4):
+                row[c] += row[c + 4]
+                row[c + 4] = 0.0
+            b = -1
         limits[count] = max(numbers[k, 6] - gap, 0.0) / trust
         reach = 0.0
         for c in range(8):
@@ -232,10 +238,14 @@ def near_contacts(board, items, pairs, trust, gap, hair):
         slants[p] = min(slants[p], 1.0)
     where = np.empty(last + 1, np.int64)
     for p in range(pairs.shape[0]):
-        where[pairs[p, 0]] = where[pairs[p, 1]] = -1
+        for i in (pairs[p, 0], pairs[p, 1]):
+            where[i] = where[board.owners[i]] = -1
     for k in range(items.shape[0]):
         where[items[k]] = k
         mean += distances.arm(board, items[k]) / items.shape[0]
+    for p in range(pairs.shape[0]):
+        for i in (pairs[p, 0], pairs[p, 1]):
+            where[i] = where[board.owners[i]]
     pair_of, numbers = all_contacts(board, pairs, gap + REACH * trust, slants)
     kept = gap + (TIGHT - 1.0) * hair + BEND * trust * trust / mean
     return pair_of, numbers, where, kept

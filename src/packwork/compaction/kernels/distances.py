@@ -1,7 +1,8 @@
 """Polygons in place, and the exact distances of pairs of them.
 
-All polygons lie one after another in ``points``: first the items, last the container, whose rings
-run backwards, so that its inside is all that must not be entered. The outward normal of an edge
+All polygons lie one after another in ``points``: first the items, then their images where they
+repeat, last the container, whose rings run backwards, so that its inside is all that must not be
+entered. The outward normal of an edge
 ``d`` is ``(d_y, -d_x)``.
 """
 
@@ -22,8 +23,9 @@ class Board(NamedTuple):
     ``own``: points of all about their own origins; ``starts``: first point of each polygon;
     ``after``, ``before``: neighbours of each point in its ring; ``points``: in place; ``boxes``:
     left, top, right, bottom of each; ``spans``: the same of every ``stride`` successive edges of
-    the container; ``places``: x, y, turn, logarithm of growth of each item; ``arms``: farthest
-    point of each at growth 0.
+    the container; ``places``: x, y, turn, logarithm of growth of each item and image; ``arms``:
+    farthest point of each at growth 0; ``owners``: the item of each polygon, the container's number
+    for itself; ``shifts``: ``(s, 2)`` from an item to its images, which follow one another.
     """
 
     own: np.ndarray
@@ -36,12 +38,16 @@ class Board(NamedTuple):
     stride: int
     places: np.ndarray
     arms: np.ndarray
+    owners: np.ndarray
+    shifts: np.ndarray
 
 
 @kernel
 def put(board, items, places):
-    """Grow, turn and move some items to the rows of ``places``."""
+    """Grow, turn and move some items, and their images, to the rows of ``places``."""
     own, points = board.own, board.points
+    images = board.shifts.shape[0]
+    count = board.places.shape[0] // (images + 1)
     for k in range(items.shape[0]):
         i = items[k]
         for c in range(4):
@@ -59,6 +65,21 @@ def put(board, items, places):
             top, bottom = min(top, y), max(bottom, y)
         box = board.boxes[i]
         box[0], box[1], box[2], box[3] = left, top, right, bottom
+        for s in range(images):
+            _put_image(board, i, count + i * images + s, board.shifts[s])
+
+
+@helper
+def _put_image(board, i, image, shift):
+    """Put an image of an item beside it."""
+    for c in range(4):
+        board.places[image, c] = board.places[i, c] + (shift[c] if c < 2 else 0.0)
+        board.boxes[image, c] = board.boxes[i, c] + shift[c % 2]
+    begin = board.starts[image]
+    for v in range(board.starts[i], board.starts[i + 1]):
+        for c in range(2):
+            board.points[begin, c] = board.points[v, c] + shift[c]
+        begin += 1
 
 
 @helper

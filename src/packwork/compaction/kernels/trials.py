@@ -201,7 +201,7 @@ class TrialBatch(NamedTuple):
 
 
 def allocate_batch(most: int, neighbours: int, count: int) -> TrialBatch:
-    """Room for so many trials, with so many neighbours of each moved item, among so many items."""
+    """Room for so many trials, with so many neighbours of each moved item, of so many polygons."""
     width = 2 * neighbours + 4
     return TrialBatch(
         np.empty(most, np.int64), np.zeros((most + 1, 3), np.int64),

@@ -248,7 +248,12 @@ shows specks, smaller refuses what could be mended by hand. Chosen."""
 
 
 def padded(container: Container, padding: float) -> Container:
-    """Container drawn in by half the padding; the items' own margins are the other half."""
+    """Container drawn in by half the padding; the items' own margins are the other half.
+
+    A tile stays as it is: about it lies the next one.
+    """
+    if container.lattice is not None:
+        return container
     return replace(container, outline=grown(container.outline, -padding / 2))
 
 

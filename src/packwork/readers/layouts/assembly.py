@@ -17,7 +17,7 @@ from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
-from packwork.scene.container import Backdrop, Container
+from packwork.scene.container import Backdrop, Container, repeating
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout, Note, ground_in
 from packwork.scene.pose import Poses
@@ -45,8 +45,8 @@ class FoundSheet:
 
     ``gap`` and ``areas_in_shares`` are what its run promised; ``on_trust`` are sentences about
     what could not be seen and was believed; ``walls`` the lines that are seen of a container
-    with openings, canvas units, None for all of its edge; ``said`` what else the file says, as
-    a manifest has it.
+    with openings, canvas units, None for all of its edge; ``tile`` how it repeats; ``said`` what
+    else the file says, as a manifest has it.
     """
 
     width: float
@@ -59,6 +59,7 @@ class FoundSheet:
     on_trust: tuple[str, ...] = ()
     walls: tuple[FloatArray, ...] | None = None
     backdrop: Backdrop | None = None
+    tile: str | None = None
     notes: tuple[Note, ...] = ()
     said: Mapping[str, Any] = field(default_factory=dict)
 
@@ -81,6 +82,8 @@ def assembled(sheet: FoundSheet, name: str) -> Layout:
     container = Container(
         name, name, outline, sheet.width, sheet.height, sheet.unit, sheet.backdrop, sheet.walls
     )
+    if sheet.tile is not None:
+        container = repeating(container, sheet.tile)
     placed = [
         _placed(one, f"item {number} ({one.name})")
         for number, one in enumerate(sheet.items, start=1)

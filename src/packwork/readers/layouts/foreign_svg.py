@@ -20,7 +20,9 @@ PAINTED = frozenset(
 )  # fmt: skip
 """Elements that may paint."""
 
-OWN = frozenset({"background", "backdrop", "halos", "container", "items", "labels", "legend"})
+OWN = frozenset(
+    {"background", "backdrop", "halos", "container", "items", "images", "labels", "legend"}
+)
 """Names of what our files hold at their top."""
 
 

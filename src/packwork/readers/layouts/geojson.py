@@ -22,7 +22,7 @@ from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.colour import css_colour
-from packwork.scene.container import Container
+from packwork.scene.container import Container, repeating
 from packwork.scene.item import Datum, FlatArt, Item, Label
 from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
@@ -106,6 +106,7 @@ class _ContainerMembers(_Saved):
     name: Any = "container"
     source: Any = None
     walls: Annotated[tuple[FloatArray, ...] | None, PlainValidator(_lines)] = None
+    tile: Literal["square", "half-drop"] | None = None
 
 
 class _DatumMembers(_Saved):
@@ -243,7 +244,8 @@ def _container(outline: Outline, of: _ContainerMembers, canvas: _Canvas | None) 
     name = str(of.name)
     source = name if of.source is None else str(of.source)
     size = canvas.width, canvas.height, canvas.unit
-    return Container(name, source, outline, *size, walls=of.walls)
+    container = Container(name, source, outline, *size, walls=of.walls)
+    return container if of.tile is None else repeating(container, of.tile)
 
 
 def _item(outline: Outline, of: _ItemMembers, where: str) -> Item:

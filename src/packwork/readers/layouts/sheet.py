@@ -14,6 +14,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.lattice import HALF_DROP, SQUARE
 from packwork.readers.layouts.arts import Arts
 from packwork.readers.layouts.foreign_svg import group_named, tag
 from packwork.readers.reading import UnfitError
@@ -31,6 +32,19 @@ rounding, less than items are apart. Chosen."""
 
 _PATH = re.compile(r"[MmZzLlHhVvCcSsQqTtAaeE\d\s+.,-]*")
 _LIMITS = {"rotate": "data-rotate", "sizes": "data-sizes", "size_ratio": "data-size-ratio"}
+
+
+def tile_of(root: ET.Element) -> str | None:
+    """Way in which the sheet of a tile repeats; None if it is no tile.
+
+    Examples
+    --------
+    >>> tile_of(ET.fromstring('<svg><g id="container" data-tile="half-drop"/></svg>'))
+    'half-drop'
+    """
+    wall = group_named(root, "container")
+    said = None if wall is None else wall.get("data-tile")
+    return said if said in {SQUARE, HALF_DROP} else None
 
 
 def drawing_of(root: ET.Element, is_in_full: bool) -> dict[str, Any]:

@@ -48,6 +48,7 @@ from packwork.readers.layouts.sheet import (
     ground_of,
     limits_of,
     notes_of,
+    tile_of,
     with_halos,
 )
 from packwork.readers.layouts.tampering import examined
@@ -141,6 +142,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         items=found,
         on_trust=(*drawings.on_trust, *unseen),
         walls=None if walls is None else _walls(walls, walled),
+        tile=tile_of(root),
         backdrop=None if outlines_only else backdrop_of(root, arts, to_canvas),
         notes=notes_of(root, to_canvas),
         said={

@@ -7,11 +7,15 @@ that has any is not certified. Drawings themselves are followed with all that th
 
 from __future__ import annotations
 
+import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
+import numpy as np
+
+from packwork.geometry.lattice import Lattice
 from packwork.geometry.polygon import Region
 from packwork.phrasing import number_of
 from packwork.readers.gate.sanitise import safe_value
@@ -23,7 +27,8 @@ from packwork.readers.layouts.foreign_svg import (
     tag,
     unmeasured,
 )
-from packwork.readers.svg_syntax.coordinates import parse_length, view_box
+from packwork.readers.layouts.sheet import tile_of
+from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform, view_box
 from packwork.readers.svg_syntax.vocabulary import ATTRIBUTES, ELEMENTS, PROPERTIES, RENAMED
 
 _COLOURING = frozenset({"fill", "fill-opacity", "color", "opacity", "display", "visibility"})
@@ -204,9 +209,32 @@ def _of_frame(root: ET.Element) -> Iterator[Met]:
     for group in root:
         if tag(group) in {"defs", "style"} or group.get("id") == "items":
             continue
+        if group.get("id") == "images" and tile_of(root):
+            yield from _of_images(root, group)
+            continue
         for element in group.iter():
             if tag(element) == "use":
                 yield "a copy of an item", "the file outside the group items"
+
+
+def _of_images(root: ET.Element, group: ET.Element) -> Iterator[Met]:
+    """Changes of the images of items that cross the edge of a tile."""
+    view, items = view_box(root), group_named(root, "items")
+    if view is None or items is None:
+        return
+    lattice = Lattice.of_canvas(view[2], view[3], str(tile_of(root)))
+    names = {f"#{element.get('id')}" for element in items.iter()}
+    for image in group:
+        yield from _odd(image, frozenset({"href", "transform"}), "an image beyond the edge")
+        place = parse_transform(image.get("transform"))
+        column = round(place[0, 2] / lattice.width)
+        away = place[1, 2] - column * lattice.drop
+        off = (place[0, 2] - column * lattice.width, math.remainder(away, lattice.height))
+        is_moved = not np.array_equal(place[:, :2], np.eye(2))
+        if is_moved or max(map(abs, off)) > _SAME * max(view[2:]):
+            yield "its place", "an image beyond the edge"
+        if tag(image) != "use" or (image.get("href") or image.get(LINK)) not in names:
+            yield "what it shows", "an image beyond the edge"
 
 
 def _page(root: ET.Element) -> Iterator[Met]:

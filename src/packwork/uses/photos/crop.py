@@ -79,6 +79,7 @@ def crops(recipe: Recipe) -> bool:
         return False
     others = {
         "words are read whole; use --edge inside": recipe.words is not None,
+        "needs a container's edge, and a tile has none; use --edge inside": recipe.tile is not None,
         "needs --finish exact: the cut is certified": recipe.finish != "exact",
         "enlarges photos at the edge; use --sizes free": recipe.sizes != "free",
         "has no --picture; use --edge inside": recipe.picture is not None,

@@ -18,7 +18,7 @@ from packwork.geometry.simplify import hull_areas
 from packwork.metrics.exact import compactness
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Sentence, Unplaced
-from packwork.pipeline.job import Job, Use
+from packwork.pipeline.job import Job, UseOf
 from packwork.pipeline.plan.counts import widest_cu
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.limits import given_scales
@@ -28,7 +28,6 @@ from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.recipe.piles import PileOptions
 from packwork.scene.container import brought_over
-from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -326,11 +325,10 @@ def _tell_who_is_held_by_the_edge(layout: Layout) -> None:
 
 @final
 @dataclass(frozen=True, eq=False)
-class PileUse(Use):
+class PileUse(UseOf):
     """A heap of what another use reads."""
 
     heap: Heap
-    content: Use
     matches_by_name = True
 
     def steps(self, job: Job) -> Sequence[RunStep]:
@@ -342,38 +340,6 @@ class PileUse(Use):
         """As of the content, but for the shape, which a heap does not show."""
         own = [step for step in self.content.report(job) if not isinstance(step, NOT_OF_PILES)]
         return [*own, RemarkCount(by_width=False)] if job.is_counted and not self.words else own
-
-    @property
-    def inner(self) -> Use:
-        """The use that read the items."""
-        return self.content
-
-    @property
-    def words(self) -> Sequence[Item]:
-        """Words among the items."""
-        return self.content.words
-
-    def subset(self, kept: IntArray) -> PileUse:
-        """The same of some of the items."""
-        return replace(self, content=self.content.subset(kept))
-
-    def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
-        """Colours that the content's data give."""
-        return self.content.colours(job, layout)
-
-    @property
-    def palette_tints(self) -> bool:  # type: ignore[override]
-        """As the content has it."""
-        return self.content.palette_tints
-
-    @property
-    def has_nearest(self) -> bool:  # type: ignore[override]
-        """As the content has it."""
-        return self.content.has_nearest
-
-    def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
-        """As the content draws them."""
-        return self.content.redrawn(job, gone)
 
 
 NOT_OF_PILES = (Advise, RemarkCount)

@@ -33,7 +33,9 @@ def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     frame = picture_frame(film.layout.container, film.options.film_pixels)
     # Halos lie under all items, in one group: they would stay behind.
     bare = tuple(replace(item, halo="") for item in film.layout.items)
-    still = svg_document(replace(film.layout, items=bare), film.drawing, sheet_of(frame))
+    still = svg_document(
+        replace(film.layout, items=bare), film.drawing, sheet_of(frame, film.layout.container)
+    )
     head, end_of_title, rest = still.partition("</title>")
     beneath, items, above = rest.partition('<g id="items"')
     drawn = [head, end_of_title, "\n", _style(film, tell), beneath, *_leaving(film), items, above]

@@ -51,6 +51,7 @@ class Film:
     show_container: bool = False
 
     def __post_init__(self) -> None:
+        self.layout.container.check_edge("film", "film")
         if self.track.count != len(self.layout.items):
             raise WriteError(
                 "film", f"the track is of {self.track.count} items, not {len(self.layout.items)}"

@@ -107,7 +107,9 @@ def _frame(film: Film, is_even: bool) -> PictureFrame:
 
 def _sheet(film: Film, frame: PictureFrame) -> Picture:
     """Picture under the items of every frame, premultiplied."""
-    document = svg_document(without_items(film.layout), film.drawing, sheet_of(frame))
+    document = svg_document(
+        without_items(film.layout), film.drawing, sheet_of(frame, film.layout.container)
+    )
     return premultiplied(_pixels(drawn_png(document)))
 
 

@@ -29,6 +29,8 @@ edges show a fine line there."""
 def rim_of(layout: Layout) -> Layout | None:
     """Layout of the art that touches the sheet's edge, the picture behind too; None if none does.
 
+    Of a tile none: what is printed is cut from more of them.
+
     Examples
     --------
     >>> from packwork.scene.layout import blank
@@ -39,7 +41,7 @@ def rim_of(layout: Layout) -> Layout | None:
     sides, hair = np.array([container.width, container.height]), TOUCHING * container.side
     bounds = [ink.bounds for ink in layout.inks]
     kept = [k for k, box in enumerate(bounds) if min(*box[:2], *(sides - box[2:])) <= hair]
-    if not kept and container.backdrop is None:
+    if container.lattice is not None or not (kept or container.backdrop is not None):
         return None
     return replace(
         layout,
