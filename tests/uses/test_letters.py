@@ -107,7 +107,7 @@ def test_each_attempt_keeps_fewer_words() -> None:
 @pytest.mark.parametrize(
     ("options", "problem"),
     [
-        ({"smallest": "5%", "largest": "2%"}, "smallest: is 30, more than the 12 of --largest"),
+        ({"smallest": "5%", "largest": "2%"}, "smallest: is 30, more than the 12 of largest"),
         ({"smallest": 0}, "smallest: must be more than nothing"),
         ({"largest": "tall"}, "largest: "),
         ({"largest": 9, "sizes": "free"}, "largest: bounds words in proportion"),

@@ -97,7 +97,9 @@ def read_word_items(
     for one in ranked.told:
         _LOG.warning("%s", one)
     asked_for = ranked.words[: options.most]
-    for word, em in zip(asked_for, ems(asked_for, options.weight_is).tolist(), strict=True):
+    is_many = len(asked_for) > MANY
+    shown = ems(asked_for, options.weight_is) if is_many else np.full(len(asked_for), np.inf)
+    for word, em in zip(asked_for, shown.tolist(), strict=True):
         try:
             items.append(shaped_word(word, fonts, holes, em).item)
             words.append(word)
@@ -135,6 +137,10 @@ def word_fonts(options: WordOptions) -> Fonts:
     """Fonts that words are set in."""
     return open_fonts(options.fonts, options.font_weight, _one_language(options.language))
 
+
+MANY = 250
+"""Words up to which each one's curves are followed as if it filled the canvas. Larger takes memory;
+smaller moves words of clouds that are finished by true outlines. Chosen."""
 
 LETTER = 0.25
 """Area of a letter's silhouette, square ems. Larger follows curves more finely than shows, smaller
