@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 import packwork as pw
@@ -263,3 +264,11 @@ def test_notices_name_options_as_python_does(caplog: pytest.LogCaptureFixture) -
         logging.getLogger("packwork").warning("%d are smaller than --size-ratio allows", 3)
     logging.getLogger("packwork").warning("use --size-ratio")
     assert caplog.messages == ["3 are smaller than size_ratio allows", "use --size-ratio"]
+
+
+def test_a_container_that_is_given_has_the_margin_too() -> None:
+    sheet = pw.Container("sheet", outline=shapely.box(0, 0, 100, 80))
+    layout = pw.fill(sheet, "star", count=4, margin=10, effort="draft", levels="50")
+    assert layout.container.outline.bounds == (10.0, 10.0, 90.0, 70.0)
+    with pytest.raises(pw.RecipeError, match="margin"):
+        pw.fill(sheet, "star", count=4, margin=45, effort="draft")

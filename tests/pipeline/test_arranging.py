@@ -160,7 +160,7 @@ def test_what_has_no_meaning_is_refused(arrange: str, said: str) -> None:
 
 
 def test_colours_that_a_palette_replaces_give_no_order() -> None:
-    with pytest.raises(RecipeError, match="--palette gives them others"):
+    with pytest.raises(RecipeError, match="palette gives them others"):
         pw.fill("circle", ["star", "moon"], arrange="hue", palette="okabe-ito", **QUICK)
 
 

@@ -161,7 +161,7 @@ def test_photos_by_choice_lie_by_colour_alone(tmp_path: Path, kinds: str) -> Non
         Image.new("RGB", (20, 20), "teal").save(tmp_path / f"{name}.png")
     Image.fromarray(np.tile(np.arange(0, 255, 5, dtype=np.uint8), (51, 1))).save(tmp_path / "p.png")
     options = {"picture": str(tmp_path / "p.png"), "embeddings": kinds}
-    with pytest.raises(RecipeError, match="--picture puts them where their colours fit"):
+    with pytest.raises(RecipeError, match="picture puts them where their colours fit"):
         pw.photos("square", str(tmp_path / "*o*.png"), **options, **QUICK)
 
 

@@ -129,9 +129,9 @@ def test_words_can_be_read_on_the_ground(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"tint": 0.5}, "tint: is of --picture"),
-        ({"ground": "white"}, "ground: is of --picture"),
-        ({"detail": 0.5}, "detail: is of --picture"),
+        ({"tint": 0.5}, "tint: is of picture"),
+        ({"ground": "white"}, "ground: is of picture"),
+        ({"detail": 0.5}, "detail: is of picture"),
         ({"picture": "", "tint": 0.5}, "picture: is an empty name"),
     ],
 )
@@ -190,7 +190,7 @@ def test_pinned_items_keep_their_places_among_detail(corner: str) -> None:
     ("options", "said"),
     [
         ({"sizes": "shared"}, "detail: makes sizes follow the picture, and they are shared"),
-        ({"start": "scatter"}, "detail: chooses places by the picture; leave --start out"),
+        ({"start": "scatter"}, "detail: chooses places by the picture; leave start out"),
         (
             {"rules": [{"items": "star", "region": [0, 0, "50%", "100%"]}]},
             "detail: chooses places by the picture, and a rule keeps items to a region",

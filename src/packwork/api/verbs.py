@@ -28,12 +28,13 @@ from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.pipeline import Run
+from packwork.pipeline.read import safe_area
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never, together
 from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Handed, Value
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
-from packwork.scene.container import Container
+from packwork.scene.container import Container, on_canvas
 from packwork.uses.overriding import overridden
 from packwork.uses.photos.recipe import photos_recipe
 
@@ -372,7 +373,9 @@ def run_recipe(
     if not callable(stop):
         raise RecipeError("stop", f"must be a function that says whether to stop, not {stop!r}")
     bar = bar_for(progress, None if observer is None else heard)
-    whole = container if isinstance(container, Container) else None
+    whole = None
+    if isinstance(container, Container):
+        whole = safe_area(recipe, on_canvas(container, recipe.canvas_size))
 
     def run_seed(k: int, stop: Stop) -> Run:
         seeded = recipe.model_copy(update={"seed": recipe.seed + k})

@@ -73,7 +73,7 @@ class Desk:
         self.session, self._scenes, self._shown, self._done = session, Scenes(), 0, 0
 
     def present(self, said: str = "") -> dict[str, Any]:
-        """What the page is shown, by name; ``said`` in place of how things stand."""
+        """Values that the page is shown, by name; ``said`` in place of how things stand."""
         session = self.session
         self._shown += 1
         view = View.of_document(session.document)
@@ -154,7 +154,7 @@ def _widgets() -> Any:
 
         @property
         def session(self) -> Session:
-            """What the hand works on."""
+            """The session that the hand works on."""
             return self._desk.session
 
         @property

@@ -27,7 +27,7 @@ from packwork.scene.notation import matrix_text
 
 @dataclass(frozen=True)
 class Arranged:
-    """What is to be changed of a drawing.
+    """Changes of a drawing.
 
     ``transforms``: new ``transform`` of each object that is moved, by its id.
     ``new``: what is new, by name: SVG that stands in one group, and ``transform`` of that; in

@@ -119,7 +119,7 @@ class Requests:
     """Places and sizes asked of items: each is kept until it is had or asked otherwise."""
 
     def __init__(self) -> None:
-        self._asked: dict[tuple[str, int], _Asked] = {}
+        self._asked: dict[tuple[str, int], _Request] = {}
         self._count = self._settled = 0
 
     def note(self, commands: Iterable[Command], before: Document, after: Document) -> None:
@@ -144,7 +144,7 @@ class Requests:
 
     def _ask(self, what: str, item: int, value: tuple[float, float]) -> None:
         self._count += 1
-        self._asked[what, item] = _Asked(self._count, value)
+        self._asked[what, item] = _Request(self._count, value)
 
     def settled(self, document: Document) -> None:
         """Forget what a document that is settled has: later gestures may take it away again."""
@@ -174,7 +174,7 @@ class Requests:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _Request:
     """Request, in the order of asking.
 
     ``value``: coordinates; of a size itself and what it was before.

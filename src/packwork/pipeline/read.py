@@ -132,7 +132,7 @@ def read_room(recipe: Recipe, given: Container | None) -> Container:
         found = read_container(
             recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
         )
-        found = _inside_margin(recipe, found)
+        found = safe_area(recipe, found) if recipe.margin != NO_MARGIN else found
     if recipe.tile is not None:
         found = tiled(found, recipe.tile)
     count = len(found.outline.points)
@@ -142,7 +142,11 @@ def read_room(recipe: Recipe, given: Container | None) -> Container:
     return found
 
 
-def _inside_margin(recipe: Recipe, found: Container) -> Container:
+NO_MARGIN = "0"
+
+
+def safe_area(recipe: Recipe, found: Container) -> Container:
+    """The part of a container that is as far from the sheet's edge as a recipe's margin says."""
     margin = length_asked("margin", recipe.margin, found.unit, found.side)
     if margin == 0:
         return found

@@ -67,7 +67,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class _State:
+class _Graphics:
     matrix: FloatArray
     window: FloatArray = field(default_factory=lambda: _EVERYWHERE)
     width: float = 1.0
@@ -155,7 +155,7 @@ class _Content:
         self._inks: set[str] = set()
         self._clear: Counter[str] = Counter()
         self._painted_boxes: list[FloatArray] = []
-        self._follow(page.obj, page.obj.get("/Resources", {}), _State(affine.identity()), 0)
+        self._follow(page.obj, page.obj.get("/Resources", {}), _Graphics(affine.identity()), 0)
 
     def checks(self, ems: Sequence[float]) -> list[Check]:
         """Lines of the table; ``ems`` are heights of letters that are curves here."""
@@ -235,10 +235,10 @@ class _Content:
         told = " ".join([*self._intents, self._standard]).strip()
         return Check("output intent", told or "none", bool(told))
 
-    def _follow(self, stream: Any, resources: Any, state: _State, depth: int) -> None:
+    def _follow(self, stream: Any, resources: Any, state: _Graphics, depth: int) -> None:
         if depth > _DEEPEST:
             return
-        kept: list[_State] = []
+        kept: list[_Graphics] = []
         points: list[FloatArray] = []
         clips = False
         for one in pikepdf.parse_content_stream(stream):
@@ -271,7 +271,7 @@ class _Content:
             else:
                 state = self._changed(state, name, operands, resources)
 
-    def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: _State) -> None:
+    def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: _Graphics) -> None:
         if strokes:
             self._lines.append(state.width * _scale_of(state.matrix))
         for space in (state.spaces[:1] if fills else ()) + (state.spaces[1:] if strokes else ()):
@@ -284,7 +284,7 @@ class _Content:
         elif space:
             self._spaces[space] += 1
 
-    def _drawn(self, drawn: Any, resources: Any, state: _State, depth: int) -> None:
+    def _drawn(self, drawn: Any, resources: Any, state: _Graphics, depth: int) -> None:
         if drawn.Subtype == "/Image":
             box = _bounds([np.array([[0, 0], [1, 0], [0, 1], [1, 1]])], state)
             self._painted_boxes.append(box)
@@ -303,7 +303,7 @@ class _Content:
             drawn, drawn.get("/Resources", resources), replace(state, matrix=own), depth + 1
         )
 
-    def _changed(self, state: _State, name: str, operands: Any, resources: Any) -> _State:
+    def _changed(self, state: _Graphics, name: str, operands: Any, resources: Any) -> _Graphics:
         if name == "cm":
             return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
         if name == "w":
@@ -351,7 +351,7 @@ def _space_name(space: Any, resources: Any) -> str:
     return {"/CalRGB": "RGB", "/CalGray": "grey", "/Indexed": "RGB"}.get(kind, "")
 
 
-def _bounds(points: Sequence[FloatArray], state: _State) -> FloatArray:
+def _bounds(points: Sequence[FloatArray], state: _Graphics) -> FloatArray:
     """Corners of the box of points on the page, as far as the clip lets it through."""
     placed = affine.apply(state.matrix, np.concatenate(points))
     low = np.maximum(placed.min(axis=0), state.window[0])

@@ -17,7 +17,7 @@ import inkex.command
 LENGTHS = ("gap", "margin")
 
 
-class Arrange(inkex.EffectExtension):
+class PackworkExtension(inkex.EffectExtension):
     """Asks Packwork and carries out what it answers."""
 
     def add_arguments(self, pars):
@@ -157,7 +157,7 @@ def text_of(element):
 
 
 def linked(element):
-    """What a clone shows."""
+    """The object that a clone shows."""
     return (element.href,) if isinstance(element, inkex.Use) and element.href is not None else ()
 
 
@@ -185,7 +185,7 @@ class Child:
 
     def answer(self):
         """The last line of the answer; None if the person cancelled."""
-        window = Window.open(self)
+        window = ProgressWindow.open(self)
         if window is None:
             self._listen(lambda share: None)
         else:
@@ -227,7 +227,7 @@ def clean_environment():
     return {key: value for key, value in os.environ.items() if key not in own}
 
 
-class Window:
+class ProgressWindow:
     """A bar and a button to cancel."""
 
     @classmethod
@@ -285,4 +285,4 @@ class Window:
 
 
 if __name__ == "__main__":
-    Arrange().run()
+    PackworkExtension().run()

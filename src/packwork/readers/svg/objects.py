@@ -51,12 +51,12 @@ class DrawingObject:
         return affine.compose(self.outer, self.transform)
 
     def item(self) -> Item:
-        """What it covers, as one item, all that is white in it too."""
+        """All that it covers, as one item, its white parts too."""
         reading = ReadOptions(keep_page=True)
         return item_of_svg(self.document, self.name, self.name, "fill", reading)
 
     def inside(self) -> Region:
-        """What it covers as a container: of lines the inside, white paint as holes."""
+        """All that it covers, as a container: of lines the inside, white paint as holes."""
         with reading_file(self.name):
             return inside_of_svg(self.document)
 
@@ -130,7 +130,7 @@ class OpenDrawing:
         return affine.compose(affine.inverse(outer), affine.compose(move, outer))
 
     def _groups(self, part: ET.Element) -> list[ET.Element]:
-        """What an element stands in, from the root on."""
+        """Groups that an element stands in, from the root on."""
         way = [part]
         while way[-1] is not self._root:
             way.append(self._parents[way[-1]])

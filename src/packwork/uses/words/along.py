@@ -235,7 +235,7 @@ def _check(job: Job, key: str) -> None:
 
 
 def _wide_part(container: Container, limbs: Sequence[Limb], gap: float) -> Region | None:
-    """What of a container is neither a limb nor half as thin as one; None where it is little."""
+    """Part of a container that is no limb, nor half as thin as one; None where it is little."""
     bands = union([_band(limb, gap) for limb in limbs])
     thin = min(float(np.median(limb.half)) for limb in limbs) / 2
     left = difference(container.outline.region, bands)

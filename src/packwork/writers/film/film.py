@@ -100,14 +100,14 @@ class Film:
 
     @cached_property
     def seconds(self) -> FloatArray:
-        """How long each frame is shown; that in which items have arrived is held."""
+        """Time for which each frame is shown; that in which items have arrived is held."""
         shown = np.full(len(self.frames), 1 / self.options.fps)
         shown[self.arrival] += self.options.hold
         return shown
 
     @cached_property
     def starts(self) -> FloatArray:
-        """When each frame begins, seconds."""
+        """Time at which each frame begins, seconds."""
         return np.cumsum(self.seconds) - self.seconds
 
     def knots(self, k: int, tolerance: float) -> IntArray:

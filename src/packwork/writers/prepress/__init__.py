@@ -1,1 +1,1 @@
-"""What a print shop asks of a PDF: boxes, marks, bleed, inks, PDF/X-4."""
+"""Parts of a PDF that a print shop asks for: boxes, marks, bleed, inks, PDF/X-4."""
