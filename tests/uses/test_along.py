@@ -64,6 +64,12 @@ def test_what_is_wide_is_a_cloud() -> None:
     assert (~is_upright).sum() > 5
 
 
+def test_one_word_follows_a_limb_though_most_is_wide() -> None:
+    layout = pw.words("guitar", {"solo": 1.0}, along="limbs")
+    assert layout.manifest["certified"]
+    assert {item.name for item in layout.items} == {"solo"}
+
+
 def test_words_along_an_edge_lie_all_round() -> None:
     layout = pw.words("circle", {f"word{k}": 1 / (1 + k) for k in range(40)}, along="edge")
     bent = np.abs(layout.poses.angle) > 1e-9
@@ -92,7 +98,11 @@ def test_texts_run_round_the_top_and_the_bottom() -> None:
         ("circle", {"along": "limbs"}, "has no limbs"),
         ("snake", {"along": "limbs", "sizes": "shared"}, "leave out .*sizes"),
         ("snake", {"along": "limbs", "add": ["star"]}, "sets words alone"),
+        ("snake", {"along": "limbs", "padding": "40%"}, "wider than the padding"),
+        ("snake", {"along": "limbs", "smallest": 400}, "no word to be read"),
         (SPIRAL, {"ring": "ROUND"}, "ring"),
+        ("circle", {"ring": " | "}, "has no letters"),
+        ("circle", {"ring": "\U0010fffd"}, "no font"),
     ],
 )
 def test_what_cannot_be_is_refused(

@@ -26,9 +26,10 @@ from packwork.pipeline.run import RunContext, RunStep, run_steps
 from packwork.pipeline.state import RunState
 from packwork.progress import Stop
 from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.reading import UnfitError
 from packwork.readers.regions import Holes
 from packwork.readers.words.items import EM_PX, WordsRead, bent_word, word_fonts
-from packwork.readers.words.options import Along, Word, lines_of
+from packwork.readers.words.options import Along, Word, lines_of, sound
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
@@ -94,11 +95,11 @@ class SetAlong(RunStep):
         _check(job, "along")
         gap = job.plan.gap + HAIR * job.container.side
         with job.clock.time("start"):
-            limbs = [replace(one, half=one.half - gap / 2) for one in self._limbs(job.container)]
+            limbs = self._limbs(job.container, gap)
             wide = _wide_part(job.container, limbs, gap)
         clouded, poses, rows = list[Item](), list[Poses](), list[int]()
         share = 0.0 if wide is None else wide.area / (wide.area + sum(one.area for one in limbs))
-        inside = round(share * len(read.items))
+        inside = min(round(share * len(read.items)), len(read.items) - 1)
         if wide is not None and inside:
             # The heaviest lie where most room is.
             heavy = range(inside) if share > LARGER_PART else range(len(read.items))[-inside:]
@@ -116,19 +117,24 @@ class SetAlong(RunStep):
         large = np.flatnonzero(bent.poses.scale * EM_PX >= least)
         rows += [int(rest[settings[k].word]) for k in large]
         poses.append(bent.poses.subset(large))
+        if not rows:
+            raise RecipeError("along", f"leaves no word to be read in {job.container.source}")
         return _joined(state, rows, (*clouded, *(bent.items[k] for k in large)), poses)
 
-    def _limbs(self, container: Container) -> list[Limb]:
-        """Limbs, one at least."""
+    def _limbs(self, container: Container, gap: float) -> list[Limb]:
+        """Limbs that have room beside the gap, without half of it; one at least."""
         width = BAND * math.sqrt(container.outline.area)
         found = edges_of(container, width) if self._along == "edge" else limbs_of(container)
+        roomy = [one for one in found if np.median(one.half) > gap]
+        if found and not roomy:
+            raise RecipeError("along", f"no limb of {container.source} is wider than the padding")
         if not found:
             raise RecipeError(
                 "along",
                 f"{container.source} has no limbs: no part of it is {SLENDER:g} times as long as "
                 "wide; use edge, or leave it out",
             )
-        return found
+        return [replace(one, half=np.maximum(one.half - gap / 2, 0.0)) for one in roomy]
 
     def _inside(
         self, job: Job, rows: Sequence[int], wide: Region
@@ -167,11 +173,15 @@ class RoundTheEdge(RunStep):
         _check(job, "ring")
         gap = job.plan.gap + HAIR * job.container.side
         with job.clock.time("start"):
-            texts = [Word(text, 1.0) for text in self._texts]
-            line = _LineOfWords.of(texts, use, job.plan.holes)
+            texts = [Word(sound(text), 1.0) for text in self._texts]
             width = RING * math.sqrt(job.container.outline.area)
-            band, size = self._band(line, job.container, width, gap)
-            bent = line.bent(self._settings(line, band, size), job.container, gap, context.stop)
+            try:
+                line = _LineOfWords.of(texts, use, job.plan.holes)
+                band, size = self._band(line, job.container, width, gap)
+                settings = self._settings(line, band, size)
+                bent = line.bent(settings, job.container, gap, context.stop)
+            except UnfitError as error:
+                raise RecipeError("ring", f"cannot be set: it {error}") from None
             inner = _wide_part(job.container, [band], gap)
         if inner is None:
             raise RecipeError("ring", f"leaves no room for words in {job.container.source}")
@@ -320,7 +330,9 @@ class _LineOfWords:
         """Words in the fonts of a use."""
         fonts, shapes = word_fonts(use.options), list[WordShape]()
         for word in words:
-            region = fonts.lettering([" ".join(lines_of(word.text))]).region
+            if not (lines := lines_of(word.text)):
+                raise UnfitError("has no letters")
+            region = fonts.lettering([" ".join(lines)]).region
             left, top, right, bottom = region.bounds
             shapes.append(WordShape(right - left, max(bottom - top, CAPITAL)))
         return cls(words, shapes, fonts, "keep" if use.options.nest else holes)
@@ -362,8 +374,8 @@ class _LineOfWords:
     ) -> _Bent:
         """Words on their lines, smaller where they come too near to each other or to the edge."""
         pairs = [self._bent(one) for one in found]
-        items, rows = zip(*pairs, strict=True)
-        poses = Poses(*np.array(rows).T)
+        items = tuple(item for item, _ in pairs)
+        poses = Poses(*np.array([row for _, row in pairs]).reshape(-1, 4).T)
         for _ in range(MOST_SHRUNK):
             outlines = [item.outline.mapped(poses.matrix(k)) for k, item in enumerate(items)]
             wrong = violations(outlines, container.outline, gap)
@@ -372,7 +384,7 @@ class _LineOfWords:
             scale = poses.scale.copy()
             scale[[k for one in wrong for k in (one.item, one.other) if k is not None]] *= SHRUNK
             poses = replace(poses, scale=scale)
-        return _Bent(tuple(items), poses)
+        return _Bent(items, poses)
 
     def _bent(self, one: WordOnLine) -> tuple[Item, tuple[float, float, float, float]]:
         """A word on its line, upright in its own frame, and its pose."""
