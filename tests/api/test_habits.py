@@ -188,6 +188,11 @@ def test_the_best_of_several_seeds() -> None:
         pw.fill("heart", best_of=0)
 
 
+def test_a_hero_has_both_coordinates_or_none() -> None:
+    with pytest.raises(RecipeError, match="hero: has a place if both"):
+        pw.fill("circle", "star", hero=pw.Hero("star", x=0.5))
+
+
 def test_a_hero_a_force_and_an_anchor_are_values() -> None:
     items = ["owl", "star"]
     hero = pw.Hero("owl", x=0.5, y=0.45, size=0.35)

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+from packwork.errors import RecipeError
+
 Share: TypeAlias = str | float
 """A length as ``"30mm"`` or ``"45%"``; a number is a share of the canvas, 0.45 for 45 %."""
 
@@ -28,7 +30,7 @@ class Hero:
     Parameters
     ----------
     x, y
-        Where its middle lies; where it has most room unless given.
+        Where its middle lies, both or neither; where it has most room unless given.
     size
         Its longer side, of the canvas' longer side.
 
@@ -44,6 +46,8 @@ class Hero:
     size: Share | None = None
 
     def __str__(self) -> str:
+        if (self.x is None) != (self.y is None):
+            raise RecipeError("hero", "has a place if both x and y are given, not one of them")
         is_put = self.x is not None and self.y is not None
         place = f"@{_length(self.x or 0.0)},{_length(self.y or 0.0)}" if is_put else ""
         return f"{self.name}{place}" + ("" if self.size is None else f"={_length(self.size)}")
