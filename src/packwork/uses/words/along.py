@@ -125,15 +125,15 @@ class SetAlong(RunStep):
         """Limbs that have room beside the gap, without half of it; one at least."""
         width = BAND * math.sqrt(container.outline.area)
         found = edges_of(container, width) if self._along == "edge" else limbs_of(container)
-        roomy = [one for one in found if np.median(one.half) > gap]
-        if found and not roomy:
-            raise RecipeError("along", f"no limb of {container.source} is wider than the padding")
         if not found:
             raise RecipeError(
                 "along",
                 f"{container.source} has no limbs: no part of it is {SLENDER:g} times as long as "
                 "wide; use edge, or leave it out",
             )
+        roomy = [one for one in found if np.median(one.half) > gap]
+        if not roomy:
+            raise RecipeError("along", f"no limb of {container.source} is wider than the padding")
         return [replace(one, half=np.maximum(one.half - gap / 2, 0.0)) for one in roomy]
 
     def _inside(
@@ -178,8 +178,7 @@ class RoundTheEdge(RunStep):
             try:
                 line = _LineOfWords.of(texts, use, job.plan.holes)
                 band, size = self._band(line, job.container, width, gap)
-                settings = self._settings(line, band, size)
-                bent = line.bent(settings, job.container, gap, context.stop)
+                bent = line.bent(self._settings(line, band, size), job.container, gap, context.stop)
             except UnfitError as error:
                 raise RecipeError("ring", f"cannot be set: it {error}") from None
             inner = _wide_part(job.container, [band], gap)
@@ -278,10 +277,7 @@ def _subset(read: WordsRead, rows: Sequence[int], items: Sequence[Item]) -> Word
 
 
 def _joined(
-    state: RunState,
-    rows: Sequence[int],
-    items: Sequence[Item],
-    poses: Sequence[Poses],
+    state: RunState, rows: Sequence[int], items: Sequence[Item], poses: Sequence[Poses]
 ) -> RunState:
     """State of words in place, each with what was asked of the one that it is."""
     job, use = state.job, words_of(state.job)
