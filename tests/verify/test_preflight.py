@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import io
+import logging
 from pathlib import Path
 
 import numpy as np
 import pikepdf
 import pytest
+from pikepdf import Array, Dictionary, Name, String
 from PIL import Image
 
 from made_profiles import press_profile
@@ -15,7 +17,7 @@ from packwork import fill
 from packwork.errors import ReadError
 from packwork.readers.items import read_items
 from packwork.scene.layout import Layout, sheet
-from packwork.verify.preflight import Check, preflight, preflight_of
+from packwork.verify.preflight import MAX_CONTENT, Check, preflight, preflight_of
 from packwork.writers import encoded, write_options
 from scenes import flat_item, poses, square
 
@@ -117,18 +119,85 @@ def test_small_words_are_told_though_they_are_curves() -> None:
     assert by_name(found)["text"].is_well
 
 
-def test_live_text_has_its_size() -> None:
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"BT .5 0 0 .5 90 90 cm /F 8 Tf (small) Tj ET", "smallest 4.0 pt; 1 under 5 pt"),
+        (
+            b"BT /F 1 Tf 4 0 0 4 9 9 Tm (a) Tj 4 0 0 4 20 9 Tm (b) Tj ET",
+            "smallest 4.0 pt; 2 under 5 pt",
+        ),
+        (b"BT /F 1 Tf .5 0 0 .5 9 9 Tm ET BT /F 8 Tf (plain) Tj ET", "smallest 8.0 pt"),
+    ],
+)
+def test_live_text_has_its_size(content: bytes, told: str) -> None:
+    assert by_name(preflight_of(made(content), "a.pdf"))["text"].found == told
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"/S sh", "RGB 1"),
+        (b"q 9 0 0 9 90 90 cm BI /W 1 /H 1 /CS /RGB /BPC 8 ID abc EI Q", "RGB 1"),
+        (b"q 9 0 0 9 90 90 cm /Indexed Do Q", "CMYK 1"),
+        (b"/Pattern cs /Tiles scn 90 90 9 9 re f", "RGB 1"),
+        (b"/Inks cs 1 1 scn 90 90 9 9 re f", "ink Gold, Silver"),
+    ],
+)
+def test_colours_are_found_in_all_that_paints(content: bytes, told: str) -> None:
+    assert by_name(preflight_of(made(content), "a.pdf"))["colours"].found == told
+
+
+def made(content: bytes, encryption: pikepdf.Encryption | None = None) -> bytes:
+    """PDF of one page with that content."""
     pdf = pikepdf.new()
     page = pdf.add_blank_page(page_size=(300, 300))
-    font = pikepdf.Dictionary(
-        Type=pikepdf.Name.Font, Subtype=pikepdf.Name.Type1, BaseFont=pikepdf.Name.Helvetica
+    ramp = Dictionary(FunctionType=2, Domain=[0, 1], C0=[0, 0, 0], C1=[1, 1, 1], N=1)
+    shading = Dictionary(
+        ShadingType=2, ColorSpace=Name.DeviceRGB, Coords=[0, 0, 9, 0], Function=ramp
     )
-    page.add_resource(font, pikepdf.Name.Font, pikepdf.Name.F1)
-    page.contents_add(b"BT .5 0 0 .5 90 90 cm /F1 8 Tf (small) Tj ET")
+    palette = Array([Name.Indexed, Name.DeviceCMYK, 0, String(bytes(4))])
+    indexed = pdf.make_stream(
+        b"0", Subtype=Name.Image, Width=1, Height=1, BitsPerComponent=8, ColorSpace=palette
+    )
+    tiles = pdf.make_stream(b"1 0 0 rg 0 0 5 5 re f", PatternType=1, Resources=Dictionary())
+    inks = Array([Name.DeviceN, Array([Name.Gold, Name.Silver]), Name.DeviceCMYK, ramp])
+    form = pdf.make_stream(b"/Form Do /Form Do", Subtype=Name.Form)
+    form.Resources = Dictionary(XObject=Dictionary(Form=form))
+    page.obj.Resources = Dictionary(
+        Font=Dictionary(F=Dictionary(Subtype=Name.Type1, BaseFont=Name.Helvetica)),
+        Shading=Dictionary(S=shading),
+        XObject=Dictionary(Indexed=indexed, Form=form),
+        Pattern=Dictionary(Tiles=tiles),
+        ColorSpace=Dictionary(Inks=inks),
+    )
+    page.contents_add(content)
     written = io.BytesIO()
-    pdf.save(written)
-    found = by_name(preflight_of(written.getvalue(), "a.pdf"))
-    assert found["text"] == Check("text", "smallest 4.0 pt; 1 under 5 pt", False)
+    pdf.save(written, encryption=encryption)
+    return written.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [
+        (made(b"/Form Do"), "more than can be looked at"),
+        (made(b"q Q\n" * (MAX_CONTENT // 4)), "more than can be looked at"),
+        (made(b"/Nothing Do"), "no PDF that can be read"),
+        (made(b"1 0 rg m 5 re f"), "no PDF that can be read"),
+        (made(b"", encryption=pikepdf.Encryption(owner="a", user="b")), "is encrypted"),
+    ],
+    ids=["form in itself", "long", "no such picture", "operands", "encrypted"],
+)
+def test_hostile_and_broken_files_are_errors_of_one_line(data: bytes, told: str) -> None:
+    with pytest.raises(ReadError, match=told):
+        preflight_of(data, "a.pdf")
+
+
+def test_a_damaged_file_is_told(caplog: pytest.LogCaptureFixture) -> None:
+    data = made(b"")
+    with caplog.at_level(logging.WARNING, "packwork"):
+        preflight_of(data[: data.rindex(b"xref")], "a.pdf")
+    assert "is damaged" in caplog.text
 
 
 def test_other_files_are_refused(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ import typer
 from packwork.cli import options as shared
 from packwork.cli.failure import SHORTFALL, clear_errors
 from packwork.cli.terminal import say
+from packwork.errors import RecipeError
 
 if TYPE_CHECKING:
     from packwork.scene.layout import Layout
@@ -58,6 +59,13 @@ def measure(
     """
     with clear_errors():
         if preflight or layout.suffix.lower() == ".pdf":
+            for flag, is_given in (
+                ("report", report is not None),
+                ("diagnose", diagnose is not None),
+                ("painted", painted),
+            ):
+                if is_given:
+                    raise RecipeError(flag, "is of a layout, and this is looked at before printing")
             _show_preflight(layout, quiet)
             return
         from packwork import writers

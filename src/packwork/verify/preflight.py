@@ -23,13 +23,20 @@ from packwork.geometry import affine
 from packwork.phrasing import number_of
 from packwork.readers.files import read_bytes
 from packwork.readers.gate.door import parse_xml
-from packwork.readers.reading import reading_file
+from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert
 
 MAX_BYTES = 500_000_000
 """Bytes of a file at most. Chosen."""
+
+MAX_CONTENT = 20_000_000
+"""Bytes of what a page paints at most, forms as often as they are drawn. Larger takes more than
+ten seconds. Measured."""
+
+_FORM_BYTES = 1_000
+"""What following a form costs besides, in bytes of content."""
 
 LEAST_DPI = 300.0
 """Pixels to the inch that print shops ask of pictures."""
@@ -54,6 +61,10 @@ _PAINTING = frozenset({"f", "F", "f*", "B", "B*", "b", "b*", "S", "s"})
 _STROKES = frozenset({"S", "s", "B", "B*", "b", "b*"})
 _POINTS = {"m": 1, "l": 1, "c": 3, "v": 2, "y": 2}
 _DEVICE = {"rg": "RGB", "g": "grey", "k": "CMYK"}
+_MALFORMED = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+"""What comes of content that is not as the standard has it."""
+
+_NOWHERE = np.zeros((2, 2))
 _EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
 
 
@@ -73,6 +84,7 @@ class _Graphics:
     width: float = 1.0
     spaces: tuple[str, str] = ("grey", "grey")
     em: float = 0.0
+    letters: float = 1.0
 
 
 def preflight(path: str | Path) -> list[Check]:
@@ -95,10 +107,15 @@ def preflight_of(data: bytes, path: str | Path, layout: Layout | None = None) ->
             with pikepdf.open(io.BytesIO(data)) as pdf:
                 if len(pdf.pages) != 1:
                     raise ReadError(path, f"has {len(pdf.pages)} pages; one is looked at")
-                found = _Content(pdf)
-                return found.checks(_ems(layout))
-        except pikepdf.PdfError as error:
-            raise ReadError(path, f"is no PDF that can be read ({error})") from None
+                found = _Content(pdf).checks(_ems(layout))
+                if pdf.get_warnings():
+                    notice("is damaged; there may be more in it than was looked at")
+                return found
+        except pikepdf.PasswordError:
+            raise ReadError(path, "is encrypted; take the password off") from None
+        except (pikepdf.PdfError, *_MALFORMED) as error:
+            reason = str(error).rpartition(">: ")[2]
+            raise ReadError(path, f"is no PDF that can be read ({reason})") from None
 
 
 def _printed(data: bytes, path: str | Path) -> bytes:
@@ -155,7 +172,11 @@ class _Content:
         self._inks: set[str] = set()
         self._clear: Counter[str] = Counter()
         self._painted_boxes: list[FloatArray] = []
-        self._follow(page.obj, page.obj.get("/Resources", {}), _Graphics(affine.identity()), 0)
+        self._left = MAX_CONTENT
+        page.contents_coalesce()
+        if "/Contents" in page.obj:
+            resources = page.obj.get("/Resources", {})
+            self._follow(page.obj.Contents, resources, _Graphics(affine.identity()), 0)
 
     def checks(self, ems: Sequence[float]) -> list[Check]:
         """Lines of the table; ``ems`` are heights of letters that are curves here."""
@@ -236,8 +257,9 @@ class _Content:
         return Check("output intent", told or "none", bool(told))
 
     def _follow(self, stream: Any, resources: Any, state: _Graphics, depth: int) -> None:
-        if depth > _DEEPEST:
-            return
+        self._left -= len(stream.read_bytes()) + _FORM_BYTES
+        if self._left < 0 or depth > _DEEPEST:
+            raise UnfitError("paints more than can be looked at")
         kept: list[_Graphics] = []
         points: list[FloatArray] = []
         clips = False
@@ -265,11 +287,13 @@ class _Content:
                 state = kept.pop()
             elif name == "Do":
                 self._drawn(resources["/XObject"][operands[0]], resources, state, depth)
+            elif name == "INLINE IMAGE":
+                self._picture(operands[0].obj, resources, state)
             elif name in {"Tj", "TJ", "'", '"'}:
-                self._ems.append(state.em * _scale_of(state.matrix))
+                self._ems.append(state.em * state.letters * _scale_of(state.matrix))
                 self._spaces[state.spaces[0]] += 1
             else:
-                state = self._changed(state, name, operands, resources)
+                state = self._changed(state, name, operands, resources, depth)
 
     def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: _Graphics) -> None:
         if strokes:
@@ -286,24 +310,27 @@ class _Content:
 
     def _drawn(self, drawn: Any, resources: Any, state: _Graphics, depth: int) -> None:
         if drawn.Subtype == "/Image":
-            box = _bounds([np.array([[0, 0], [1, 0], [0, 1], [1, 1]])], state)
-            self._painted_boxes.append(box)
-            if (box[1] > self._trim[0] + _SEEN_PT).all() and (
-                box[0] < self._trim[1] - _SEEN_PT
-            ).all():
-                inches = np.hypot(*state.matrix[:, :2]) / 72
-                size = np.array([float(drawn.Width), float(drawn.Height)])
-                self._dpi.append(float((size / inches).min()))
-            self._count(_space_name(drawn.get("/ColorSpace", "/DeviceGray"), resources))
-            if "/SMask" in drawn:
-                self._clear["soft edge|soft edges"] += 1
+            self._picture(drawn, resources, state)
             return
         own = affine.compose(state.matrix, _matrix(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
         self._follow(
             drawn, drawn.get("/Resources", resources), replace(state, matrix=own), depth + 1
         )
 
-    def _changed(self, state: _Graphics, name: str, operands: Any, resources: Any) -> _Graphics:
+    def _picture(self, drawn: Any, resources: Any, state: _Graphics) -> None:
+        box = _bounds([np.array([[0, 0], [1, 0], [0, 1], [1, 1]])], state)
+        self._painted_boxes.append(box)
+        if (box[1] > self._trim[0] + _SEEN_PT).all() and (box[0] < self._trim[1] - _SEEN_PT).all():
+            inches = np.hypot(*state.matrix[:, :2]) / 72
+            size = np.array([float(drawn.Width), float(drawn.Height)])
+            self._dpi.append(float((size / inches).min()))
+        self._count(_space_name(drawn.get("/ColorSpace", "/DeviceGray"), resources))
+        if "/SMask" in drawn:
+            self._clear["soft edge|soft edges"] += 1
+
+    def _changed(
+        self, state: _Graphics, name: str, operands: Any, resources: Any, depth: int
+    ) -> _Graphics:
         if name == "cm":
             return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
         if name == "w":
@@ -312,8 +339,13 @@ class _Content:
             self._transparent(resources["/ExtGState"][operands[0]])
         elif name == "Tf":
             return replace(state, em=float(operands[1]))
+        elif name == "BT":
+            return replace(state, letters=1.0)
         elif name == "Tm":
-            return replace(state, em=state.em * _scale_of(_matrix(operands)))
+            return replace(state, letters=_scale_of(_matrix(operands)))
+        elif name == "sh":
+            shading = resources["/Shading"][operands[0]]
+            self._count(_space_name(shading.ColorSpace, resources))
         elif name.lower() in {"cs", *_DEVICE}:
             spaces = list(state.spaces)
             is_named = name.lower() == "cs"
@@ -321,9 +353,13 @@ class _Content:
             spaces[name.isupper()] = found
             return replace(state, spaces=(spaces[0], spaces[1]))
         elif name.lower() == "scn" and operands and isinstance(operands[-1], pikepdf.Name):
-            shading = resources["/Pattern"][operands[-1]].get("/Shading")
-            if shading is not None:
-                self._count(_space_name(shading.ColorSpace, resources))
+            pattern = resources["/Pattern"][operands[-1]]
+            if "/Shading" in pattern:
+                self._count(_space_name(pattern.Shading.ColorSpace, resources))
+            elif pattern.PatternType == 1:
+                # The shape that it fills ends on the page, not its tiles.
+                unseen = _Graphics(affine.identity(), window=_NOWHERE)
+                self._follow(pattern, pattern.get("/Resources", {}), unseen, depth + 1)
         return state
 
     def _transparent(self, settings: Any) -> None:
@@ -346,9 +382,12 @@ def _space_name(space: Any, resources: Any) -> str:
     kind = str(space[0])
     if kind == "/ICCBased":
         return {1: "grey", 3: "RGB", 4: "CMYK"}[int(space[1].N)]
+    if kind == "/Indexed":
+        return _space_name(space[1], resources)
     if kind in {"/Separation", "/DeviceN"}:
-        return f"ink {str(space[1]).removeprefix('/')}" if kind == "/Separation" else "CMYK"
-    return {"/CalRGB": "RGB", "/CalGray": "grey", "/Indexed": "RGB"}.get(kind, "")
+        names = [space[1]] if kind == "/Separation" else space[1]
+        return "ink " + ", ".join(str(name).removeprefix("/") for name in names)
+    return {"/CalRGB": "RGB", "/CalGray": "grey"}.get(kind, "")
 
 
 def _bounds(points: Sequence[FloatArray], state: _Graphics) -> FloatArray:
@@ -359,7 +398,7 @@ def _bounds(points: Sequence[FloatArray], state: _Graphics) -> FloatArray:
 
 
 def _box(box: Any) -> FloatArray:
-    return np.reshape([float(v) for v in box], (2, 2))
+    return np.sort(np.reshape([float(v) for v in box], (2, 2)), axis=0)
 
 
 def _matrix(numbers: Any) -> FloatArray:
