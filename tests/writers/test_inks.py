@@ -125,7 +125,19 @@ def test_a_spot_colour_that_nothing_has_is_told(
     assert "nothing is drawn in the colour of the spot ink Gold" in caplog.text
 
 
-@pytest.mark.parametrize("spot", ["#c8102e", "Gold", "Gold=mauvish", "A=red,B=red", "A=#ff000080"])
+@pytest.mark.parametrize(
+    "spot",
+    [
+        "#c8102e",
+        "Gold",
+        "Gold=mauvish",
+        "A=red,B=red",
+        "A=#ff000080",
+        "A=red,A=blue",
+        "All=red",
+        "black=red",
+    ],
+)
 def test_spot_colours_that_are_none_are_refused(spot: str) -> None:
     with pytest.raises(RecipeError, match="spot"):
         write_options(spot=spot)
@@ -147,8 +159,24 @@ def test_a_file_that_is_no_profile_of_a_press_is_refused(tmp_path: Path) -> None
 
     screen = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB"))
     (tmp_path / "a.icc").write_bytes(screen.tobytes())
-    with pytest.raises(ReadError, match="no profile of a press"):
+    with pytest.raises(ReadError, match=r"a\.icc: is no profile of a press"):
         write_options(icc=tmp_path / "a.icc")
+
+
+@pytest.mark.parametrize("name", ["All", "None", "Cyan"])
+def test_a_palette_names_no_reserved_ink(name: str) -> None:
+    with pytest.raises(RecipeError, match=f"{name} is no spot ink"):
+        fill("page", "star", count=2, palette=f"spot:{name} #b58b2a", levels="24", epochs=4)
+
+
+def test_a_file_for_a_press_says_where_it_is_trimmed(coloured: Layout, press: Path) -> None:
+    # ISO 15930-7, 6.11, with or without a bleed.
+    with pikepdf.open(io.BytesIO(encoded(coloured, "a.pdf", write_options(icc=press)))) as read:
+        page = read.pages[0]
+        media, bleed, trim = (
+            [float(v) for v in box] for box in (page.mediabox, page.obj.BleedBox, page.obj.TrimBox)
+        )
+    assert trim == bleed == pytest.approx(media, abs=1e-3)
 
 
 def test_a_file_for_a_press_says_what_pdf_x_4_asks(coloured: Layout, press: Path) -> None:

@@ -94,7 +94,10 @@ def colours_by_name(value: object) -> dict[str, str] | None:
     """
     if isinstance(value, str) and "=" in value:
         parts = [part.rpartition("=") for part in _parts_of(value)]
-        value = {name.strip(): colour for name, _, colour in parts}
+        names = [name.strip() for name, _, _ in parts]
+        if len(set(names)) < len(names):
+            raise ValueError(f"give each name one colour, not {value!r:.60}")
+        value = dict(zip(names, (colour for _, _, colour in parts), strict=True))
     if not isinstance(value, Mapping):
         return None
     if not value or not all(name and isinstance(colour, str) for name, colour in value.items()):
@@ -143,9 +146,21 @@ def spot_inks_in(palette: object) -> dict[str, str]:
     return {colour: name for colour, name in names if name}
 
 
+_RESERVED = frozenset({"all", "none", "cyan", "magenta", "yellow", "black"})
+"""Separations that are no spot inks: every ink, none, and those of a press (ISO 32000-1,
+8.6.6.4)."""
+
+
+def check_ink(name: str) -> None:
+    """Raise ``ValueError`` if a spot ink cannot be called so."""
+    if name.casefold() in _RESERVED:
+        raise ValueError(f"{name} is no spot ink in a PDF; give it another name")
+
+
 def _colour(text: str) -> str:
     if text.strip().lower().startswith(SPOT):
-        text = text.rstrip().rpartition(" ")[2]
+        name, _, text = text.strip()[len(SPOT) :].rpartition(" ")
+        check_ink(name.strip())
     try:
         red, green, blue, opacity = css_colour(text)
     except ValueError:

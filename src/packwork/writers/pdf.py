@@ -80,7 +80,7 @@ def pdf_bytes(
         # False unless it is said; programs made with Poppler call it an error where it is.
         if "/Suspects" in (marked := pdf.Root.get("/MarkInfo", pikepdf.Dictionary())):
             del marked["/Suspects"]
-        if rings or not sheet.is_plain:
+        if rings or not sheet.is_plain or printing.press is not None:
             sheet.put_boxes(pdf.pages[0])
         if rim is not None:
             bare = PrintSheet(width=sheet.width, height=sheet.height)

@@ -61,10 +61,12 @@ def spot_inks(value: str | Mapping[str, str] | None) -> dict[str, str]:
     if value is None:
         return {}
     # Loads the picture library, which the command line's help can do without.
-    from packwork.scene.palette import colours_by_name
+    from packwork.scene.palette import check_ink, colours_by_name
 
     try:
         named = colours_by_name(value)
+        for name in named or ():
+            check_ink(name)
     except ValueError as error:
         raise RecipeError("spot", str(error)) from None
     if named is None:

@@ -77,10 +77,12 @@ def read_press_profile(path: str | Path) -> PressProfile:
         raise ReadError(path, "is too large for a profile of a press")
     note_input(here, str(path))
     try:
-        profile = ImageCms.ImageCmsProfile(io.BytesIO(data))
-        about = profile.profile
-        if about.xcolor_space.strip() != "CMYK" or about.device_class != "prtr":
-            raise ReadError(path, "is no profile of a press with four inks (CMYK)")
+        about = ImageCms.ImageCmsProfile(io.BytesIO(data)).profile
+    except (OSError, ImageCms.PyCMSError) as error:
+        raise ReadError(path, f"is no ICC profile that can be used ({error})") from None
+    if about.xcolor_space.strip() != "CMYK" or about.device_class != "prtr":
+        raise ReadError(path, "is no profile of a press with four inks (CMYK)")
+    try:
         found = PressProfile(data, (about.profile_description or here.stem).strip())
         found.inks((1, 1, 1))
     except (OSError, ImageCms.PyCMSError) as error:
