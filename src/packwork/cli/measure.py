@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -59,14 +60,8 @@ def measure(
     """
     with clear_errors():
         if preflight or layout.suffix.lower() == ".pdf":
-            for flag, is_given in (
-                ("report", report is not None),
-                ("diagnose", diagnose is not None),
-                ("painted", painted),
-            ):
-                if is_given:
-                    raise RecipeError(flag, "is of a layout, and this is looked at before printing")
-            _show_preflight(layout, quiet)
+            of_layouts = {"report": report, "diagnose": diagnose, "painted": painted or None}
+            _show_preflight(layout, quiet, of_layouts)
             return
         from packwork import writers
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
@@ -123,10 +118,13 @@ def measure(
             raise typer.Exit(SHORTFALL)
 
 
-def _show_preflight(path: Path, quiet: bool) -> None:
+def _show_preflight(path: Path, quiet: bool, of_layouts: Mapping[str, object]) -> None:
     from packwork.cli.show import Paper, preflight_table, printing
     from packwork.verify.preflight import preflight
 
+    for flag, value in of_layouts.items():
+        if value is not None:
+            raise RecipeError(flag, "is of a layout, and this is looked at before printing")
     checks = preflight(path)
     with printing():
         Paper(quiet).print(preflight_table(path.name, checks))

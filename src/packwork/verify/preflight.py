@@ -27,6 +27,7 @@ from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert
+from packwork.verify.colour_spaces import space_name
 
 MAX_BYTES = 500_000_000
 """Bytes of a file at most. Chosen."""
@@ -175,7 +176,7 @@ class _Content:
         self._left = MAX_CONTENT
         page.contents_coalesce()
         if "/Contents" in page.obj:
-            resources = page.obj.get("/Resources", {})
+            resources: Any = page.obj.get("/Resources", {})
             self._follow(page.obj.Contents, resources, _Graphics(affine.identity()), 0)
 
     def checks(self, ems: Sequence[float]) -> list[Check]:
@@ -324,7 +325,7 @@ class _Content:
             inches = np.hypot(*state.matrix[:, :2]) / 72
             size = np.array([float(drawn.Width), float(drawn.Height)])
             self._dpi.append(float((size / inches).min()))
-        self._count(_space_name(drawn.get("/ColorSpace", "/DeviceGray"), resources))
+        self._count(space_name(drawn.get("/ColorSpace", "/DeviceGray"), resources))
         if "/SMask" in drawn:
             self._clear["soft edge|soft edges"] += 1
 
@@ -345,17 +346,17 @@ class _Content:
             return replace(state, letters=_scale_of(_matrix(operands)))
         elif name == "sh":
             shading = resources["/Shading"][operands[0]]
-            self._count(_space_name(shading.ColorSpace, resources))
+            self._count(space_name(shading.ColorSpace, resources))
         elif name.lower() in {"cs", *_DEVICE}:
             spaces = list(state.spaces)
             is_named = name.lower() == "cs"
-            found = _space_name(operands[0], resources) if is_named else _DEVICE[name.lower()]
+            found = space_name(operands[0], resources) if is_named else _DEVICE[name.lower()]
             spaces[name.isupper()] = found
             return replace(state, spaces=(spaces[0], spaces[1]))
         elif name.lower() == "scn" and operands and isinstance(operands[-1], pikepdf.Name):
             pattern = resources["/Pattern"][operands[-1]]
             if "/Shading" in pattern:
-                self._count(_space_name(pattern.Shading.ColorSpace, resources))
+                self._count(space_name(pattern.Shading.ColorSpace, resources))
             elif pattern.PatternType == 1:
                 # The shape that it fills ends on the page, not its tiles.
                 unseen = _Graphics(affine.identity(), window=_NOWHERE)
@@ -369,25 +370,6 @@ class _Content:
             self._clear["blend mode|blend modes"] += 1
         if isinstance(settings.get("/SMask"), pikepdf.Dictionary):
             self._clear["mask|masks"] += 1
-
-
-def _space_name(space: Any, resources: Any) -> str:
-    """Plain name of a colour space; empty of patterns."""
-    if isinstance(space, pikepdf.Name):
-        named = resources.get("/ColorSpace", {}).get(space)
-        if named is not None:
-            return _space_name(named, resources)
-        plain = {"/DeviceRGB": "RGB", "/DeviceCMYK": "CMYK", "/DeviceGray": "grey"}
-        return plain.get(str(space), "")
-    kind = str(space[0])
-    if kind == "/ICCBased":
-        return {1: "grey", 3: "RGB", 4: "CMYK"}[int(space[1].N)]
-    if kind == "/Indexed":
-        return _space_name(space[1], resources)
-    if kind in {"/Separation", "/DeviceN"}:
-        names = [space[1]] if kind == "/Separation" else space[1]
-        return "ink " + ", ".join(str(name).removeprefix("/") for name in names)
-    return {"/CalRGB": "RGB", "/CalGray": "grey"}.get(kind, "")
 
 
 def _bounds(points: Sequence[FloatArray], state: _Graphics) -> FloatArray:
