@@ -48,12 +48,10 @@ def pasted(session: Session, clip: CopiedItems, x: float | None, y: float | None
     document, source = session.document, clip.document
     here, there, poses = document.container, source.container, source.poses.subset(clip.rows)
     items = [source.items[k] for k in clip.rows]
-    factor = here.side / there.side
-    scale = poses.scale * factor
-    if document.kind.has_parts:
-        factor = convert(1.0, there.unit, here.unit)
-        own = np.array([true_scale(document, item) for item in items])
-        scale = poses.scale * factor if source.kind.has_parts else own
+    true = [true_scale(document, item) for item in items]
+    factor = here.side / there.side if None in true else convert(1.0, there.unit, here.unit)
+    is_as_large = None in true or source.kind.has_parts
+    scale = poses.scale * factor if is_as_large else np.array(true, dtype=np.float64)
     place = factor * np.column_stack((poses.x, poses.y))
     if x is not None and y is not None:
         place += (x, y) - place.mean(axis=0)

@@ -58,9 +58,9 @@ def weighed(session: Session, pairs: Iterable[tuple[Item, float]]) -> Iterator[A
     document = session.document
     places = widest_places(document, session.shapes)
     for (item, weight), (x, y, radius) in zip(pairs, places, strict=False):
+        true = true_scale(document, item)
         area = first_area(document, radius, weight)
-        if document.kind.has_parts:
-            area = item.outline.area * true_scale(document, item) ** 2
+        area = area if true is None else item.outline.area * true**2
         asset = named_item(session.library, item)
         yield made(Add, asset=asset, x=x, y=y, area=area, weight=weight)
 

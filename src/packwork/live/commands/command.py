@@ -113,8 +113,13 @@ def nearest_angle(document: Document, k: int, angle: float) -> float:
     return float(nearest_allowed(np.array([angle]), None, allowed)[0])
 
 
-def true_scale(document: Document, item: Item) -> float:
-    """Scale of a part in a nest: as of the same part there, else of a drawing in px."""
+def true_scale(document: Document, item: Item) -> float | None:
+    """Scale of a part in a nest: as of the same part there, else of a drawing in px.
+
+    None where items have no true size.
+    """
+    if not document.kind.has_parts:
+        return None
     if item in document.items:
         return float(document.poses.scale[document.items.index(item)])
     return convert(1.0, "px", document.container.unit)

@@ -110,8 +110,8 @@ class Replace(Command):
         k = index_of(document, self.item, "replace")
         new = cast(Item, known(library.items, self.asset, "replace"))
         factor = math.sqrt(document.items[k].outline.area / new.outline.area)
-        if document.kind.has_parts:
-            factor = true_scale(document, new) / float(document.poses.scale[k])
+        if (true := true_scale(document, new)) is not None:
+            factor = true / float(document.poses.scale[k])
         return sized(_with_item(document.scaled(k, factor), k, new), "replace")
 
 
