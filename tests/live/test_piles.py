@@ -37,6 +37,25 @@ def test_what_is_added_falls_on_the_heap_as_one_watches(session: pw.Session) -> 
     assert session.document.poses.y[-1] < before.poses.y.max()
 
 
+def test_what_was_caught_in_its_fall_falls_on_among_many_at_rest() -> None:
+    session = pw.pile("square", ["star", "hexagon"], count=40, size="8%", effort="draft").edit()
+    session.add("heart")
+    added, side, seen = session.document.next_id - 1, session.document.container.side, []
+    session.watch(seen.append)
+    session.move(added, side / 2, side / 8)
+    assert session.settle_unless(lambda: len(seen) > 3) is None
+    session.do("grab", items=[added])
+    session.move(added, side / 2, side / 6)
+    session.do("drop")
+    assert session.settle().certified
+    lies = session.document
+    k = lies.index(added)
+    assert lies.poses.y[k] > lies.poses.y[:-1].min() - side / 8
+    session.move(added, float(lies.poses.x[k]), float(lies.poses.y[k]))
+    session.settle()
+    assert session.document.poses.y[k] == pytest.approx(lies.poses.y[k], abs=side / 100)
+
+
 def test_what_has_no_room_is_taken_back(session: pw.Session) -> None:
     before = session.document
     session.hold(list(range(1, 20)))

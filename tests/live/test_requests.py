@@ -64,6 +64,23 @@ def test_what_was_not_had_is_said_until_it_is_had_or_asked_otherwise(session: pw
     assert session.unmet == ()
 
 
+def test_undo_takes_back_what_was_asked_last_and_redo_asks_it_again(session: pw.Session) -> None:
+    session.move("heart#1", 0, 0)
+    session.finish()
+    (first,) = session.unmet
+    session.move("star#1", 600, 0)
+    session.finish()
+    both = session.unmet
+    assert len(both) == 2
+    session.undo()
+    assert session.unmet == (first,)
+    session.redo()
+    assert session.unmet == both
+    session.undo()
+    session.undo()
+    assert session.unmet == ()
+
+
 def test_positions_are_of_the_layout_and_numbers_for_ever(session: pw.Session) -> None:
     (number,) = session.find("hexagon#4")
     session.remove("star#1")

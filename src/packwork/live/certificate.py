@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -120,10 +121,13 @@ class Requests:
 
     def __init__(self) -> None:
         self._asked: dict[tuple[str, int], _Request] = {}
+        self._asked_of: WeakKeyDictionary[Document, dict[tuple[str, int], _Request]]
+        self._asked_of = WeakKeyDictionary()
         self._count = self._settled = 0
 
     def note(self, commands: Iterable[Command], before: Document, after: Document) -> None:
         """Note what commands ask for that have made one document of another."""
+        self._asked_of[before] = dict(self._asked)
         for one in commands:
             if isinstance(one, Move):
                 self._ask("place", one.item, (one.x, one.y))
@@ -157,6 +161,11 @@ class Requests:
         made = copy(self)
         made._asked = dict(self._asked)
         return made
+
+    def leapt(self, before: Document, after: Document) -> None:
+        """Go from a document to one of the history, and to what was asked for there."""
+        self._asked_of[before] = self._asked
+        self._asked = dict(self._asked_of.get(after, {}))
 
     def forget(self) -> None:
         """Take back all that was asked for."""

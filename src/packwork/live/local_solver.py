@@ -178,7 +178,8 @@ class LocalSolver:
             self.news = ()
             self._finish_touched(near, len(wrong), stop)
         if self.document.options.force and self.document is not self.base and not stop():
-            self._turn_to(fallen(self.document, self.shapes, stop, self._fell))
+            loose = self._rows(self.marks.touched)
+            self._turn_to(fallen(self.document, loose, self.shapes, stop, self._fell))
         is_over, is_wrong = stop() or not self.marks.touched, bool(self.violations)
         if back := None if is_over else taken_back(self.base, self.document, is_wrong=is_wrong):
             self.news = (back.message,)

@@ -391,10 +391,11 @@ class Session:
 
     def _leap(self, kind: str) -> bool:
         self._check_dropped(kind)
-        if not getattr(self.history, f"can_{kind}"):
+        before, now = self.document, getattr(self.history, kind)(self.document)
+        if now is before:
             return False
         self.log.note(kind)
-        self.requests.forget()
-        self._solver.leap_to(getattr(self.history, kind)(self.document))
+        self._solver.leap_to(now)
+        self.requests.leapt(before, now)
         self.log.flush()
         return True

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import FINE, Detail
 from packwork.compaction.objective import turn_ranges
 from packwork.compaction.options import HAIR
@@ -29,6 +29,7 @@ no room for that, smaller leaves loose items hanging. Tried."""
 
 def fallen(
     document: Document,
+    loose: IntArray,
     shapes: ShapeCache,
     stop: Stop = never,
     on_fall: Callable[[Document], object] = lambda _: None,
@@ -36,9 +37,35 @@ def fallen(
     """Document at rest under its forces; what is held in place is a wall.
 
     The same document where items touch and have no room to part, or if it was stopped.
-    ``on_fall``: told of the items on their way.
+
+    Parameters
+    ----------
+    loose
+        ``(m,)`` rows of what falls first, all others as walls: beside many at rest, which keep
+        the steps of all short, it would stay in the air.
+    on_fall
+        Told of the items on their way.
     """
     movable = np.flatnonzero(~document.held[:, 0])
+    first = np.intersect1d(movable, loose)
+    now, is_falling = document, len(first) < len(movable)
+    while is_falling and not stop():
+        before, now = now, _fallen(now, first, shapes, stop, on_fall)
+        way = np.hypot(now.poses.x - before.poses.x, now.poses.y - before.poses.y)
+        # What went less than its own size did not end where the room about it does.
+        is_falling = bool((way > np.sqrt(now.areas)).any())
+    now = _fallen(now, movable, shapes, stop, on_fall)
+    return document if stop() else now
+
+
+def _fallen(
+    document: Document,
+    movable: IntArray,
+    shapes: ShapeCache,
+    stop: Stop,
+    on_fall: Callable[[Document], object],
+) -> Document:
+    """The document with some of its items at rest, all others as walls."""
     room = room_of(document, movable, shapes) if len(movable) else None
     if room is None:
         return document
@@ -72,7 +99,7 @@ def fallen(
         on_fall(at(places))
 
     settling.settle(tell, stop, (FIRST_TRUST, LAST_TRUST))
-    return document if stop() else at(arrangement.places)
+    return at(arrangement.places)
 
 
 def is_full(document: Document) -> bool:
