@@ -235,6 +235,23 @@ def test_pouring_anew_keeps_what_is_held(play) -> None:
     play(scenario)
 
 
+def test_a_count_asked_for_while_other_items_pour_is_had_of_them(play) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+
+        def names() -> list[str]:
+            return [thing["name"] for thing in page.last("scene")["items"]]
+
+        page.tell(type="fill", use="items", source="builtin:cat", count=9)
+        await page.until(lambda: set(names()) == {"cat"})
+        assert page.last("state")["busy"] == "Pouring"
+        page.tell(type="count", count=5)
+        await page.until(lambda: page.is_certified and names() == ["cat"] * 5)
+
+    play(scenario)
+
+
 def test_items_are_put_in_an_order_or_like_beside_like(play) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()

@@ -226,8 +226,13 @@ class Workspace:
     def change(self, act: Callable[[Session], object], work: str) -> None:
         """Have something done to the session in its thread; what is refused is told.
 
+        After a run that is on its way, which would not know of it.
+
         ``work``: what it is called meanwhile.
         """
+        if self._moment is not None:
+            self.work(work, partial(self.change, act, work))
+            return
         if self.owner is None:
             self.say(NOT_YET)
             return
