@@ -391,8 +391,8 @@ class Session:
 
     def _leap(self, kind: str) -> bool:
         self._check_dropped(kind)
-        before, now = self.document, getattr(self.history, kind)(self.document)
-        if now is before:
+        before = self.document
+        if (now := getattr(self.history, kind)(before)) is before:
             return False
         self.log.note(kind)
         self._solver.leap_to(now)

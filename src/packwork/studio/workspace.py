@@ -224,11 +224,9 @@ class Workspace:
         return self.owner.posted
 
     def change(self, act: Callable[[Session], object], work: str) -> None:
-        """Have something done to the session in its thread; what is refused is told.
+        """Have something done to the session in its thread, after a run that is on its way.
 
-        After a run that is on its way, which would not know of it.
-
-        ``work``: what it is called meanwhile.
+        What is refused is told. ``work``: what it is called meanwhile.
         """
         if self._moment is not None:
             self.work(work, partial(self.change, act, work))
