@@ -27,9 +27,9 @@ PAGES = {
     "Uses": tuple(
         f"guide/{name}"
         for name in (
-            "words", "photos", "mosaics", "arranging", "meaning", "charts", "films", "forces",
-            "rules", "cutting", "print", "nesting", "python", "inkscape", "live", "studio",
-            "batch",
+            "words", "photos", "mosaics", "tiles", "arranging", "meaning", "charts", "films",
+            "forces", "rules", "cutting", "print", "nesting", "python", "inkscape", "live",
+            "studio", "batch",
         )
     ),
     "Reference": tuple(

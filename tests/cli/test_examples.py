@@ -85,6 +85,8 @@ def quickly(arguments: list[str]) -> list[str]:
     few = FEW.split() if "--target-coverage" in arguments else []
     count = [] if arguments[0] == "chart" else COUNT.split()
     quick = QUICK_PILE if arguments[0] == "pile" else QUICK
+    if {"--along", "--ring"} & set(arguments):
+        quick = "--effort draft --pixels 64 -q"  # no levels: words are laid along lines
     return [*arguments, *quick.split(), *count, *FILM.split(), *few]
 
 

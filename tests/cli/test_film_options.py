@@ -30,7 +30,7 @@ def test_every_command_makes_films(line: str, folder: Path, packwork: Command) -
     assert result.exit_code == 0, result.output
     with Image.open(folder / "a.gif") as film:
         assert film.n_frames == 6
-        assert film.size == (64, 64)
+        assert max(film.size) == 64
     assert "@keyframes" in (folder / "a.svg").read_text(encoding="utf-8")
 
 
@@ -46,7 +46,7 @@ def test_a_recipe_says_how_its_film_is_made(folder: Path, packwork: Command) -> 
     assert packwork("run r.toml -q --film b.gif --film-pixels 40 -o b.svg").exit_code == 0
     with Image.open(folder / "b.gif") as film:
         assert film.n_frames == 4
-        assert film.size == (40, 40)
+        assert max(film.size) == 40
 
 
 @pytest.mark.parametrize(

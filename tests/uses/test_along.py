@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 import packwork as pw
 from packwork.errors import RecipeError
@@ -110,3 +111,12 @@ def test_what_cannot_be_is_refused(
 ) -> None:
     with pytest.raises(RecipeError, match=message):
         pw.words(container, FEW, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("texts", [("STITCH & THREAD", "EST. 1974"), ("TEA", "COFFEE & CAKE")])
+def test_letters_of_a_ring_stand_apart(texts: tuple[str, str]) -> None:
+    layout = pw.words("circle", {"linen": 3, "wool": 2, "felt": 1}, ring=texts, effort="draft")
+    for placed in layout:
+        if placed.name in texts:
+            letters = shapely.get_parts(placed.outline.region)
+            assert len(letters) == len(placed.name.replace(" ", ""))

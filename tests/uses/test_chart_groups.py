@@ -185,7 +185,7 @@ def test_time_is_shared_by_the_groups() -> None:
 @pytest.mark.parametrize(
     ("container", "options", "message"),
     [
-        ("none", {}, "container: none shows groups as bars: give --by"),
+        ("none", {}, "container: none shows groups as bars: give by COL"),
         ("circle", {"by_step": 10}, "by_step: parts the numbers of a column"),
         ("circle", {"by": "mass"}, "by: there is no column 'mass'"),
         ("around:photo.jpg", {"by": "kind"}, "repeats the container"),
@@ -196,7 +196,7 @@ def test_time_is_shared_by_the_groups() -> None:
             {"by": "name", "padding": 150},
             "padding: 150 px leaves nothing of the container",
         ),
-        ("none", {"by": "kind", "force": "up"}, "groups of --by have their own"),
+        ("none", {"by": "kind", "force": "up"}, "groups of by have their own"),
         ("circle", {"by": "kind", "filler": ["star"]}, "filler: has no meaning in groups"),
         (
             "circle",

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
+from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region
 
 SQUARE, HALF_DROP = "square", "half-drop"
@@ -80,7 +81,7 @@ class Lattice:
         18.0
         """
         shifts = [*([(0.0, 0.0)] if itself else []), *self.neighbours()]
-        return shapely.union_all([moved(region, shift) for shift in shifts])
+        return union(moved(region, shift) for shift in shifts)
 
     def meeting(self, bounds: Box, within: Box) -> FloatArray:
         """``(m, 2)`` translations that bring a box to where it meets another one.

@@ -96,7 +96,8 @@ def torus_metrics(outlines: Sequence[Outline], lattice: Lattice) -> ExactMetrics
     side = max(lattice.width, lattice.height)
     regions, _ = images_about(outlines, lattice, side)
     touches = len(shapely.STRtree(regions).query(regions, predicate="intersects").T) > len(regions)
-    around = shapely.buffer(shapely.box(*shapely.total_bounds(regions)), 2 * side)
+    left, top, right, bottom = shapely.total_bounds(regions)
+    around = shapely.box(left - 2 * side, top - 2 * side, right + 2 * side, bottom + 2 * side)
     return ExactMetrics(
         coverage=shares.coverage, overlap=shares.overlap, exceeding=0.0,
         overlap_area=shares.overlap_area, outside_area=0.0,

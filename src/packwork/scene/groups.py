@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely
 
 from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import union
 from packwork.scene.item import FlatArt, Item, Parts, PhotoArt, VectorArt, bulge_between
 from packwork.scene.mapped import mirrored
 from packwork.scene.notation import decimals, matrix_text, path_data, with_fresh_ids
@@ -44,7 +44,7 @@ def grouped(parts: Parts) -> tuple[Item, float, float]:
     ((4.0, 3.0), '2 items', 8.0, (-3.0, -1.0, 3.0, 1.0))
     """
     placed = [one.outline.mapped(parts.poses.matrix(k)) for k, one in enumerate(parts.items)]
-    middle = shapely.union_all([one.region for one in placed]).centroid
+    middle = union(one.region for one in placed).centroid
     poses = replace(parts.poses, x=parts.poses.x - middle.x, y=parts.poses.y - middle.y)
     name = f"{len(parts.items)} items"
     return _of_parts(replace(parts, poses=poses), name), middle.x, middle.y
@@ -84,7 +84,7 @@ def _of_parts(parts: Parts, name: str) -> Item:
     """The group of parts that lie in its units, about its middle."""
     matrices = [parts.poses.matrix(k) for k in range(len(parts.items))]
     outline, ink = (
-        Outline.from_region(shapely.union_all([shape.mapped(m).region for shape, m in placed]))
+        Outline.from_region(union(shape.mapped(m).region for shape, m in placed))
         for placed in (
             [(one.outline, m) for one, m in zip(parts.items, matrices, strict=True)],
             [(one.ink, m) for one, m in zip(parts.items, matrices, strict=True)],

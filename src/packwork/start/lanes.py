@@ -74,6 +74,14 @@ class WordShape:
     length: float
     height: float
 
+    def length_round(self, round_about: float, size: float) -> float:
+        """Length on a closed curve, on whose inner side letters are as far apart as set.
+
+        ``round_about`` is the curve's length; its curvature is taken as that of a circle.
+        """
+        bend = math.pi * self.height * size / round_about
+        return self.length * size / max(1 - bend, 0.5)
+
 
 @dataclass(frozen=True, eq=False)
 class WordOnLine:

@@ -42,7 +42,7 @@ def bent_lettering(
     >>> down = Curve(np.array([[0.0, 0.0], [0.0, 9.0]]))
     >>> word = bent_lettering([TypeSetting(Piece("ox"), bundled_typeface())], down, 1.0, 3.0)
     >>> [round(end, 1) for end in word.region.bounds[1::2]]
-    [1.0, 3.0]
+    [1.2, 2.8]
     """
     units = line[0].face.units
     runs = line_of_runs(line, 0, units, language)

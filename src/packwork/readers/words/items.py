@@ -228,7 +228,7 @@ def bent_word(
     --------
     >>> arc = Curve(np.array([[0.0, 1.0], [0.3, 0.3], [1.0, 0.0], [1.7, 0.3], [2.0, 1.0]]))
     >>> word = bent_word(Word("oo", 2.0), open_fonts([]), arc, 0.5, 2.5)
-    >>> len(word.outline.rings), bool(word.outline.bounds[3] > 30)
+    >>> len(word.outline.rings), bool(word.outline.bounds[3] > 20)
     (2, True)
     """
     return _shaped(word, fonts.bent(" ".join(lines_of(word.text)), curve, start, end), fonts, holes)

@@ -207,8 +207,9 @@ class RoundTheEdge(RunStep):
         if not bands:
             raise RecipeError("ring", f"has no room in {container.source}, which is too thin")
         size = FILLED * (width - gap) / max(shape.height for shape in line.shapes)
-        most = MOST_ROUND * (2 if len(line.shapes) == 1 else 1) * bands[0].axis.length
-        longest = max(shape.length for shape in line.shapes) * size
+        axis = bands[0].axis.length
+        most = MOST_ROUND * (2 if len(line.shapes) == 1 else 1) * axis
+        longest = max(shape.length_round(axis, size) for shape in line.shapes)
         if longest > most:
             return self._band(line, container, width * max(most / longest, 0.5), gap)
         return replace(bands[0], half=bands[0].half - gap / 2), size
@@ -226,7 +227,7 @@ class RoundTheEdge(RunStep):
             curve = Curve(np.concatenate([ring, ring[:1]]))
             middle = from_above[0] if k == 0 else points[0]
             along = curve.lengths[int(np.argmin(np.hypot(*(curve.points - middle).T)))]
-            half = shape.length * size / 2
+            half = shape.length_round(band.axis.length, size) / 2
             found.append(WordOnLine(k, curve, float(along) - half, float(along) + half, size))
         return found
 
