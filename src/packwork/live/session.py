@@ -391,11 +391,10 @@ class Session:
 
     def _leap(self, kind: str) -> bool:
         self._check_dropped(kind)
-        before = self.document
-        if (now := getattr(self.history, kind)(before)) is before:
-            return False
-        self.log.note(kind)
-        self._solver.leap_to(now)
-        self.requests.leapt(before, now)
-        self.log.flush()
-        return True
+        before, now = self.document, getattr(self.history, kind)(self.document)
+        if now is not before:
+            self.log.note(kind)
+            self._solver.leap_to(now)
+            self.requests.leapt(before, now)
+            self.log.flush()
+        return now is not before
