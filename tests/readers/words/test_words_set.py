@@ -142,6 +142,6 @@ def test_small_words_have_coarser_outlines_and_say_how_far_from_their_curves() -
     fonts = open_fonts([])
     fine, coarse = (shaped_word(Word("bogus", 1.0), fonts, "keep", em) for em in (1.0, 0.01))
     assert fine.item.coarseness == 1 < coarse.item.coarseness
-    assert len(coarse.outline.points) < len(fine.outline.points) / 3
+    assert len(coarse.outline.points) < len(fine.outline.points) / 1.5
     one = bulge_between([coarse.item], np.ones(1)) / 2
     assert shapely.hausdorff_distance(fine.outline.region, coarse.outline.region) < one
