@@ -105,6 +105,9 @@ def test_a_table_without_numbers_is_a_chart_of_its_rows(
     )
     desk = open_desk()
     draw(desk, tmp_path / "pets.csv")
+    # The desk is shared: a chart may have been there before.
+    desk.until("studio.collage.items.length === 4")
+    desk.settled()
     assert areas(desk) == pytest.approx([1, 1, 1, 1])
     assert len(set(desk.look("studio.collage.items.map(item => item.shape)"))) == 2
 
