@@ -277,3 +277,16 @@ def test_a_container_that_is_given_has_the_margin_too() -> None:
     assert layout.container.outline.bounds == (10.0, 10.0, 90.0, 70.0)
     with pytest.raises(pw.RecipeError, match="margin"):
         pw.fill(sheet, "star", count=4, margin=45, effort="draft")
+
+
+def test_columns_of_cells_leave_those_of_the_table_alone() -> None:
+    table = {"size": ["L", "S"], "kg": [1, 2]}
+    layout = pw.chart("circle", table, size_by=[3, 1], label_by="size")
+    assert sorted(item.name for item in layout.items) == ["L", "S"]
+    with pytest.raises(RecipeError, match="size_by: has 3 cells for 2 rows"):
+        pw.chart("circle", table, size_by=[3, 1, 2])
+
+
+def test_no_colour_is_no_colour() -> None:
+    with pytest.raises(RecipeError, match="palette: 'none'"):
+        pw.fill("circle", "star", count=1, palette="none", effort="draft")

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.arrangement import Arrangement, find_conflicts
 from packwork.compaction.compact import compact_all
 from packwork.compaction.objective import FreeSizes
 from packwork.compaction.separate import relocate, separate
 from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline
 from packwork.metrics.torus import torus_metrics
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
 from scenes import square, star
 from strategies import generators
 
@@ -94,3 +98,24 @@ def test_an_item_is_relocated_to_a_void_at_the_edge() -> None:
     x, y = lattice.wrapped(ten.places[9:, :2])[0]
     assert min(x, 12 - x) < 1.5 or min(y, 12 - y) < 1.5
     assert torus_metrics(in_place(ten), lattice).is_clean
+
+
+@pytest.mark.parametrize("lattice", LATTICES)
+@given(generators())
+@settings(deadline=None, max_examples=20)
+def test_conflicts_are_the_same_in_whichever_cell_items_are(
+    lattice: Lattice, rng: np.random.Generator
+) -> None:
+    outlines = [star(), square(), star()]
+    box = Outline.box(*lattice.cell)
+    tile = replace(Container("tile", outline=box), lattice=lattice)
+    x, y = rng.uniform(0.0, 9.0, size=(2, 3))
+    poses = Poses(x, y, rng.uniform(0, 6, 3), np.ones(3))
+    columns, rows = rng.integers(-3, 4, size=(2, 3))
+    away = Poses(
+        x + columns * lattice.width, y + columns * lattice.drop + rows * lattice.height,
+        poses.angle, poses.scale,
+    )  # fmt: skip
+    here, there = (find_conflicts(tile, outlines, one, GAP) for one in (poses, away))
+    assert [(c.item, c.other) for c in here] == [(c.item, c.other) for c in there]
+    assert [c.overlap_cu2 for c in here] == pytest.approx([c.overlap_cu2 for c in there])

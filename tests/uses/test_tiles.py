@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -56,6 +57,28 @@ def test_files_of_a_tile_are_read_back_as_one(kind: str, tmp_path: Path) -> None
         seen = measure(again).exact
         assert seen.is_clean
         assert seen.coverage == pytest.approx(measure(layout).exact.coverage, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("found", "put"),
+    [
+        (r"<use[^>]*translate\([^>]*/>\n(?=</g>)", ""),
+        (r'<g id="images".*?</g>', ""),
+        (r'(<g id="images")', r'\1 opacity="0"'),
+        (r'(<g id="images")', r'\1 transform="translate(37 0)"'),
+        (r'(<g id="images"[^>]*>\n)(<use[^>]*/>\n)', r"\1\2\2"),
+    ],
+    ids=["one is gone", "all are gone", "hidden", "moved", "one is there twice"],
+)
+def test_images_that_were_changed_by_hand_are_told(found: str, put: str, tmp_path: Path) -> None:
+    layout = pw.fill("page", ["star", "owl"], tile="square", count=8, effort="draft", seed=1)
+    text = layout.to_svg()
+    changed = re.sub(found, put, text, count=1, flags=re.DOTALL)
+    assert changed != text
+    (tmp_path / "a.svg").write_text(text, encoding="utf-8")
+    (tmp_path / "b.svg").write_text(changed, encoding="utf-8")
+    assert pw.Layout.load(tmp_path / "a.svg").certified
+    assert not pw.Layout.load(tmp_path / "b.svg").certified
 
 
 def test_an_image_that_was_moved_by_hand_is_told(tmp_path: Path) -> None:

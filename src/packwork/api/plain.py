@@ -118,10 +118,10 @@ def _known(text: str) -> Any:
 
         if text in matplotlib.colormaps:
             return plain_colours(matplotlib.colormaps[text])
-        from matplotlib.colors import is_color_like, to_hex
+        from matplotlib.colors import is_color_like, to_rgba
 
-        if is_color_like(text):
-            return to_hex(text)
+        if is_color_like(text) and text != "none":
+            return plain_colour(to_rgba(text))
     return text
 
 
@@ -158,16 +158,25 @@ def with_columns(data: Any, options: Mapping[str, Any]) -> tuple[Any, dict[str, 
     for key, cells in options.items():
         if key.split("_")[-1] != "by" or isinstance(cells, str | None) or callable(cells):
             continue
+        is_table = isinstance(data, Sequence) and not isinstance(data, str)
+        if not (is_table or isinstance(data, Mapping) or hasattr(data, "assign")):
+            raise RecipeError(key, "must be a column's name where the data are a file's")
+        there = set(data[0] if is_table and len(data) else data)
+        rows = len(next(iter(data.values()), ())) if isinstance(data, Mapping) else len(data)
+        if len(cells) != rows:
+            raise RecipeError(key, f"has {len(cells)} cells for {rows} rows")
         name = str(getattr(cells, "name", None) or key.removesuffix("_by"))
+        while name in there:  # another option may ask for the column that is called so
+            name += "_"
         asked[key] = name
-        if hasattr(data, "assign"):
-            data = data.assign(**{name: cells})
-        elif isinstance(data, Mapping):
-            data = {**data, name: list(cells)}
-        elif isinstance(data, Sequence) and not isinstance(data, str):
+        if is_table:
             data = [{**row, name: cell} for row, cell in zip(data, cells, strict=True)]
         else:
-            raise RecipeError(key, "must be a column's name where the data are a file's")
+            data = (
+                data.assign(**{name: cells})
+                if hasattr(data, "assign")
+                else {**data, name: list(cells)}
+            )
     return data, asked
 
 

@@ -75,6 +75,9 @@ class Arrangement:
             own, starts, after, before, own.copy(), boxes, _spans(*edges, stride), stride,
             np.zeros((len(arms), 4)), arms, np.append(self.owners[:-1], len(arms)), shifts,
         )  # fmt: skip
+        if lattice is not None:
+            # Images reach one cell from where an item is: all are brought into the same one.
+            places = np.column_stack([lattice.wrapped(places[:, :2]), places[:, 2:]])
         self.put(items, places)
 
     @property
@@ -120,7 +123,9 @@ class Arrangement:
             broad_phase.near_pairs(boxes, order, reach, found)
         found = found[:count]
         wall = np.column_stack([np.arange(self.count), np.full(self.count, len(boxes))])
-        return np.concatenate([found[found[:, 0] < self.count], wall])
+        if self.lattice is not None:
+            found = found[found[:, 0] < self.count]
+        return np.concatenate([found, wall])
 
     def distances(self, pairs: IntArray, reach: float) -> FloatArray:
         """``(k,)`` distances of pairs ``(k, 2)``, canvas units: 0 if they meet, or ``reach``."""
@@ -274,6 +279,9 @@ def find_conflicts(
     """
     if len(outlines) == 0:
         return ()
+    if container.lattice is not None:
+        x, y = container.lattice.wrapped(np.column_stack([poses.x, poses.y])).T
+        poses = replace(poses, x=x, y=y)
     zero = np.zeros(len(poses))
     places = np.column_stack([poses.x, poses.y, zero, zero])
     detail = Detail(outlines, container.outline, poses, container.lattice)

@@ -188,8 +188,8 @@ def draw_on_axes(layout: Layout, ax: Any, asked: Mapping[str, Any]) -> Any:
         # What begins with a line is no key to Matplotlib, which is right for all but the first.
         label = "_" + item.name if category in told or not category else category
         told.add(category)
-        own = {"facecolor": colours[item.art], "edgecolor": "none", "label": label}
-        ax.add_patch(patches.PathPatch(_path(ink), **({} if "color" in chosen else own) | chosen))
+        own = {} if "color" in chosen else {"facecolor": colours[item.art], "edgecolor": "none"}
+        ax.add_patch(patches.PathPatch(_path(ink), **({"label": label} | own | chosen)))
     ax.set_xlim(0.0, layout.container.width)
     ax.set_ylim(layout.container.height, 0.0)
     ax.set_aspect("equal")

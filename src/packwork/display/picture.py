@@ -85,17 +85,9 @@ def _alone(shown: Item | Container) -> Layout:
     return Layout(page, (shown,), Poses([-left], [-top], 0.0, 1.0), np.ones(1))
 
 
-def _svg_alone(shown: Item | Container) -> str | None:
-    return notebook_svg(_alone(shown), SMALL_PX)
-
-
-def _png_alone(shown: Item | Container) -> tuple[bytes, dict[str, int]] | None:
-    return notebook_png(_alone(shown), SMALL_PX)
-
-
 for _kind in (Item, Container):
-    _kind._repr_svg_ = _svg_alone  # type: ignore[union-attr]
-    _kind._repr_png_ = _png_alone  # type: ignore[union-attr]
+    _kind._repr_svg_ = lambda shown: notebook_svg(_alone(shown), SMALL_PX)  # type: ignore[union-attr]
+    _kind._repr_png_ = lambda shown: notebook_png(_alone(shown), SMALL_PX)  # type: ignore[union-attr]
 
 
 def _size(layout: Layout, side: int) -> tuple[float, float]:

@@ -261,7 +261,8 @@ class _Finish:
         """Turn and exchange items where that gains."""
         rng = np.random.default_rng(self._options.seed)
         objective_at = partial(self._objective, spread=ANNEAL_SPREAD)
-        points_each = float(self.arrangement.board.starts[-2]) / self.arrangement.count
+        count = self.arrangement.count
+        points_each = float(self.arrangement.board.starts[count]) / count
         trials = round(self._options.trials * min(1.0, EASY_POINTS / points_each))
         every = max(self.arrangement.count // TOLD, 1)
 

@@ -33,19 +33,24 @@ def _arranged(request: dict[str, Any]) -> arranging.Arranged:
     verb, options = request.pop("verb"), request.pop("options")
     drawing = OpenDrawing(request.pop("drawing").encode())
     if verb == "nest":
-        start, seconds = time.monotonic(), options["time"]
+        start, seconds, told = time.monotonic(), options["time"], 0.0
 
         def stop() -> bool:
-            _tell({"progress": min(1.0, (time.monotonic() - start) / seconds)})
+            # A pass takes a few milliseconds: each percent is told once.
+            nonlocal told
+            share = min(1.0, (time.monotonic() - start) / seconds)
+            if share >= told + 0.01:
+                told = share
+                _tell({"progress": share})
             return False
 
         return arranging.nest(drawing, **request, options=options, stop=stop)
+
+    def tell_step(step: Step) -> None:
+        _tell({"progress": step.progress})
+
     arrange = arranging.fill if verb == "fill" else arranging.words
-    return arrange(drawing, **request, options=options | {"observer": _tell_step})
-
-
-def _tell_step(step: Step) -> None:
-    _tell({"progress": step.progress})
+    return arrange(drawing, **request, options=options | {"observer": tell_step})
 
 
 def _tell(line: dict[str, Any]) -> None:

@@ -50,9 +50,8 @@ def fill(
     room, corner = _container(drawing.object(container))
     items = [drawing.object(name).item() for name in objects]
     layout = verbs.fill(room, items, count=len(items), **options)
-    said = [] if layout.certified else ["not certified: some overlap or stick out"]
     moves = {item.name: move for item, move in _moves(layout, corner)}
-    return Arranged(drawing.moved(moves), remarks=said)
+    return Arranged(drawing.moved(moves), remarks=_doubts(layout.certified))
 
 
 def words(
@@ -69,7 +68,8 @@ def words(
         new=[
             (item.name, _drawn(item).markup, matrix_text(affine.compose(back, move)))
             for item, move in _moves(layout, corner)
-        ]
+        ],
+        remarks=_doubts(layout.certified),
     )
 
 
@@ -95,13 +95,17 @@ def nest(
     laid = nested(room, items, stop=stop, **options)
     moves = {item.name: move for one in laid.layouts for item, move in _moves(one, corner)}
     said = [f"found no room: {', '.join(laid.unplaced)}"] if laid.unplaced else []
-    return Arranged(drawing.moved(moves), remarks=said)
+    return Arranged(drawing.moved(moves), remarks=[*said, *_doubts(laid.certified)])
 
 
 def _container(ground: DrawingObject) -> tuple[Container, FloatArray]:
     """Container of an object, its canvas the object's box, and where that has its corner."""
     region = ground.inside()
     return Container(ground.name, ground.name, region), np.array(region.bounds[:2])
+
+
+def _doubts(is_certified: bool) -> list[str]:
+    return [] if is_certified else ["not certified: some overlap or stick out"]
 
 
 def _drawn(item: Item) -> VectorArt:

@@ -256,7 +256,9 @@ class Change:
         drawn = [a is not b for a, b in zip(before.items, after.items, strict=True)]
         drawn_or_weighed = np.array(drawn, dtype=bool) | (before.weights != after.weights)
         stated = (before.manifest.keys() | after.manifest.keys()) - {"title"}
-        is_told = any(before.manifest.get(k) != after.manifest.get(k) for k in stated)
+        is_told = before.manifest is not after.manifest and any(
+            before.manifest.get(k) != after.manifest.get(k) for k in stated
+        )
         is_seen = is_told or drawn_or_weighed.any()
         stale = Invalidation.DRAWING if is_seen else Invalidation.NOTHING
         return cls(stale, after.ids[drawn_or_weighed])

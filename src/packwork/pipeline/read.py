@@ -32,7 +32,7 @@ from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT
 from packwork.recipe.refusals import length_asked
-from packwork.scene.container import Container, inside_margin, on_canvas, tiled
+from packwork.scene.container import Container, inside_margin, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Zone
@@ -133,8 +133,6 @@ def read_room(recipe: Recipe, given: Container | None) -> Container:
             recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
         )
         found = safe_area(recipe, found) if recipe.margin != NO_MARGIN else found
-    if recipe.tile is not None:
-        found = tiled(found, recipe.tile)
     count = len(found.outline.points)
     if count > MAX_POINTS:
         why = f"has {count:,} points, more than {MAX_POINTS:,}; simplify it"

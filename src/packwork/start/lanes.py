@@ -214,6 +214,15 @@ class Lanes:
             for lane in self._gone_on(heapq.heappop(heap)):
                 heapq.heappush(heap, lane)
 
+    def has_room(self, limbs: Sequence[Limb]) -> bool:
+        """Whether each word finds a place along these limbs; words are set until that is known."""
+        for limb in limbs:
+            heap = [_Lane(limb, -1.0, 1.0, 0.0)]
+            while heap and self.left:
+                for lane in self._gone_on(heapq.heappop(heap)):
+                    heapq.heappush(heap, lane)
+        return not self.left
+
     def _gone_on(self, lane: _Lane) -> list[_Lane]:
         """Lanes to go on with once a word was put at a lane's front, or it was split or joined."""
         start = lane.own(lane.front)

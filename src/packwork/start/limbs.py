@@ -117,7 +117,6 @@ def edges_of(container: Container, width: float) -> list[Limb]:
     inner = buffered(buffered(region, -1.25 * width), 0.75 * width)
     rings = sorted((Polygon(part.exterior) for part in polygon_parts(inner)), key=lambda p: -p.area)
     edge = region.boundary
-    shapely.prepare(edge)
     found = []
     for ring in rings:
         axis = _round(ring, width)
@@ -207,7 +206,6 @@ def _convolved(points: FloatArray, weights: FloatArray) -> FloatArray:
 def _stretches(axis: Curve, outline: Outline) -> Iterator[Limb]:
     """Parts of a middle line that are long for their width."""
     edge = outline.region.boundary
-    shapely.prepare(edge)
     half = shapely.distance(shapely.points(axis.points), edge)
     is_thin = np.array([_is_thin(axis.lengths, half, k) for k in range(len(half))])
     for first, last in _runs(is_thin):

@@ -19,7 +19,7 @@ from packwork.pipeline.run import run
 from packwork.precompile import warm_up_once
 from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
-from packwork.scene.container import Container
+from packwork.scene.container import Container, tiled
 from packwork.scene.item import Item
 from packwork.steps.assign_in_order import with_order
 from packwork.uses.icons import NO_CONTAINER, IconsUse, KnownContainer, material_of
@@ -99,7 +99,8 @@ def _material(
     if recipe.tile is not None:
         from packwork.uses.tiles import TileUse
 
-        material = _content(recipe, KnownContainer(read_room(recipe, container)), items)
+        tile = tiled(read_room(recipe, container), recipe.tile)
+        material = _content(recipe, KnownContainer(tile), items)
         return replace(material, use=TileUse(material.use))
     is_open = container is None and recipe.container == NO_CONTAINER and recipe.chart is not None
     return _content(

@@ -292,7 +292,7 @@ class _Content:
                 self._picture(operands[0].obj, resources, state)
             elif name in {"Tj", "TJ", "'", '"'}:
                 self._ems.append(state.em * state.letters * _scale_of(state.matrix))
-                self._spaces[state.spaces[0]] += 1
+                self._count(state.spaces[0])
             else:
                 state = self._changed(state, name, operands, resources, depth)
 
@@ -325,7 +325,8 @@ class _Content:
             inches = np.hypot(*state.matrix[:, :2]) / 72
             size = np.array([float(drawn.Width), float(drawn.Height)])
             self._dpi.append(float((size / inches).min()))
-        self._count(space_name(drawn.get("/ColorSpace", "/DeviceGray"), resources))
+        space = drawn.get("/ColorSpace", pikepdf.Name.DeviceGray)
+        self._count(space_name(space, resources))
         if "/SMask" in drawn:
             self._clear["soft edge|soft edges"] += 1
 

@@ -371,7 +371,7 @@ def _images(layout: Layout, digits: int, *, flatten: bool) -> list[str]:
                 x, y = (number(v, digits) for v in shift)
                 head = {"xlink:href": f"#{name}", "transform": f"translate({x} {y})"}
                 drawn.append(f"<use{attributes(head)}/>")
-    return ['<g id="images">', *drawn, "</g>"]
+    return [f'<g id="images" data-count="{len(drawn)}">', *drawn, "</g>"]
 
 
 def _use(own: dict[str, str], place: str, shape: _Shape) -> str:

@@ -206,6 +206,8 @@ def _of_frame(root: ET.Element) -> Iterator[Met]:
         for line in () if hides else group:
             if tag(line) not in _SILENT:
                 yield from _odd(line, _COLOURING | more, "the container's line", hides=False)
+    if tile_of(root) and all(group.get("id") != "images" for group in root):
+        yield "the lack of the group images", "the file"
     for group in root:
         if tag(group) in {"defs", "style"} or group.get("id") == "items":
             continue
@@ -223,7 +225,9 @@ def _of_images(root: ET.Element, group: ET.Element) -> Iterator[Met]:
     if view is None or items is None:
         return
     lattice = Lattice.of_canvas(view[2], view[3], str(tile_of(root)))
-    names = {f"#{element.get('id')}" for element in items.iter()}
+    names = {f"#{element.get('id')}" for element in items.iter() if "id" in element.attrib}
+    seen = set[tuple[str, int, int]]()
+    yield from _odd(group, frozenset(), "the group images")
     for image in group:
         yield from _odd(image, frozenset({"href", "transform"}), "an image beyond the edge")
         place = parse_transform(image.get("transform"))
@@ -233,8 +237,12 @@ def _of_images(root: ET.Element, group: ET.Element) -> Iterator[Met]:
         is_moved = not np.array_equal(place[:, :2], np.eye(2))
         if is_moved or max(map(abs, off)) > _SAME * max(view[2:]):
             yield "its place", "an image beyond the edge"
-        if tag(image) != "use" or (image.get("href") or image.get(LINK)) not in names:
+        shown = image.get("href") or image.get(LINK) or ""
+        seen.add((shown, column, round(away / lattice.height)))
+        if tag(image) != "use" or shown not in names - {"#items"}:
             yield "what it shows", "an image beyond the edge"
+    if group.get("data-count", "") != str(len(seen)) or len(seen) != len(group):
+        yield "their number", "images beyond the edge"
 
 
 def _page(root: ET.Element) -> Iterator[Met]:

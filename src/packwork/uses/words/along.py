@@ -264,7 +264,8 @@ def _in_order(found: Sequence[WordOnLine]) -> list[WordOnLine]:
     by_size = sorted(found, key=lambda one: (one.word, -one.size))
     pairs = zip(by_size, [None, *by_size], strict=False)
     firsts = [one for one, before in pairs if before is None or before.word != one.word]
-    return [*firsts, *(one for one in by_size if one not in set(firsts))]
+    once = set(firsts)
+    return [*firsts, *(one for one in by_size if one not in once)]
 
 
 def _subset(read: WordsRead, rows: Sequence[int], items: Sequence[Item]) -> WordsRead:
@@ -297,6 +298,7 @@ def _joined(
         whole = whole.followed_by(more)
     found = replace(
         RunState.of(placed), poses=whole, nominal=whole.scale, method="along", is_tight=True,
+        findings=state.findings,
     )  # fmt: skip
     if len(rows) == len(kept):
         return found
@@ -352,18 +354,17 @@ class _LineOfWords:
             own = np.cumprod(np.append(1.0, share * heights[1:] / heights[:-1] + 1 - share))
 
             def lanes(step: int, own: FloatArray = own) -> Lanes:
-                found = Lanes(self.shapes, most * FINER**step * own, least, gap, largest)
-                for limb in limbs:
-                    found.fill(limb)
-                return found
+                return Lanes(self.shapes, most * FINER**step * own, least, gap, largest)
 
-            low, high, best = -1, count, lanes(count)
-            while best.left == [] and high - low > 1:
-                middle = (low + high) // 2
-                tried = lanes(middle)
-                low, high, best = (middle, high, best) if tried.left else (low, middle, tried)
-            if not best.left:
+            low, high = -1, count
+            if lanes(count).has_room(limbs):
+                while high - low > 1:
+                    middle = (low + high) // 2
+                    low, high = (low, middle) if lanes(middle).has_room(limbs) else (middle, high)
                 break
+        best = lanes(high)
+        for limb in limbs:
+            best.fill(limb)
         return best
 
     def bent(

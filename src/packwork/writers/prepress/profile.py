@@ -68,6 +68,8 @@ class PressProfile:
 def read_press_profile(path: str | Path) -> PressProfile:
     """Profile of a file; a ReadError unless it is one of a press with four inks."""
     here = here_of(path)
+    if here.exists() and not here.is_file():
+        raise ReadError(path, "is no file")
     try:
         with here.open("rb") as file:
             data = file.read(MAX_PROFILE_BYTES + 1)

@@ -33,7 +33,7 @@ _DIGITS = 4
 _QUARTER = 0.5523
 """Handles of a cubic that is a quarter of a circle, over its radius."""
 
-_TRIM, _ALL = "TrimBox", "All"
+_ALL = "All"
 
 
 @final
