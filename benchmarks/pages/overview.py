@@ -83,6 +83,7 @@ PAGES = {
     "forces": "piles, round packs, stable words",
     "parts": "containers of several parts",
     "outlines": "outlines as a few curves",
+    "tiles": "seamless tiles beside a page with walls, random ones, their seams",
     "charts": "unit charts: areas true to the data",
     "files": "drawings from anywhere, and what is written",
     "films": "recording and writing films",

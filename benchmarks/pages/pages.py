@@ -26,6 +26,7 @@ from benchmarks.quality import (
     parts,
     photos,
     quality,
+    tiles,
 )
 from benchmarks.robustness import files_page, robustness
 from benchmarks.studio import studio
@@ -48,6 +49,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
             "films": film, "forces": forces, "live": live, "meaning": meaning,
             "mosaics": mosaics, "nesting": nest, "outlines": outlines, "parts": parts,
             "photos": photos, "quality": quality, "robustness": robustness, "studio": studio,
+            "tiles": tiles,
         }.items()
     },
 }  # fmt: skip
