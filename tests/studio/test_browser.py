@@ -238,9 +238,9 @@ def test_files_are_brought_and_what_fails_is_a_line(
     )
     desk.until(f"studio.collage.items.length === {count + 1}")
     assert desk.look("studio.collage.items.at(-1).name") == "tile"
-    desk.until("document.querySelectorAll('.toast').length > 0")
-    text = desk.page.locator(".toast").first.inner_text()
-    assert "broken.svg" in text
+    toast = desk.page.locator(".toast", has_text="broken.svg")
+    toast.wait_for()
+    text = toast.inner_text()
     assert "/" not in text.replace("left out", "")
     desk.picture("brought")
     desk.settled()
@@ -533,9 +533,9 @@ def test_items_show_a_picture_by_their_colours(
     colours = "JSON.stringify(studio.collage.items.map(item => studio.collage.colour(item.id)))"
     before = desk.look(colours)
     show("plain.png")
-    desk.until("document.querySelectorAll('.toast').length > 0")
-    assert "one colour only" in desk.page.locator(".toast").first.inner_text()
-    desk.page.locator(".toast button").first.click()
+    toast = desk.page.locator(".toast", has_text="one colour only")
+    toast.wait_for()
+    toast.get_by_role("button").first.click()
     show("halves.png")
     desk.until(f"{colours} !== {json.dumps(before)}")
     desk.settled()
