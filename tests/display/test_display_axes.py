@@ -52,6 +52,23 @@ def test_it_draws_on_axes_that_are_given_and_leaves_holes_free() -> None:
     pyplot.close("all")
 
 
+def test_numbers_of_a_chart_have_a_colour_bar() -> None:
+    rows = {"heat": [30, "", -10, 10]}
+    ax = pw.chart("circle", rows, color_by="heat", palette=["#000000", "#c80000"], **QUICK).plot()
+    bar = ax.figure.axes[1]
+    assert bar.get_ylabel() == "heat"
+    shades = bar.collections[-1]
+    assert shades.get_clim() == (-10, 30)
+    own = [patch.get_facecolor() for patch in ax.patches]
+    assert np.allclose(shades.to_rgba([30, -10, 10]), [own[0], own[2], own[3]], atol=0.01)
+    for same in ([5, 5], ["a", "b"]):
+        assert (
+            len(pw.chart("circle", {"heat": same}, color_by="heat", **QUICK).plot().figure.axes)
+            == 1
+        )
+    pyplot.close("all")
+
+
 def test_categories_of_a_chart_have_keys() -> None:
     rows = {"kind": ["a", "b", "a", "a"]}
     ax = pw.chart("circle", rows, color_by="kind", **QUICK).plot()

@@ -139,7 +139,7 @@ class Exported(scene.Layout):
 
         Each item is a ``PathPatch`` of what is drawn of it, holes and all, in its colour;
         pictures and drawings of several colours are in their mean colour. A chart's title stands
-        over it, and keys of its categories beside it.
+        over it, and keys of its categories beside it, or a bar of its numbers' colours.
 
         Parameters
         ----------

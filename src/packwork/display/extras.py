@@ -14,7 +14,7 @@ import numpy as np
 
 from packwork.errors import PackworkError
 from packwork.geometry.outline import Outline
-from packwork.readers.tables.cells import as_number, is_missing
+from packwork.readers.tables.cells import as_number, is_missing, is_numeric
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import representative_colour
 
@@ -198,7 +198,27 @@ def draw_on_axes(layout: Layout, ax: Any, asked: Mapping[str, Any]) -> Any:
         ax.set_title(chart["title"])
     if any(told) and chart.get("legend", True):
         ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    if chart.get("color_by") and chart.get("legend", True):
+        _draw_colour_bar(layout, ax, chart["color_by"], colours)
     return ax
+
+
+def _draw_colour_bar(layout: Layout, ax: Any, column: str, colours: Mapping[Any, str]) -> None:
+    """Numbers that colours stand for beside the axes, if the column holds numbers that differ."""
+    shown = [(item.datum.row, colours[item.art]) for item in layout.items if item.datum]
+    if not is_numeric([row for row, _ in shown], column):
+        return
+    cells = [(row.get(column), ink) for row, ink in shown]
+    colour_of = {as_number(cell): ink for cell, ink in cells if not is_missing(cell)}
+    low, high = min(colour_of, default=0.0), max(colour_of, default=0.0)
+    if low == high:
+        return
+    # Straight between the marks' own colours: a ramp that any palette may have made.
+    stops = [((number - low) / (high - low), colour_of[number]) for number in sorted(colour_of)]
+    ramp = import_extra("matplotlib.colors", INSTEAD).LinearSegmentedColormap.from_list("", stops)
+    span = import_extra("matplotlib.colors", INSTEAD).Normalize(low, high)
+    shades = import_extra("matplotlib.cm", INSTEAD).ScalarMappable(span, ramp)
+    ax.figure.colorbar(shades, ax=ax, label=column, shrink=0.6)
 
 
 def _path(outline: Outline) -> Any:
