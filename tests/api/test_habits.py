@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from PIL import Image
 
 import packwork as pw
 from packwork.api.inputs import handed_over
+from packwork.batches.seeds import best_first
 from packwork.errors import RecipeError
 
 DRAFT: dict[str, Any] = {"effort": "draft", "levels": "50"}
@@ -33,8 +35,10 @@ def test_a_layout_is_a_sequence_of_placements(layout: pw.Layout) -> None:
     assert layout[-1] == list(layout)[5]
     assert list(reversed(layout)) == list(layout)[::-1]
     assert layout.index(layout[3]) == 3
-    with pytest.raises(IndexError):
+    with pytest.raises(IndexError, match="there is no item 6: the layout has 6 items"):
         layout[6]
+    with pytest.raises(TypeError, match="items of a layout have numbers, not 'star'"):
+        layout["star"]  # type: ignore[call-overload]
 
 
 def test_a_slice_is_a_layout_of_some_items(layout: pw.Layout) -> None:
@@ -186,6 +190,23 @@ def test_the_best_of_several_seeds() -> None:
     assert even.metrics["LnU"] == min(one.metrics["LnU"] for one in tried)
     with pytest.raises(RecipeError, match="best_of: must be a whole number"):
         pw.fill("heart", best_of=0)
+
+
+def test_what_is_told_of_several_seeds_is_told_once(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "a.svg").write_text("broken", encoding="utf-8")
+    (tmp_path / "b.svg").write_text(pw.fill("circle", "star", **DRAFT).to_svg(), encoding="utf-8")
+    pw.fill("heart", tmp_path, best_of=3, **DRAFT)
+    assert caplog.text.count("left out") == 1
+
+
+def test_a_failure_of_one_of_several_seeds_is_not_passed_over() -> None:
+    made = [RecipeError("seed", "has no meaning here"), ZeroDivisionError()]
+    with pytest.raises(ZeroDivisionError):
+        best_first(made)
+    with pytest.raises(RecipeError, match="has no meaning here"):
+        best_first(made[:1])
 
 
 def test_a_hero_has_both_coordinates_or_none() -> None:

@@ -108,3 +108,9 @@ def test_packed_drawings_go_through_the_gate(tmp_path, data, problem):
     (tmp_path / "a.svgz").write_bytes(data)
     with pytest.raises(ReadError, match=problem):
         read_items(str(tmp_path / "a.svgz"))
+
+
+@pytest.mark.parametrize("read", [read_items, read_container])
+def test_a_folder_that_is_not_there_is_called_so(read):
+    with pytest.raises(ReadError, match=r"nowhere/: there is no such folder$"):
+        read("nowhere/")

@@ -48,12 +48,12 @@ class Exported(scene.Layout):
         >>> fill("circle", "star", effort="draft", levels="50").to_svg()[:5]
         '<?xml'
         """
-        return self._encoded("svg", options).decode()
+        return self._encoded("svg", drawing_options(options)).decode()
 
     @of_model(DrawingOptions)
     def to_png(self, **options: Unpack[SaveKeywords]) -> bytes:
         """Content of the PNG that :meth:`save` writes: :meth:`to_svg`, in ``pixels``."""
-        return self._encoded("png", options)
+        return self._encoded("png", drawing_options(options))
 
     @of_model(DrawingOptions)
     def to_image(self, **options: Unpack[SaveKeywords]) -> Image.Image:
@@ -83,7 +83,7 @@ class Exported(scene.Layout):
         >>> [feature["properties"]["role"] for feature in made["features"]]
         ['container', 'item']
         """
-        made: dict[str, Any] = json.loads(self._encoded("geojson", {}))
+        made: dict[str, Any] = json.loads(self._encoded("geojson", writers.WriteOptions()))
         return made
 
     @property
@@ -91,10 +91,8 @@ class Exported(scene.Layout):
         """The same, for GeoPandas, Shapely and others that ask for it."""
         return self.to_geojson()
 
-    def _encoded(self, format: str, options: Mapping[str, Any]) -> bytes:
-        return writers.encoded(
-            self, f"layout.{format.lower().lstrip('.')}", drawing_options(options)
-        )
+    def _encoded(self, format: str, options: writers.WriteOptions) -> bytes:
+        return writers.encoded(self, f"layout.{format.lower().lstrip('.')}", options)
 
     def to_dataframe(self) -> DataFrame:
         """Pandas data frame: one row per item, in the layout's order.

@@ -30,6 +30,7 @@ from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.measure import Metrics, exact_of, measure
+from packwork.phrasing import number_of
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session, read_written
 from packwork.recipe.verbs import film_options
@@ -129,10 +130,17 @@ class Layout(Exported, Sequence[Placement]):
                 self, items=self.items[which], poses=self.poses.subset(rows),
                 weights=self.weights[which], notes=(), track=None, leaving=None,
             )  # fmt: skip
-        items, poses = self.items[which], self.poses
+        try:
+            row = range(len(self))[which]
+        except IndexError:
+            there = number_of(len(self), "item")
+            raise IndexError(f"there is no item {which}: the layout has {there}") from None
+        except TypeError:
+            raise TypeError(f"items of a layout have numbers, not {which!r}") from None
+        poses = self.poses
         columns = (poses.x, poses.y, poses.angle, poses.scale, poses.stretch, self.weights)
-        *row, weight = (float(column[which]) for column in columns)
-        return Placement(items, Pose(*row), self.outlines[which], weight)
+        *pose, weight = (float(column[row]) for column in columns)
+        return Placement(self.items[row], Pose(*pose), self.outlines[row], weight)
 
     def __iter__(self) -> Iterator[Placement]:
         return map(self.__getitem__, range(len(self)))
@@ -206,6 +214,7 @@ class Layout(Exported, Sequence[Placement]):
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
         """
+        drawing = drawing_options(options)
         if isinstance(path, str | Path):
             if format is None and is_session(path):
                 if options:
@@ -213,18 +222,18 @@ class Layout(Exported, Sequence[Placement]):
                     raise RecipeError("path", line + ", ".join(options))
                 self.edit().save(path)
             elif format is None:
-                writers.write(self, path, drawing_options(options))
+                writers.write(self, path, drawing)
             else:
-                writers.write_atomic(path, self._encoded(format, options))
+                writers.write_atomic(path, self._encoded(format, drawing))
         elif not hasattr(path, "write"):
             raise RecipeError("path", f"is {type(path).__name__}; give a path or an open file")
         else:
             format = format or Path(str(getattr(path, "name", ""))).suffix
             if not format:
                 raise RecipeError("format", "a buffer has no ending; give a format, such as 'svg'")
-            content = self._encoded(format, options)
+            content = self._encoded(format, drawing)
             path.write(content.decode() if isinstance(path, io.TextIOBase) else content)
-        tell_coarse(self, drawing_options(options).dpi)
+        tell_coarse(self, drawing.dpi)
 
     @of_model(FilmOptions)
     def save_film(

@@ -24,6 +24,7 @@ from packwork.api.plain import weighed, with_columns, without_none
 from packwork.api.signatures import BACKGROUND, RunKeywords, of_verb
 from packwork.batches.pool import results
 from packwork.batches.seeds import best_first
+from packwork.batches.task import telling_once
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
@@ -387,7 +388,8 @@ def run_recipe(
             run = run_seed(0, stop)
         else:
             tried = results(range(best_of), run_seed, 1, stop)
-            run = best_first((made for _, made in tried), best_by).best
+            with telling_once():
+                run = best_first((made for _, made in tried), best_by).best
     layout = public(run.layout)
     kept = keepers[run.layout.manifest["seed"] - recipe.seed]
     # What was just measured is not measured again when it is asked for.

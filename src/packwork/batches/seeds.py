@@ -70,8 +70,8 @@ def best_of(
     """Runs of a recipe's seed and those after it, the best first.
 
     Each gives the same bytes as a run of its seed alone. ``by`` is ``coverage``, ``evenness`` or a
-    metric of the report, with a minus where less is better. If no seed gives anything, the first
-    one's error is raised.
+    metric of the report, with a minus where less is better. If all seeds are refused, the first
+    refusal is raised; a failure that is none is raised as it is.
     """
     check_metric(by)
     plain = recipe.plain()
@@ -83,13 +83,15 @@ def best_of(
 def best_first(
     made: Iterable[Run | Exception], by: str = COVERAGE, told: Told = lambda _: None
 ) -> Choice:
-    """Runs of several seeds, the best first; if none gave anything, the first one's error."""
+    """Runs of several seeds, the best first; refused ones are passed over unless all are."""
     check_metric(by)
     found: list[Run] = []
-    failed: list[Exception] = []
+    failed: list[PackworkError] = []
     for one in made:
-        if isinstance(one, Exception):
+        if isinstance(one, PackworkError):
             failed.append(one)
+        elif isinstance(one, Exception):
+            raise one
         else:
             found.append(one)
         told(len(found) + len(failed))

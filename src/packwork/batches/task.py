@@ -152,6 +152,24 @@ def collecting_notices() -> Iterator[list[str]]:
         logger.handlers, logger.propagate = before
 
 
+@contextmanager
+def telling_once() -> Iterator[None]:
+    """Have the library's log tell each line once in the block."""
+    told: set[str] = set()
+
+    def is_new(record: logging.LogRecord) -> bool:
+        before = len(told)
+        told.add(record.getMessage())
+        return len(told) > before
+
+    logger = logging.getLogger("packwork")
+    logger.addFilter(is_new)
+    try:
+        yield
+    finally:
+        logger.removeFilter(is_new)
+
+
 class _LogCollector(logging.Handler):
     def __init__(self, heard: list[str]) -> None:
         super().__init__(logging.WARNING)

@@ -8,7 +8,7 @@ import logging
 from collections.abc import Iterator
 from typing import Protocol
 
-NOTICE = "compiling kernels, once after each installation: 10 to 40 s of one processor core"
+NOTICE = "compiling kernels, once for each kind of run: up to 40 s of one processor core"
 
 _LOG = logging.getLogger("packwork")
 

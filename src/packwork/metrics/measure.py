@@ -143,17 +143,22 @@ def measure(layout: Layout) -> LayoutMetrics:
     if layout.container.lattice is not None:
         return _measured_in_cell(layout, layout.container.lattice)
     exact, (pixel, seen) = at_once(_of_kind, [(exact_of, layout), (_by_pixels, layout)])
-    return LayoutMetrics(pixel=pixel, exact=exact, ink=_ink_coverage(layout, exact), seen=seen)
+    ink = exact.coverage if _is_all_ink(layout) else _ink_coverage(layout, exact)
+    return LayoutMetrics(pixel=pixel, exact=exact, ink=ink, seen=seen)
 
 
 def _measured_in_cell(layout: Layout, lattice: Lattice) -> LayoutMetrics:
     seen, whole = in_cell(layout.outlines, lattice), layout.container.outline
     cell = Container(layout.container.name, "", whole, lattice.width, lattice.height)
-    ink = exact_coverage(in_cell(layout.inks, lattice), whole)
-    return LayoutMetrics(
-        pixel_metrics(seen, cell), exact_of(layout), ink,
-        shape_metrics(seen, cell),
-    )  # fmt: skip
+    exact = exact_of(layout)
+    ink = exact.coverage
+    if not _is_all_ink(layout):
+        ink = exact_coverage(in_cell(layout.inks, lattice), whole)
+    return LayoutMetrics(pixel_metrics(seen, cell), exact, ink, shape_metrics(seen, cell))
+
+
+def _is_all_ink(layout: Layout) -> bool:
+    return all(item.ink is item.outline for item in layout.items)
 
 
 def _of_kind(kind: Callable[[Layout], Any], layout: Layout) -> Any:
@@ -174,8 +179,6 @@ def _by_pixels(layout: Layout) -> tuple[PixelMetrics, ShapeMetrics]:
 
 
 def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
-    if all(item.ink is item.outline for item in layout.items):
-        return exact.coverage
     container = layout.container.outline
     known: dict[tuple[Outline, Outline], float | None] = {}
     for item in layout.items:

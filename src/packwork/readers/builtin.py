@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import os
 from collections.abc import Iterable, Mapping
 from importlib import resources
 
@@ -185,6 +186,8 @@ def unknown_name(name: str, known: Iterable[str], kind: str) -> ReadError:
     hart: there is no such file and no built-in item of that name; did you mean heart?
     """
     names = list(known)
+    if name.endswith(("/", os.sep)):
+        return ReadError(name, "there is no such folder")
     if name.isdecimal():
         return ReadError(name, f"is no {kind}; -n {name} asks for so many")
     if name.lower().removesuffix("-landscape") in SHEETS:

@@ -204,9 +204,9 @@ def read_photos(
 ) -> ItemsRead:
     """Items of all photos, in the order of the sources, files of a folder by name.
 
-    A file named by itself must be usable; one among many of a folder or a pattern is left out
-    with a notice if it is not, and refused if ``strict``. Of those named by themselves a sample
-    takes all, unless these alone are too many.
+    A file that is broken is left out with a notice where others are not, since a shell names all
+    files of a pattern by themselves, and refused if ``strict``. Of those named by themselves a
+    sample takes all, unless these alone are too many.
     """
     unread: list[ReadError] = []
     named = [one for source in options.sources for one in _files(source, unread)]
@@ -234,7 +234,7 @@ def read_photos(
         one, result = named[k], results[k]
         if isinstance(result, Item):
             items.append(result)
-        elif one.by_itself or strict:
+        elif strict or not exists(one.file):
             raise result
         else:
             skipped.append(result)
@@ -264,6 +264,10 @@ def _reading(
     options: PhotoOptions, threshold: float, shape: Region | None
 ) -> Callable[[_Named, int], Item | ReadError]:
     def read(one: _Named, number: int) -> Item | ReadError:
+        ending = Path(one.file).suffix.lower()
+        if ending in LOOK_LIKE_PICTURES and ending not in PICTURE_ENDINGS:
+            why = f"photos that end in {ending} are not read; save it as JPEG first"
+            return ReadError(one.file, why)
         try:
             return read_photo(one.file, options, number, threshold, shape)
         except ReadError as error:
@@ -290,9 +294,6 @@ def _files(source: str, unread: list[ReadError]) -> list[_Named]:
         return _several(source, listed(path, PICTURE_ENDINGS), unread)
     if glob.has_magic(source) and not exists(path):
         return _several(source, matched(source, PICTURE_ENDINGS), unread)
-    ending = path.suffix.lower()
-    if ending in LOOK_LIKE_PICTURES and ending not in PICTURE_ENDINGS:
-        raise ReadError(source, f"photos that end in {ending} are not read; save it as JPEG first")
     return [_Named(source, by_itself=True)]
 
 

@@ -260,6 +260,22 @@ def test_folders_leave_out_what_is_broken_and_say_so(
         read_photos(PhotoOptions(sources=(str(tmp_path),)), strict=True)
 
 
+def test_of_photos_named_one_by_one_those_that_are_broken_are_left_out(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    saved(tmp_path, "a.png")
+    broken(tmp_path, "text")
+    (tmp_path / "sea.heic").touch()
+    files = tuple(str(tmp_path / name) for name in ("sea.heic", "text.jpg", "a.png"))
+    found = read_photos(PhotoOptions(sources=files))
+    assert [item.name for item in found.items] == ["a"]
+    assert [one.file for one in found.skipped] == list(files[:2])
+    assert all(f"left out {file}" in caplog.text for file in files[:2])
+    for refused in (files[:2], (files[2], str(tmp_path / "gone.jpg"))):
+        with pytest.raises(ReadError, match=r"sea\.heic|gone\.jpg"):
+            read_photos(PhotoOptions(sources=refused))
+
+
 def test_a_photo_that_is_gone_when_it_is_printed_is_named(tmp_path: Path) -> None:
     item = read(saved(tmp_path))
     Path(item.source).unlink()
