@@ -185,3 +185,40 @@ def test_parts_that_lie_on_a_sheet_are_written_again_as_they_were(
         assert new.line.bulges == pytest.approx(old.line.bulges, abs=1e-12)
     assert len(after) == len(before) + 1
     assert (shop / "b.svg").read_text(encoding="utf-8").count('stroke="#20302a"') == 2
+
+
+def test_colours_and_layers_that_are_named_are_engraved(folder: Path, packwork: Command) -> None:
+    drawing = ezdxf.new(units=4)
+    drawing.layers.add("inner", color=1)
+    drawing.layers.add("other", color=4)
+    mark = drawing.blocks.new("mark")
+    mark.add_circle((0, 0), 2, dxfattribs={"color": 0})
+    space = drawing.modelspace()
+    space.add_lwpolyline([(0, 0), (60, 0), (60, 40), (0, 40)], close=True)
+    space.add_circle((50, 30), 3)
+    space.add_circle((10, 10), 4, dxfattribs={"layer": "inner"})
+    space.add_circle((25, 10), 5, dxfattribs={"layer": "other", "true_color": 0x00AAFF})
+    space.add_circle((40, 10), 6, dxfattribs={"layer": "other"})
+    space.add_blockref("mark", (10, 30), dxfattribs={"color": 3})
+    drawing.saveas(folder / "plate.dxf")
+    for asked, engraved in [
+        ("red", [4]), ("lime", [2]), ("#0af", [5]), ("OTHER", [5, 6]),
+        ("red --engrave cyan", [4, 6]),
+    ]:  # fmt: skip
+        result = packwork(f"nest 90x60mm plate.dxf --passes 3 --engrave {asked} -o a.dxf")
+        assert result.exit_code == 0, result.output
+        of_layer = {
+            layer: sorted(
+                one.dxf.radius
+                for one in ezdxf.readfile(folder / "a.dxf").modelspace().query("CIRCLE")
+                if one.dxf.layer == layer
+            )
+            for layer in ("cut", "engrave")
+        }
+        assert of_layer["engrave"] == pytest.approx(engraved)
+        assert sorted(of_layer["cut"] + of_layer["engrave"]) == pytest.approx([2, 3, 4, 5, 6])
+    result = packwork("nest 90x60mm plate.dxf --passes 3 --engrave green -o b.dxf")
+    assert result.exit_code == 2
+    assert "no part has lines in the colour or on the layer 'green'; others have" in result.output
+    assert "#00ff00" in result.output
+    assert not (folder / "b.dxf").exists()

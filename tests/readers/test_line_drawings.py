@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.bezier import FLATTENING
+from packwork.readers.engraving import Engraving
 from packwork.readers.items import read_items
 from packwork.readers.line_drawings import CURVES_PX, arc_line
 from packwork.readers.svg_syntax.path_data import parse_path
@@ -28,12 +30,12 @@ MM = 96 / 25.4
 HAIRLINE = 'fill="none" stroke="#f00" stroke-width=".1"'
 
 
-def parts(folder: Path, drawn: str, holes: str = "keep") -> list[Item]:
+def parts(folder: Path, drawn: str, holes: str = "keep", engrave: Sequence[str] = ()) -> list[Item]:
     """Parts of an SVG of 100 x 80 mm, one user unit a millimetre."""
     path = folder / "a.svg"
     head = '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="80mm"'
     path.write_text(f'{head} viewBox="0 0 100 80">{drawn}</svg>', encoding="utf-8")
-    return list(read_items(path, holes=holes, by_lines=True).items)  # type: ignore[arg-type]
+    return list(read_items(path, holes=holes, engraving=Engraving(engrave)).items)  # type: ignore[arg-type]
 
 
 def cut(item: Item) -> list[ArcLine]:
@@ -196,3 +198,46 @@ def test_holes_are_cut_where_none_may_lie_in_them(tmp_path: Path) -> None:
 def _areas(lines: list[ArcLine]) -> Iterator[float]:
     for line in lines:
         yield shapely.Polygon(line.flattened(1e-6)).area / MM**2
+
+
+MARKED = (
+    '<path d="M22 20h36M60 12a8 8 0 0 1 8 9" stroke="{0}"/><circle cx="40" cy="40" r="6" '
+    'style="stroke:{0}"/><path d="M20 50l4 0v4z" fill="{0}" stroke="none"/>'
+)
+"""Open lines, an arc, a circle and an area of one colour."""
+
+
+@pytest.mark.parametrize("written", ["red", "rgb(255,0,0)", "#F00"])
+@pytest.mark.parametrize("asked", ["red", "#ff0000"])
+def test_what_has_a_colour_is_engraved_true_to_a_millionth(
+    tmp_path: Path, written: str, asked: str
+) -> None:
+    plate = f'<rect x="2" y="2" width="80" height="60" stroke="black"/>{MARKED.format(written)}'
+    thin = f'<g fill="none" stroke-width=".1">{plate}</g>'
+    whole, filled = (
+        parts(tmp_path, drawn, engrave=[asked])
+        for drawn in (thin, thin.replace('stroke="black"', 'fill="black" stroke="none"'))
+    )
+    for (item,) in (whole, filled):
+        assert isinstance(item.art, LineArt)
+        assert item.outline.area / MM**2 == pytest.approx(80 * 60, rel=1e-6)
+        lines = [line.mapped(item.art.matrix, 0.0) for line in item.art.engraved]
+        corner = cut(item)[0].points.min(axis=0) - 2 * MM
+        _, bent, ring, area = (replace(one, points=(one.points - corner) / MM) for one in lines)
+        assert np.hypot(*(ring.points - [40, 40]).T) == pytest.approx([6, 6], abs=1e-6)
+        assert np.abs(ring.bulges) == pytest.approx([1, 1])
+        assert distance(bent, true_points("M60 12a8 8 0 0 1 8 9")) < 1e-6
+        assert shapely.Polygon(area.points).area == pytest.approx(8)
+
+
+def test_what_has_no_such_colour_is_cut(tmp_path: Path) -> None:
+    drawn = '<rect width="30" height="20"/><rect x="5" y="5" width="9" height="9" stroke="blue"/>'
+    (item,) = parts(tmp_path, f"<g {HAIRLINE}>{drawn}</g>", engrave=["green"])
+    assert len(cut(item)) == 2
+
+
+def test_a_layer_of_any_name_may_be_engraved(tmp_path: Path) -> None:
+    drawn = '<rect width="30" height="20"/><g id="Inner"><circle cx="9" cy="9" r="5"/></g>'
+    (item,) = parts(tmp_path, f"<g {HAIRLINE}>{drawn}</g>", engrave=["inner"])
+    assert isinstance(item.art, LineArt)
+    assert (len(item.art.cut), len(item.art.engraved)) == (1, 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Integral
 from pathlib import Path
@@ -16,6 +16,7 @@ from packwork.api.layout import Layout, public
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline, OutlineLike
 from packwork.progress import Stop, never
+from packwork.readers.engraving import Engraving
 from packwork.readers.instances import is_instance
 from packwork.readers.layouts.read import is_session
 from packwork.scene.container import Container
@@ -113,6 +114,7 @@ def nest(
     rotate: str = "0,90,180,270",
     mirror: bool = False,
     holes: Literal["keep", "fill"] = "keep",
+    engrave: str | Sequence[str] = (),
     kerf: str | float = 0.0,
     tool: str | float = 0.0,
     margin: str | float | None = None,
@@ -138,6 +140,8 @@ def nest(
         Whether parts may be turned over.
     holes
         ``"fill"``: no part lies in the hole of another.
+    engrave
+        Colours, or names of layers, of lines that are engraved and not cut.
     kerf, margin
         Smallest distance of parts, and of parts from the edge; a number is in units of the sheet.
     tool
@@ -160,11 +164,13 @@ def nest(
     >>> len(found), len(found.layouts[0]), found.certified
     (1, 6, True)
     """
+    engraving = Engraving([engrave] if isinstance(engrave, str) else engrave)
     if isinstance(sheet, str | os.PathLike) and is_instance(os.fspath(sheet)):
         named, others = ([str(part) for part, _ in _pairs(group)] for group in (parts, optional))
         sheets, laid = read_request(
-            os.fspath(sheet), named, others, rotate, mirror=mirror, holes=holes
-        )
+            os.fspath(sheet), named, others, rotate, mirror=mirror, holes=holes,
+            engraving=engraving,
+        )  # fmt: skip
     else:
         sheets = _sheets(sheet)
         laid = [
@@ -172,8 +178,9 @@ def nest(
             for group, is_optional in ((parts, False), (optional, True))
             for part, count in _pairs(group)
             for made in _parts(part, count, sheets[0].unit, rotate=rotate, mirror=mirror,
-                               holes=holes, optional=is_optional)
+                               holes=holes, engraving=engraving, optional=is_optional)
         ]  # fmt: skip
+        engraving.check_met()
     gap = _length("kerf", kerf, sheets[0])
     away = None if margin is None else _length("margin", margin, sheets[0])
     bit = _length("tool", tool, sheets[0])
@@ -217,11 +224,14 @@ def _sheets(sheet: Any) -> list[nested.Sheet]:
 
 
 def _parts(
-    part: Part, count: int, unit: Unit, *, rotate: str, mirror: bool, holes: Any, optional: bool
-) -> Iterator[nested.SheetPart]:
+    part: Part, count: int, unit: Unit, *, rotate: str, mirror: bool, holes: Any,
+    engraving: Engraving, optional: bool,
+) -> Iterator[nested.SheetPart]:  # fmt: skip
     if isinstance(part, str | os.PathLike):
         text = os.fspath(part) if count == 1 else f"{os.fspath(part)}*{count}"
-        yield from read_parts(text, unit, rotate, mirror=mirror, holes=holes, optional=optional)
+        yield from read_parts(
+            text, unit, rotate, mirror=mirror, holes=holes, engraving=engraving, optional=optional
+        )
         return
     item = part if isinstance(part, Item) else Item("part", outline=part)
     if holes == "fill":

@@ -86,6 +86,14 @@ def nest(
             help="keep: the holes of items stay free, so that small items may sit in them."
         ),
     ] = "keep",
+    engrave: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="COLOUR",
+            help="Lines and areas in this colour, or on the layer of this name, are engraved and "
+            "not cut. May be given several times.",
+        ),
+    ] = None,
     optional: Annotated[
         list[str] | None,
         typer.Option(
@@ -124,6 +132,7 @@ def nest(
         from packwork.cli.show import Paper
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
+        from packwork.readers.engraving import Engraving
         from packwork.separation.strip import WorkBound
         from packwork.uses.nest_request import length_of, read_request
         from packwork.uses.nesting import nest as nest_parts
@@ -131,8 +140,9 @@ def nest(
         files = list(output or (DEFAULT_OUTPUT,))
         every = [*files, *([report] if report else [])]
         sheets, counted = read_request(
-            sheet, parts or [], optional or [], rotate, mirror=mirror, holes=holes
-        )
+            sheet, parts or [], optional or [], rotate, mirror=mirror, holes=holes,
+            engraving=Engraving(engrave or []),
+        )  # fmt: skip
         gap = length_of("kerf", kerf, sheets[0])
         bit = length_of("tool", tool, sheets[0])
         away = None if margin is None else length_of("margin", margin, sheets[0])

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
+from packwork.readers.engraving import Engraving
 from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import Listing, Sample, listed, matched
 from packwork.readers.memory.items import items_in_memory
@@ -33,21 +34,21 @@ _ONE_EACH: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
 }
 
 
-def _read_dxf(file: str, holes: Holes) -> Sequence[Read]:
+def _read_dxf(file: str, holes: Holes, engraving: Engraving) -> Sequence[Read]:
     # Loads what no other file needs.
     from packwork.readers.dxf.item import read_dxf
 
-    return read_dxf(file, holes)
+    return read_dxf(file, holes, engraving)
 
 
-def _read_lines(file: str, holes: Holes) -> Sequence[Read]:
+def _read_lines(file: str, holes: Holes, engraving: Engraving) -> Sequence[Read]:
     # The same.
     from packwork.readers.line_drawings import read_line_drawing
 
-    return read_line_drawing(file, holes)
+    return read_line_drawing(file, holes, engraving)
 
 
-_Several: TypeAlias = dict[str, Callable[[str, Holes], Sequence[Read]]]
+_Several: TypeAlias = dict[str, Callable[[str, Holes, Engraving], Sequence[Read]]]
 
 _SEVERAL: _Several = {".dxf": _read_dxf}
 """Readers of files that hold several items."""
@@ -73,13 +74,14 @@ class _Asked:
     holes: Holes
     reading: ReadOptions
     strict: bool
-    several: _Several
+    engraving: Engraving | None
 
     def read(self, file: str) -> Sequence[Read]:
         """Items of one file, by the reader of its ending."""
         ending = Path(file).suffix.lower()
-        if ending in self.several:
-            return self.several[ending](file, self.holes)
+        several = _SEVERAL if self.engraving is None else _FOR_MACHINES
+        if ending in several:
+            return several[ending](file, self.holes, self.engraving or Engraving())
         return [_ONE_EACH[ending](file, self.holes, self.reading)]
 
 
@@ -103,7 +105,7 @@ def read_items(
     strict: bool = False,
     reading: ReadOptions | None = None,
     sample: Sample | None = None,
-    by_lines: bool = False,
+    engraving: Engraving | None = None,
 ) -> ItemsRead:
     """Items of files, folders, patterns and built-in names.
 
@@ -124,8 +126,8 @@ def read_items(
     sample
         Which are taken where there are more files than are needed; no others are read. Of files
         named by themselves all are, unless these alone are too many.
-    by_lines
-        Whether SVGs are drawings for a machine, which follows their lines.
+    engraving
+        What of them is engraved, where SVGs are drawings for a machine, which follows their lines.
 
     Raises
     ------
@@ -138,9 +140,7 @@ def read_items(
     ['circle', 'star']
     """
     many = [sources] if isinstance(sources, str | Path) else list(sources)
-    asked = _Asked(
-        holes, reading or ReadOptions(), strict, _FOR_MACHINES if by_lines else _SEVERAL
-    )  # fmt: skip
+    asked = _Asked(holes, reading or ReadOptions(), strict, engraving)
     found = [_found(str(source), asked) for source in many]
     listings = [one.listing for one in found if one.listing is not None]
     unread = [error for listing in listings for error in listing.unread]

@@ -10,6 +10,7 @@ import contextlib
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
@@ -25,8 +26,15 @@ from packwork.geometry.overlay import symmetric_difference, valid
 from packwork.geometry.polygon import polygon_parts, signed_area
 from packwork.readers.dxf.entities import CURVES, CadDrawing, CadLine
 from packwork.readers.dxf.item import ENGRAVED as ENGRAVED_LAYER
-from packwork.readers.dxf.item import cad_part, cad_parts, items_of
+from packwork.readers.dxf.item import (
+    cad_part,
+    cad_parts,
+    engraved_in,
+    items_of,
+    line_art,
+)
 from packwork.readers.dxf.rings import Ring, RingPart, rings_of
+from packwork.readers.engraving import Engraving
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES, parse_xml, serialised, unpacked
 from packwork.readers.pages import Read
@@ -60,7 +68,7 @@ ENGRAVED = "engrave"
 _PX_MM = convert(1.0, "px", "mm")
 
 
-def read_line_drawing(path: str | Path, holes: Holes) -> list[Read]:
+def read_line_drawing(path: str | Path, holes: Holes, engraving: Engraving) -> list[Read]:
     """Parts of an SVG file, in px, their true curves beside what shows them.
 
     Raises
@@ -70,7 +78,7 @@ def read_line_drawing(path: str | Path, holes: Holes) -> list[Read]:
     """
     data, name = read_bytes(path, MAX_BYTES), stem(path)
     with reading_file(str(path)), one_budget():
-        data = _with_engraved_layers(data)
+        data = _with_engraved_layers(data, engraving)
         drawing = read_drawing(data, is_on_paper=True)
         is_plain = isinstance(drawing.ink, PaintedInk) and not any(
             shape.clips for shape in drawing.shapes
@@ -78,42 +86,48 @@ def read_line_drawing(path: str | Path, holes: Holes) -> list[Read]:
         if is_plain and sum(map(_curves, drawing.shapes)) > MOST_CURVES:
             notice(f"has more than {MOST_CURVES:,} curves; what its paint covers is cut")
             is_plain = False
-        if is_plain and (lines := _lines_to_cut(drawing)) is not None:
+        engraved = [shape for shape in drawing.shapes if engraving.holds(_paint_of(shape))]
+        if is_plain and (lines := _lines_to_cut(drawing, engraved)) is not None:
             return items_of(cad_parts(lines), name, str(path), holes)
-        if is_plain and (filled := _without_lines(drawing)) is not None:
+        if engraved and not is_plain:
+            notice("what is to be engraved cannot be told apart; make curves of text, and release "
+                   "clips and masks")  # fmt: skip
+        marks = [line for shape in engraved for line in _cad_lines(shape, drawing, ENGRAVED, _UP)]
+        if is_plain and (filled := _without_lines(drawing, engraved)) is not None:
             drawing = read_drawing(filled, is_on_paper=True)
             data = filled
     item = item_of_svg(data, name, str(path), holes, is_compared=True)
     if is_plain and isinstance(item.art, VectorArt) and not item.art.is_traced:
         with reading_file(str(path)):
-            item = _with_true_curves(item, item.art, drawing, holes)
+            item = _with_true_curves(item, item.art, drawing, marks, holes)
     return [Read(item, str(path))]
 
 
-def _with_engraved_layers(data: bytes) -> bytes:
+def _with_engraved_layers(data: bytes, engraving: Engraving) -> bytes:
     """Document whose layers to engrave, by their names, have dashed lines, as what is scored.
 
     Names of layers do not come through the gate.
     """
     plain = unpacked(data)
     # Other encodings and references to characters might hide a name.
-    may_hide = b"\0" in plain or b"&" in plain
+    may_hide = b"\0" in plain or b"&" in plain or bool(engraving.layers)
     if not may_hide and not ENGRAVED_LAYER.search(plain.decode("utf-8", "replace")):
         return data
     root = parse_xml(plain)
     groups = [
-        one for one in root.iter() if tag_of(one) == "g" and ENGRAVED_LAYER.search(name_of(one))
-    ]
+        one for one in root.iter() if tag_of(one) == "g" and (name := name_of(one))
+        and (engraving.holds("", name) or ENGRAVED_LAYER.search(name))
+    ]  # fmt: skip
     for element in chain.from_iterable(group.iter() for group in groups):
         # A style that is important outdoes sheets and what is inherited.
         element.set("style", f"{element.get('style', '')};stroke-dasharray:1!important".lstrip(";"))
     return ET.tostring(root) if groups else data
 
 
-def _lines_to_cut(drawing: PaintedDrawing) -> CadDrawing | None:
+def _lines_to_cut(drawing: PaintedDrawing, engraved: Sequence[Painted]) -> CadDrawing | None:
     """Thin lines of a drawing, and what goes with them to be engraved; None without a thin line."""
-    extent = _extent(drawing)
-    is_line = [_is_thin(shape, extent) for shape in drawing.shapes]
+    extent, marked = _extent(drawing), set(engraved)
+    is_line = [shape not in marked and _is_thin(shape, extent) for shape in drawing.shapes]
     if not any(
         one and not shape.painting.has_fill
         for one, shape in zip(is_line, drawing.shapes, strict=True)
@@ -126,14 +140,31 @@ def _lines_to_cut(drawing: PaintedDrawing) -> CadDrawing | None:
     for shape, is_cut in zip(drawing.shapes, is_line, strict=True):
         # A dashed line is folded or scored.
         is_cut = is_cut and not shape.painting.pen.dashes
-        layer = shape.painting.stroke if is_cut else ENGRAVED
+        layer = _paint_of(shape) if is_cut else ENGRAVED
         colours[layer] += is_cut
-        kind = str(shape.element.tag)
-        found += [CadLine(line.mapped(up, 0.0), layer, kind) for line in _arc_lines(shape, extent)]
+        found += _cad_lines(shape, drawing, layer, up)
     if len(+colours) > 1:
         told = ", ".join(f"{colour} ({count})" for colour, count in colours.most_common() if count)
-        notice(f"has lines in several colours, all of which are cut: {told}")
+        notice(f"has lines in several colours, all of which are cut: {told}; name those to engrave")
     return CadDrawing(tuple(found), Counter(), 1.0, None)
+
+
+def _cad_lines(
+    shape: Painted, drawing: PaintedDrawing, layer: str, matrix: FloatArray
+) -> list[CadLine]:
+    """Lines of a shape on a layer, mapped from px."""
+    kind = str(shape.element.tag)
+    return [
+        CadLine(line.mapped(matrix, 0.0), layer, kind)
+        for line in _arc_lines(shape, _extent(drawing))
+    ]
+
+
+def _paint_of(shape: Painted) -> str:
+    """Colour of a shape's line, else of its inside."""
+    painting = shape.painting
+    paint = painting.stroke if painting.has_stroke else painting.fill
+    return painting.color if paint.lower() == "currentcolor" else paint
 
 
 def _extent(drawing: PaintedDrawing) -> float:
@@ -216,36 +247,49 @@ def _arcs_of(cubics: FloatArray, tolerance: float) -> ArcLine:
     return arcs_along(curve, np.arange(len(cubics) + 1.0), tolerance)
 
 
-def _without_lines(drawing: PaintedDrawing) -> bytes | None:
-    """The same drawing without the thin lines of filled shapes; None if there are none."""
+def _without_lines(drawing: PaintedDrawing, engraved: Sequence[Painted]) -> bytes | None:
+    """The same drawing without what is engraved and thin lines; None if there are none."""
     extent = _extent(drawing)
     lined = [shape.element for shape in drawing.shapes if _is_thin(shape, extent)]
     for element in lined:
         element.set("stroke", "none")
-    return serialised(drawing.root).encode() if lined else None
+    for shape in engraved:
+        shape.element.attrib |= {"stroke": "none", "fill": "none"}
+    return serialised(drawing.root).encode() if lined or engraved else None
 
 
-def _with_true_curves(item: Item, art: VectorArt, drawing: PaintedDrawing, holes: Holes) -> Item:
+def _with_true_curves(
+    item: Item, art: VectorArt, drawing: PaintedDrawing, marks: Sequence[CadLine], holes: Holes
+) -> Item:
     """Item whose edges are the paths that lie on them, with straight sides where none does."""
     extent, drawn = _extent(drawing), clean_union(drawing.ink.body)
     known = [
         ring for one in drawing.shapes if one.painting.has_fill for ring in _rings(one, extent)
     ]
     slack = 3.0 * FLATTENING * extent
+    rings = [
+        RingPart(_ring_at(polygon.exterior, known, slack),
+                 tuple(_ring_at(ring, known, slack) for ring in polygon.interiors))
+        for polygon in polygon_parts(drawn)
+    ]  # fmt: skip
     parts = [
-        cad_part(RingPart(outer, tuple(inner)), (), _UP, within=False)
-        for outer, *inner in (
-            [_ring_at(ring, known, slack) for ring in (polygon.exterior, *polygon.interiors)]
-            for polygon in polygon_parts(drawn)
-        )
+        cad_part(part, own, _UP, within=False)
+        for part, own in zip(rings, engraved_in(rings, marks, [], Counter()), strict=True)
     ]
     whole = valid(MultiPolygon([one for part in parts for one in polygon_parts(part.region)]))
     outline, ink, move = centred(whole, holes)
     to_px = affine.compose(affine.inverse(centred(drawn, holes)[2]), art.matrix)
-    cut = tuple(
-        line.mapped(affine.inverse(to_px), CURVES_PX) for part in parts for line in part.cut
+    back = affine.inverse(to_px)
+    cut, engraved = (
+        tuple(line.mapped(back, CURVES_PX) for part in parts for line in getattr(part, name))
+        for name in ("cut", "engraved")
     )
     lines = LineArt(art.markup, affine.compose(move, to_px), cut=cut)
+    if engraved:
+        region = shapely.transform(drawn, lambda points: affine.apply(back, points))
+        pixel = float(np.linalg.norm(back[:, :2], 2))
+        shown = line_art(cut, engraved, pixel * extent, region, pixel)
+        lines = replace(shown, matrix=lines.matrix)
     return Item(item.name, item.source, outline, ink, lines)
 
 

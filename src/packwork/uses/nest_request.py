@@ -15,6 +15,7 @@ import numpy as np
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
+from packwork.readers.engraving import Engraving
 from packwork.readers.files import exists
 from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
@@ -129,7 +130,7 @@ def _is_nest(source: str) -> bool:
 
 def read_request(
     sheet: str, named: Sequence[str], optional: Sequence[str], rotate: str, *, mirror: bool,
-    holes: Holes,
+    holes: Holes, engraving: Engraving,
 ) -> tuple[list[Sheet], list[SheetPart]]:  # fmt: skip
     """Sheets and parts, as a command line names them; an instance holds its parts.
 
@@ -155,15 +156,17 @@ def read_request(
         part
         for k, text in enumerate([*named, *optional])
         for part in read_parts(
-            text, sheets[0].unit, rotate, mirror=mirror, holes=holes, optional=k >= len(named)
+            text, sheets[0].unit, rotate, mirror=mirror, holes=holes, engraving=engraving,
+            optional=k >= len(named),
         )
-    ]
+    ]  # fmt: skip
+    engraving.check_met()
     return sheets, parts
 
 
 def read_parts(
     text: str, unit: Unit, rotate: str, *, mirror: bool = False, holes: Holes = "keep",
-    optional: bool = False,
+    engraving: Engraving | None = None, optional: bool = False,
 ) -> Iterator[SheetPart]:  # fmt: skip
     """Parts of a file, a folder or a cut list, as ``bracket.dxf*12``, on sheets of a unit.
 
@@ -175,15 +178,19 @@ def read_parts(
         Whether parts may be turned over.
     holes
         Whether the holes of parts stay free for others.
+    engraving
+        What of them is engraved.
     optional
         Whether they only fill what is left.
     """
     usual = {"rotate": rotate, "mirror": "yes" if mirror else "no",
              "optional": "yes" if optional else "no"}  # fmt: skip
-    return _parts(text, usual, holes, convert(1.0, "px", unit))
+    return _parts(text, usual, holes, engraving or Engraving(), convert(1.0, "px", unit))
 
 
-def _parts(text: str, usual: Mapping[str, str], holes: Holes, scale: float) -> Iterator[SheetPart]:
+def _parts(
+    text: str, usual: Mapping[str, str], holes: Holes, engraving: Engraving, scale: float
+) -> Iterator[SheetPart]:
     """Parts of a file, a folder or a cut list; rules that none of its rows has are the usual."""
     source, times = _counted(text)
     rows: Iterable[CutListRow] = [CutListRow(file=source)]
@@ -196,7 +203,7 @@ def _parts(text: str, usual: Mapping[str, str], holes: Holes, scale: float) -> I
             mirrors, is_optional = (_is_yes(name, rules[name]) for name in ("mirror", "optional"))
         except RecipeError as error:
             raise ReadError(source, f"{row.where}: {error}") if row.where else error from None
-        items = read_items(row.file, holes=holes, by_lines=True).items
+        items = read_items(row.file, holes=holes, engraving=engraving).items
         sets = _sets(source, rules.get("together", ""), 1 if times is None else times)
         for k, item in enumerate(items, start=1):
             name = f"{row.name} {k}" if len(items) > 1 else row.name

@@ -24,6 +24,7 @@ from packwork.readers.builtin import (
     icon_names,
 )
 from packwork.readers.container import read_container
+from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
 from packwork.readers.tables.table import read_table
@@ -118,7 +119,9 @@ def _container(name: str) -> dict[str, Any]:
 
 def items_of(sources: Sequence[str], *, has_parts: bool = False) -> ItemsRead:
     """Items of bundled names and of folders of files; of a nest they are drawings for a machine."""
-    return read_items(sources, holes="keep" if has_parts else "fill", by_lines=has_parts)
+    if has_parts:
+        return read_items(sources, holes="keep", engraving=Engraving())
+    return read_items(sources)
 
 
 MOST_SHOWN = 4

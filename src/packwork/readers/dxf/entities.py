@@ -67,11 +67,15 @@ _DWG = re.compile(rb"AC10\d\d")
 
 @dataclass(frozen=True, eq=False)
 class CadLine:
-    """A line of a drawing, in its units, y up; ``kind`` is the entity that it was."""
+    """A line of a drawing, in its units, y up.
+
+    ``kind`` is the entity that it was; ``colour`` is empty where it is not told or its block's.
+    """
 
     line: ArcLine
     layer: str
     kind: str
+    colour: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,6 +201,20 @@ class _BlockReader:
                 style = str(held.dxf.get("linetype", ""))
         return not _HIDDEN.match(style)
 
+    def _colour(self, entity: Any, layer: str) -> str:
+        """Colour as ``#rrggbb``; empty if it is that of the block, or of layer 0."""
+        from ezdxf.colors import BYBLOCK, BYLAYER, RGB, aci2rgb
+
+        layers = self.document.layers
+        for one in (entity, *([layers.get(layer)] if layer in layers and layer != "0" else [])):
+            number = abs(int(one.dxf.get("color", BYLAYER)))
+            if one.rgb is not None or number == BYBLOCK:
+                return "" if one.rgb is None else RGB(*one.rgb).to_hex()
+            if number < BYLAYER:
+                # Number 7 stands out from the ground.
+                return (RGB(0, 0, 0) if number == 7 else aci2rgb(number)).to_hex()
+        return ""
+
     def _of_entity(self, entity: Any, kind: str, layer: str) -> Iterator[CadLine]:
         if kind == "INSERT":
             yield from self._inserted(entity, layer)
@@ -206,7 +224,7 @@ class _BlockReader:
         if line is None or plane is None:
             self.left_out[kind if line is None else f"{kind} out of the sheet's plane"] += 1
             return
-        yield CadLine(line.mapped(plane, math.inf), layer, kind)
+        yield CadLine(line.mapped(plane, math.inf), layer, kind, self._colour(entity, layer))
 
     def _inserted(self, insert: Any, layer: str) -> Iterator[CadLine]:
         name = str(insert.dxf.name)
@@ -224,7 +242,8 @@ class _BlockReader:
             for piece in own:
                 line = piece.line.mapped(matrix, _tolerance(piece.line, matrix))
                 shown = layer if piece.layer == "0" else piece.layer
-                yield replace(piece, line=line, layer=shown)
+                colour = piece.colour or self._colour(insert, shown)
+                yield replace(piece, line=line, layer=shown, colour=colour)
 
     def _block(self, name: str) -> list[CadLine]:
         """Lines of a block in its own units, read once."""

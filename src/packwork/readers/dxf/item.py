@@ -32,6 +32,7 @@ from packwork.readers.dxf.entities import (
     read_drawing,
 )
 from packwork.readers.dxf.rings import RingPart, nested, place, rings_of, size_of
+from packwork.readers.engraving import Engraving
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
@@ -69,7 +70,9 @@ _DIGITS = 1e-8
 """Last digit of a path's coordinates, as a share of the part's size."""
 
 
-def read_dxf(path: str | Path, holes: Holes = "fill") -> list[Read]:
+def read_dxf(
+    path: str | Path, holes: Holes = "fill", engraving: Engraving | None = None
+) -> list[Read]:
     """Items of a DXF file, in px of its unit's true size; holes are those of a part's outline.
 
     Raises
@@ -78,7 +81,7 @@ def read_dxf(path: str | Path, holes: Holes = "fill") -> list[Read]:
         If it cannot be read, or an outline is open, crosses itself or another one.
     """
     with reading_file(str(path)), one_budget():
-        parts = cad_parts(read_drawing(read_bytes(path, MAX_DXF_BYTES)))
+        parts = cad_parts(read_drawing(read_bytes(path, MAX_DXF_BYTES)), engraving)
         return items_of(parts, stem(path), str(path), holes)
 
 
@@ -117,16 +120,20 @@ def container_of_dxf(data: bytes, name: str, source: str, side: float | None = N
     return replace(placed, unit="mm") if side is None else placed
 
 
-def cad_parts(drawing: CadDrawing, *, within: bool = False) -> list[CadPart]:
+def cad_parts(
+    drawing: CadDrawing, engraving: Engraving | None = None, *, within: bool = False
+) -> list[CadPart]:
     """Parts of a drawing, in the order of their outlines there.
 
     Their regions lie around what the lines enclose, or ``within`` it.
     """
     px = _px_of(drawing)
-    left_out = Counter(drawing.left_out)
+    left_out, engraving = Counter(drawing.left_out), engraving or Engraving()
     cut, engraved = list[CadLine](), list[CadLine]()
     for piece in drawing.pieces:
-        if IGNORED.search(piece.layer) or piece.layer.casefold() in OURS:
+        if engraving.holds(piece.colour, piece.layer):
+            engraved.append(piece)
+        elif IGNORED.search(piece.layer) or piece.layer.casefold() in OURS:
             left_out[f"on layer {piece.layer[:40]!r}"] += 1
         else:
             (engraved if ENGRAVED.search(piece.layer) else cut).append(piece)
@@ -136,7 +143,7 @@ def cad_parts(drawing: CadDrawing, *, within: bool = False) -> list[CadPart]:
         raise UnfitError(_why_none(cut, loose, engraved, left_out))
     if len(parts) > MOST_ITEMS:
         raise UnfitError(f"holds {len(parts):,} parts, {MOST_ITEMS:,} are the most")
-    marked = _engraved(parts, engraved, loose, left_out)
+    marked = engraved_in(parts, engraved, loose, left_out)
     if doubled:
         notice(f"{number_of(doubled, 'outline')} that lay on another was taken once")
     if left_out:
@@ -194,7 +201,7 @@ def _open_at(loose: Sequence[CadLine], piece: CadLine) -> str:
     )
 
 
-def _engraved(
+def engraved_in(
     parts: Sequence[RingPart],
     engraved: Sequence[CadLine],
     loose: Sequence[CadLine],
