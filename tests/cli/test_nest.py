@@ -95,6 +95,9 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest 300mm", "there is nothing to nest"),
         ("nest wide bracket.svg", "wide: "),
         ("nest squares.json bracket.svg", "an instance holds its parts"),
+        ("nest squares.json --mirror", "--mirror: an instance says how its parts lie"),
+        ("nest squares.json --rotate 0,180", "--rotate: an instance says how its parts lie"),
+        ("nest squares.json --engrave red", "--engrave: an instance says how its parts lie"),
         ("nest none.json", "no such file"),
         ("nest 300mm bracket.svg*0", "there is nothing to nest"),
         ("nest square bracket.svg*2001", "2,001 parts are more than 2,000"),
@@ -338,3 +341,25 @@ def test_a_tool_is_a_distance_of_parts(folder: Path, packwork: Command) -> None:
     assert result.exit_code == 2
     assert "with the distance that it keeps" in result.output
     assert packwork("nest 300x200mm builtin:star --tool wide --passes 3").exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (
+            "nest 400mm plain.svg bracket.svg",
+            "no unit is stated in plain.svg, and the sheet is in mm",
+        ),
+        ("nest 400 plain.svg bracket.svg", "the sheet is in px, and bracket.svg in real units"),
+        ("nest 400 plain.svg", ""),
+        ("nest 400mm bracket.svg", ""),
+    ],
+)
+def test_a_unit_that_is_taken_is_told(shop: Path, packwork: Command, line: str, said: str) -> None:
+    plain = BRACKET.replace('width="80mm" height="50mm" ', "")
+    (shop / "plain.svg").write_text(plain, encoding="utf-8")
+    result = packwork(f"{line} --passes 2")
+    assert result.exit_code == 0
+    told = " ".join(result.output.split())
+    assert ("a px is taken for 1/96 inch" in told) is bool(said)
+    assert said in told

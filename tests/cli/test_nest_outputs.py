@@ -107,6 +107,12 @@ def test_each_sheet_is_a_session_too(shop: Path, packwork: Command) -> None:
     assert [one.stem for one in sessions] == [one.stem for one in sorted(shop.glob("a*.dxf"))]
     assert sum(len(pw.Layout.load(one).items) for one in sessions) == 9
     assert packwork(f"measure {sessions[0].name}").exit_code == 0
+    held = pw.Layout.load(sessions[0])
+    line = f"nest {sessions[0].name},200x60mm hook.svg*2 --kerf 2mm --passes 40 -o c.packwork"
+    assert packwork(line).exit_code == 0
+    again = pw.Layout.load(next(iter(sorted(shop.glob("c*.packwork")))))
+    for old, new in zip(held.outlines, again.outlines, strict=False):
+        assert old.region.symmetric_difference(new.region).area < 1e-9
     line = "nest 100x60mm hook.svg --passes 5 -o b.packwork --no-clobber"
     assert [packwork(line).exit_code for _ in range(2)] == [0, 2]
 

@@ -26,6 +26,7 @@ from packwork.units import Unit
 from packwork.uses import nested, nesting
 from packwork.uses.nest_request import (
     angles_of,
+    check_told,
     length_of,
     read_parts,
     read_request,
@@ -180,7 +181,7 @@ def nest(
             for made in _parts(part, count, sheets[0].unit, rotate=rotate, mirror=mirror,
                                holes=holes, engraving=engraving, optional=is_optional)
         ]  # fmt: skip
-        engraving.check_met()
+        check_told(sheets, laid, engraving)
     gap = _length("kerf", kerf, sheets[0])
     away = None if margin is None else _length("margin", margin, sheets[0])
     bit = _length("tool", tool, sheets[0])

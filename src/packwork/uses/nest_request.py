@@ -16,16 +16,21 @@ from packwork.errors import ReadError, RecipeError
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
 from packwork.readers.engraving import Engraving
-from packwork.readers.files import exists
+from packwork.readers.files import exists, read_bytes
+from packwork.readers.gate.door import MAX_BYTES, parse_xml, unpacked
 from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
-from packwork.readers.layouts.read import holds_layout, read_written
+from packwork.readers.layouts.read import SESSION, holds_layout, read_written
+from packwork.readers.svg.container import stated_unit
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item, VectorArt
 from packwork.units import Unit, canvas_size, convert, parse_length
 from packwork.uses.nested import Sheet, SheetPart
 
 _LOG = logging.getLogger("packwork")
+
+ROTATE = "0,90,180,270"
+"""Allowed angles where none are said."""
 
 SQUARE = "square"
 """Name of a sheet that is the smallest square."""
@@ -91,10 +96,12 @@ def read_sheets(text: str) -> list[Sheet]:
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
             layout = read_written(source)
-            if Path(source).suffix.lower() != ".dxf" and any(map(_has_lines_to_lose, layout.items)):
+            if Path(source).suffix.lower() not in {".dxf", SESSION} and any(
+                map(_has_lines_to_lose, layout.items)
+            ):
                 _LOG.warning(
                     "%s: its parts go into a DXF as outlines, without arcs and engraved lines; "
-                    "give that sheet's DXF to keep them", source,
+                    "give that sheet's DXF or session to keep them", source,
                 )  # fmt: skip
             ground = layout.container
             found.append(
@@ -125,7 +132,7 @@ def read_sheets(text: str) -> list[Sheet]:
 def _is_nest(source: str) -> bool:
     """Whether a file holds a layout of ours, on whose sheet more parts can be laid."""
     ending = Path(source).suffix.lower()
-    return ending == ".geojson" or (ending in {".svg", ".dxf"} and holds_layout(source))
+    return ending in {".geojson", SESSION} or (ending in {".svg", ".dxf"} and holds_layout(source))
 
 
 def read_request(
@@ -142,6 +149,11 @@ def read_request(
     if is_instance(sheet):
         if named or optional:
             raise RecipeError("items", "an instance holds its parts; name none besides")
+        asked = {"rotate": rotate != ROTATE, "mirror": mirror, "holes": holes != "keep",
+                 "engrave": engraving.asked}  # fmt: skip
+        for name, is_asked in asked.items():
+            if is_asked:
+                raise RecipeError(name, "an instance says how its parts lie; leave that out")
         instance = read_instance(sheet)
         parts = [
             SheetPart(item=one.item, count=one.count,
@@ -160,8 +172,37 @@ def read_request(
             optional=k >= len(named),
         )
     ]  # fmt: skip
-    engraving.check_met()
+    check_told(sheets, parts, engraving)
     return sheets, parts
+
+
+def check_told(sheets: Sequence[Sheet], parts: Sequence[SheetPart], engraving: Engraving) -> None:
+    """Tell of files and a sheet of which one alone states a unit.
+
+    Raises ``RecipeError`` for what is to be engraved that no part has.
+    """
+    engraving.check_met()
+    in_px = sheets[0].unit == "px"
+    files = dict.fromkeys(part.item.source for part in parts)
+    odd = [file for file in files if _states_unit(file) is in_px]
+    if odd:
+        named = ", ".join(odd[:4]) + (f" and {len(odd) - 4} others" if len(odd) > 4 else "")
+        what = (
+            f"the sheet is in px, and {named} in real units; give it one, as 600x400mm"
+            if in_px
+            else (f"no unit is stated in {named}, and the sheet is in {sheets[0].unit}")
+        )
+        _LOG.warning("%s; a px is taken for 1/96 inch", what)
+
+
+def _states_unit(file: str) -> bool | None:
+    """Whether a drawing says how large it is; None of what is no file of one."""
+    ending = Path(file).suffix.lower()
+    if ending not in {".svg", ".svgz", ".dxf"} or not exists(file):
+        return None
+    # That a DXF states none is told where it is read.
+    is_svg = ending != ".dxf"
+    return not is_svg or stated_unit(parse_xml(unpacked(read_bytes(file, MAX_BYTES)))) is not None
 
 
 def read_parts(
