@@ -90,7 +90,9 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
         )
         results["advice"] += on_trust_in(drawn, run.layout) if run.certified else []
-        results["painted"] = None if was_cut_short else painting(run, drawn, results["advice"])
+        results["painted"] = (
+            None if was_cut_short else painting(run, drawn, outputs, results["advice"])
+        )
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         with saving(outputs.with_drawing(run.layout), outputs.files) as sessions:
@@ -303,11 +305,11 @@ def certify_files(
 
 
 def painting(
-    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], advice: list[str]
+    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], outputs: Outputs, advice: list[str]
 ) -> dict[str, int] | None:
     """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
     data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
-    if data is None or len(data) > verify.PAINTED_BYTES or writers.PREVIEW.encode() in data:
+    if data is None or len(data) > verify.PAINTED_BYTES or outputs.options.svg.tiles > 1:
         return None
     painted = verify.painted_pixels(data, run.layout, is_own=True)
     if run.certified and (painted.outside or painted.double):

@@ -53,7 +53,7 @@ def faults_in_file(
     ()
     """
     ending = Path(path).suffix.lower()
-    is_preview = options is not None and options.svg.repeats > 1
+    is_preview = options is not None and options.svg.tiles > 1
     if Promise.of(layout.manifest) is None or ending not in {*ENDINGS, ".pdf"} or is_preview:
         return ()
     if ending != ".pdf":

@@ -34,11 +34,10 @@ if TYPE_CHECKING:
         write,
         write_options,
     )
-    from packwork.writers.svg import PREVIEW, SvgOptions, svg_text
+    from packwork.writers.svg import SvgOptions, svg_text
 
 __all__ = [
     "FILMS",
-    "PREVIEW",
     "WRITERS",
     "Film",
     "SvgOptions",
@@ -79,7 +78,7 @@ _HOMES = {
         "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded",
         "pdf_drawing", "write", "write_options",
     ),
-    "svg": ("PREVIEW", "SvgOptions", "svg_text"),
+    "svg": ("SvgOptions", "svg_text"),
 }  # fmt: skip
 
 

@@ -44,7 +44,7 @@ def png_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = 
     b'PNG'
     """
     options, container = options or ON_WHITE, layout.container
-    if options.repeats > 1 and container.lattice is not None:
+    if options.tiles > 1 and container.lattice is not None:
         return _laid_out(layout, longer_side_px, options)
     sheet = sheet_of(picture_frame(container, longer_side_px), container)
     try:
@@ -58,9 +58,9 @@ def _laid_out(layout: Layout, longer_side_px: int, options: SvgOptions) -> bytes
     """Pixels of one tile, side by side: no renderer's pattern comes between them."""
     from PIL import Image
 
-    side = max(longer_side_px // options.repeats, 1)
-    one = _drawn(layout, side, replace(options, repeats=1))
-    times = options.repeats, options.repeats, 1
+    side = max(longer_side_px // options.tiles, 1)
+    one = _drawn(layout, side, replace(options, tiles=1))
+    times = options.tiles, options.tiles, 1
     whole = Image.fromarray(np.tile(np.asarray(one), times))
     png = encoded_picture(whole, "PNG")
     return _with_density(png, dots_per_inch(layout.container, side))

@@ -68,7 +68,7 @@ def pdf_bytes(
     import pikepdf
 
     options, printing = options or SvgOptions(), printing or PrintOptions()
-    container, times = layout.container, options.repeats
+    container, times = layout.container, options.tiles
     whole = replace(container, width=times * container.width, height=times * container.height)
     sheet = print_sheet(whole, printing.bleed, printing.marks)
     cut = options.cut

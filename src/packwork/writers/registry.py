@@ -234,14 +234,14 @@ def write_options(**options: Any) -> WriteOptions:
     asked = DrawingOptions.model_validate(options)
     background, kiss = asked.background, asked.kiss_cut
     colour = None if background in {None, "none", "transparent"} else background
-    png = replace(ON_WHITE, show_container=asked.show_container, repeats=asked.tiles)
+    png = replace(ON_WHITE, show_container=asked.show_container, tiles=asked.tiles)
     return WriteOptions(
         svg=SvgOptions(
             background=colour,
             show_container=asked.show_container,
             flatten=asked.flatten,
             text=asked.text,
-            repeats=asked.tiles,
+            tiles=asked.tiles,
             cut=CutOptions(line=asked.cut, kiss=None if kiss is None else str(kiss)),
         ),
         png=png if background is None else replace(png, background=colour),

@@ -50,9 +50,6 @@ _STEP_SHARE = PRECISION / 4
 rounding of its path, scale, turn and place: half a step each, in two directions for the
 path and the place, 2.4 half steps in all. Derived."""
 
-PREVIEW = '<defs><pattern id="tile"'
-"""Begin of the pattern in SVGs of tiles side by side, whose items are not at its top."""
-
 NAME_LENGTH = 80
 """Characters of a name that are kept: it is repeated on every copy. Chosen."""
 
@@ -75,7 +72,7 @@ class SvgOptions:
     the container's line, whose path is in the file either way. ``flatten`` writes every copy in
     full, for tools that do not know ``use``. ``text`` is ``live`` for words that can be selected
     and found, in fonts that the file carries, ``outlines`` for curves. Lines for a cutter (``cut``)
-    lie on top of all. Tiles are drawn ``repeats`` times each way.
+    lie on top of all. Tiles are drawn ``tiles`` times each way.
     """
 
     background: str | None = None
@@ -83,7 +80,7 @@ class SvgOptions:
     flatten: bool = False
     text: TextChoice = "outlines"
     cut: CutOptions | None = None
-    repeats: int = 1
+    tiles: int = 1
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -99,10 +96,10 @@ class SheetSize:
     view: tuple[float, float]
     is_stretched: bool = False
 
-    def times(self, repeats: int) -> SheetSize:
+    def times(self, tiles: int) -> SheetSize:
         """Sheet of so many each way."""
         (width, height), (across, down) = self.size, self.view
-        size, view = (width * repeats, height * repeats), (across * repeats, down * repeats)
+        size, view = (width * tiles, height * tiles), (across * tiles, down * tiles)
         return replace(self, size=size, view=view)
 
 
@@ -151,10 +148,10 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
     digits = decimals(layout.container.side * _STEP_SHARE)
     live = LiveWords(layout.items if options.text == "live" else ())
     shapes = _shapes(layout)
-    before, after = _repeated(layout.container, sheet, options.repeats)
+    before, after = _repeated(layout.container, sheet, options.tiles)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        _root(sheet.times(options.repeats)),
+        _root(sheet.times(options.tiles)),
         f"<title>{xml_text(layout.container.name[:NAME_LENGTH])}</title>",
         *live.style(),
         *([] if options.flatten else _definitions(shapes.values(), live)),
@@ -228,9 +225,9 @@ def _root(sheet: SheetSize) -> str:
     )
 
 
-def _repeated(container: Container, sheet: SheetSize, repeats: int) -> tuple[list[str], list[str]]:
+def _repeated(container: Container, sheet: SheetSize, tiles: int) -> tuple[list[str], list[str]]:
     """Pattern about a drawing, and a rectangle filled with it; nothing if it stands once."""
-    if repeats == 1:
+    if tiles == 1:
         return [], []
     if container.lattice is None:
         raise RecipeError("tiles", "draws them side by side; this is none, see --tile")
@@ -238,7 +235,7 @@ def _repeated(container: Container, sheet: SheetSize, repeats: int) -> tuple[lis
     box = f'width="{width}" height="{height}" patternUnits="userSpaceOnUse"'
     whole = attributes({"width": "100%", "height": "100%", "fill": "url(#tile)"})
     return (
-        [f"{PREVIEW} {box}>"],
+        [f'<defs><pattern id="tile" {box}>'],
         ["</pattern></defs>", f"<rect{whole}/>"],
     )
 
