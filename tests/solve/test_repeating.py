@@ -81,8 +81,22 @@ def test_a_tile_whose_items_stay_within_is_as_any_canvas() -> None:
 def test_sums_over_translates_and_laying_out_are_transposes(drop: float) -> None:
     torus = Torus(Lattice(6.0, 8.0, drop), 1.0, 5)
     rng = np.random.default_rng(0)
-    x, y = rng.random((2, *torus.pixels.shape))
+    x, y = rng.random((2, *torus.shape))
     cell = np.zeros_like(y)
     cell[5:13, 5:11] = y[5:13, 5:11]
     # What a sum over translates reads in the cell is what laying the cell out gives each pixel.
     assert np.vdot(torus.summed(x), cell) == pytest.approx(np.vdot(x, torus.repeated(y)))
+
+
+@pytest.mark.parametrize("margin", [0, 3, 17])
+@pytest.mark.parametrize("drop", [0.0, 4.0, 7.0])
+def test_an_image_repeats_and_sums_as_each_pixel_by_itself(drop: float, margin: int) -> None:
+    torus = Torus(Lattice(6.0, 8.0, drop), 1.0, margin)
+    rows, columns = np.indices(torus.shape) - margin
+    across, x = np.divmod(columns, 6)
+    pixels = np.remainder(rows - across * int(drop), 8) * 6 + x
+    image = np.random.default_rng(margin).random(torus.shape).astype(np.float32)
+    sums = np.bincount(pixels.reshape(-1), image.reshape(-1), 48)
+    np.testing.assert_array_equal(torus.summed(image), sums.astype(np.float32)[pixels])
+    cell = image[margin : margin + 8, margin : margin + 6]
+    np.testing.assert_array_equal(torus.repeated(image), cell.reshape(-1)[pixels])

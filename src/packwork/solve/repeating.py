@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from packwork.arrays import FloatArray, Image, IntArray
+from packwork.arrays import FloatArray, Image
 from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline
 from packwork.losses.image import FUSED
@@ -32,12 +32,15 @@ ROOM = 1.3
 of smaller ones items that grow leave the image. Chosen."""
 
 
+_Part: TypeAlias = tuple[slice, slice]
+
+
 class Torus:
-    """Pixels of a cell, and of an image with a margin about it in which they repeat.
+    """An image with a margin about a cell, in blocks each of which is a part of the cell.
 
     >>> torus = Torus(Lattice(2.0, 1.0), 1.0, 1)
-    >>> torus.pixels.tolist()
-    [[1, 0, 1, 0], [1, 0, 1, 0], [1, 0, 1, 0]]
+    >>> torus.repeated(np.arange(12.0).reshape(3, 4)).tolist()
+    [[6.0, 5.0, 6.0, 5.0], [6.0, 5.0, 6.0, 5.0], [6.0, 5.0, 6.0, 5.0]]
     >>> torus.summed(np.ones((3, 4))).tolist()
     [[6.0, 6.0, 6.0, 6.0], [6.0, 6.0, 6.0, 6.0], [6.0, 6.0, 6.0, 6.0]]
     """
@@ -45,22 +48,45 @@ class Torus:
     def __init__(self, lattice: Lattice, px_per_cu: float, margin: int) -> None:
         rows, columns = (max(round(v * px_per_cu), 1) for v in (lattice.height, lattice.width))
         self.margin, self.cell = margin, (rows, columns)
-        column, x = np.divmod(np.arange(-margin, columns + margin), columns)
-        y = np.arange(-margin, rows + margin)[:, None] - column * round(lattice.drop * px_per_cu)
-        self.pixels: IntArray = np.remainder(y, rows) * columns + x
-        """Pixel of the cell, counted row by row, that each of the image is."""
+        self.shape = (rows + 2 * margin, columns + 2 * margin)
+        drop = round(lattice.drop * px_per_cu)
+        beside = range(-margin // columns, (columns + margin - 1) // columns + 1)
+        tops = sorted(
+            (i * rows + j * drop, j)
+            for j in beside
+            for i in range((-margin - j * drop) // rows, (rows + margin - 1 - j * drop) // rows + 1)
+        )
+        # From the top and the left, so that a pixel's sum is that of its images in reading order.
+        self._blocks = [self._block(top, j * columns) for top, j in tops]
+
+    def _block(self, top: int, left: int) -> tuple[_Part, _Part]:
+        """Of a cell at that place the part of the image that it is, and the part of the cell."""
+        places, parts = [], []
+        for begin, side in zip((top, left), self.cell, strict=True):
+            first = max(begin, -self.margin)
+            last = min(begin, self.margin) + side
+            places.append(slice(first + self.margin, last + self.margin))
+            parts.append(slice(first - begin, last - begin))
+        return (places[0], places[1]), (parts[0], parts[1])
+
+    def _laid_out(self, cell: Image, dtype: np.dtype[Any]) -> Image:
+        image = np.empty(self.shape, dtype)
+        for place, part in self._blocks:
+            image[place] = cell[part]
+        return image
 
     def repeated(self, image: Image) -> Image:
         """The cell of an image, with what repeats of it about it."""
         rows, columns = self.cell
         inner = image[self.margin : self.margin + rows, self.margin : self.margin + columns]
-        return np.asarray(inner.reshape(-1)[self.pixels])
+        return self._laid_out(inner, image.dtype)
 
     def summed(self, image: Image) -> Image:
         """Sum of an image and all its translates: the transpose of :meth:`repeated`, laid out."""
-        rows, columns = self.cell
-        sums = np.bincount(self.pixels.reshape(-1), image.reshape(-1), rows * columns)
-        return np.asarray(sums.astype(image.dtype)[self.pixels])
+        sums = np.zeros(self.cell)
+        for place, part in self._blocks:
+            sums[part] += image[place]
+        return self._laid_out(sums, image.dtype)
 
 
 @final
@@ -85,7 +111,7 @@ class RepeatingLevel(Level):
         px_per_cu = resolution / container.side
         self._lattice = lattice
         self._torus = torus = Torus(lattice, px_per_cu, int(ROOM * largest * px_per_cu) + 2)
-        everywhere = np.ones(torus.pixels.shape, np.float32)
+        everywhere = np.ones(torus.shape, np.float32)
         super().__init__(
             container, outlines, resolution, losses, nominal, limits,
             free_space=FreeSpace(everywhere, Recall(everywhere, px_per_cu)),
