@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -24,31 +25,29 @@ settings.register_profile("explore", _PATIENT, max_examples=2_000)
 settings.load_profile("check")
 
 
-@pytest.fixture(autouse=True)
-def _no_lines_of_slow_machines(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Lines of progress come with time; what a test sees may not."""
-    monkeypatch.setattr(bar, "SECONDS_BETWEEN_LINES", float("inf"))
-
-
-@pytest.fixture(autouse=True)
-def _no_notice_of_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Which test compiles the first kernel, and logs that, is chance."""
-    monkeypatch.setattr(compiled.listeners, "_tell_once", lambda: None)
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One more than there are processors, for many tests wait: for a browser, for processes."""
+    return (os.cpu_count() or 1) + 1
 
 
 class _OfThisSession(dict[str, bytes]):
-    """What these tests read: what other runs left on this machine decides nothing."""
+    """What these tests read."""
 
     put = dict.__setitem__
 
 
-_DRAWINGS, _GLYPHS = _OfThisSession(), _OfThisSession()
-
-
-@pytest.fixture(autouse=True)
-def _no_drawings_of_other_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache, "DRAWINGS", _DRAWINGS)
-    monkeypatch.setattr(cache, "GLYPHS", _GLYPHS)
+@pytest.fixture(scope="session", autouse=True)
+def _nothing_by_chance() -> Iterator[None]:
+    """What a test sees is not decided by time, by the order of tests or by other runs."""
+    with pytest.MonkeyPatch.context() as patch:
+        # Lines of progress come with time.
+        patch.setattr(bar, "SECONDS_BETWEEN_LINES", float("inf"))
+        # Which test compiles the first kernel, and logs that, is chance.
+        patch.setattr(compiled.listeners, "_tell_once", lambda: None)
+        patch.setattr(cache, "DRAWINGS", _OfThisSession())
+        patch.setattr(cache, "GLYPHS", _OfThisSession())
+        yield
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from benchmarks.robustness.hostile.stops import stop_at_random
 from benchmarks.robustness.hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
 from packwork.errors import ReadError
 
-INPUTS = 300
+INPUTS = 200
 LINES = 8
 DEMANDS = {"fonts": (4, 3), "parquet": (9, 39), "nested": (4, 3), "encodings": (4, 3),
            "drawings": (6, 0)}  # fmt: skip

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ NAMES = ["bear", "fox", "owl", "snail", "ant", "tiger", "panther", "crow", "elk"
 WEIGHTS = {f"{name}{end}": 1 / (k + 2) for k, name in enumerate(NAMES) for end in ("", "s", "y")}
 
 
+@cache
 def cloud(container: str, seed: int) -> pw.Layout:
     return pw.words(container, WEIGHTS, sizes="shared", padding=0, seed=seed, effort="draft")
 

@@ -339,7 +339,7 @@ JUNK = st.one_of(
 )  # fmt: skip
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(data=st.data())
 def test_values_of_any_kind_are_refused_in_one_line(good: bytes, data: st.DataObject) -> None:
     parts = dict(unpacked(good))

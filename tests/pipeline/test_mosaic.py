@@ -288,9 +288,6 @@ def test_a_drawing_may_be_the_picture(halves: str, ending: str, tmp_path: Path) 
     square = builtin_container("square")
     drawn, painted = (read_target(path, square).light for path in (file, halves))
     assert np.abs(drawn - painted).max(axis=2).mean() < 0.01
-    layout = pw.fill("square", ["star", "owl"], count=24, picture=str(file), **QUICK)
-    left, right = _sides(layout)
-    assert left.min() > 0 > right.max()
 
 
 def test_a_page_of_a_drawing_is_shown_if_it_is_to_stay(tmp_path: Path) -> None:
@@ -332,9 +329,10 @@ def _told(picture: str, count: int, seed: int) -> str:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_too_few_items_for_a_picture_are_told_of(checks: str, seed: int) -> None:
-    assert "the picture shows to" in _told(checks, 12, seed)
-    assert "would show it" in _told(checks, 12, seed)
-    assert "the picture shows to" not in _told(checks, 500, seed)
+    told = _told(checks, 12, seed)
+    assert "the picture shows to" in told
+    assert "would show it" in told
+    assert "the picture shows to" not in _told(checks, 300, seed)
 
 
 def test_shuffled_items_are_like_no_picture(checks: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 
@@ -25,11 +26,12 @@ from packwork.writers.bitmaps import png_bytes
 KINDS = ["square", "half-drop", "hexagon"]
 
 
+ITEMS = ["star", "heart", "bolt"]
+
+
+@cache
 def drafted(kind: str, count: int = 9, seed: int = 0, **options: object) -> Layout:
-    return pw.fill(
-        "page", ["star", "heart", "bolt"], tile=kind, count=count, seed=seed, effort="draft",
-        **options,
-    )  # fmt: skip
+    return pw.fill("page", ITEMS, tile=kind, count=count, seed=seed, effort="draft", **options)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -59,6 +61,15 @@ def test_files_of_a_tile_are_read_back_as_one(kind: str, tmp_path: Path) -> None
         assert seen.coverage == pytest.approx(measure(layout).exact.coverage, abs=1e-4)
 
 
+@pytest.fixture(scope="module")
+def text_of_a_tile(tmp_path_factory: pytest.TempPathFactory) -> str:
+    layout = pw.fill("page", ["star", "owl"], tile="square", count=8, effort="draft", seed=1)
+    path = tmp_path_factory.mktemp("tile") / "a.svg"
+    layout.save(path)
+    assert pw.Layout.load(path).certified
+    return path.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("found", "put"),
     [
@@ -70,14 +81,12 @@ def test_files_of_a_tile_are_read_back_as_one(kind: str, tmp_path: Path) -> None
     ],
     ids=["one is gone", "all are gone", "hidden", "moved", "one is there twice"],
 )
-def test_images_that_were_changed_by_hand_are_told(found: str, put: str, tmp_path: Path) -> None:
-    layout = pw.fill("page", ["star", "owl"], tile="square", count=8, effort="draft", seed=1)
-    text = layout.to_svg()
-    changed = re.sub(found, put, text, count=1, flags=re.DOTALL)
-    assert changed != text
-    (tmp_path / "a.svg").write_text(text, encoding="utf-8")
+def test_images_that_were_changed_by_hand_are_told(
+    found: str, put: str, text_of_a_tile: str, tmp_path: Path
+) -> None:
+    changed = re.sub(found, put, text_of_a_tile, count=1, flags=re.DOTALL)
+    assert changed != text_of_a_tile
     (tmp_path / "b.svg").write_text(changed, encoding="utf-8")
-    assert pw.Layout.load(tmp_path / "a.svg").certified
     assert not pw.Layout.load(tmp_path / "b.svg").certified
 
 
@@ -132,7 +141,7 @@ def test_words_and_photos_make_tiles_too(tmp_path: Path) -> None:
 )
 def test_what_needs_walls_or_places_is_refused(options: dict[str, object], said: str) -> None:
     with pytest.raises(RecipeError, match=said):
-        drafted("square", **options)
+        pw.fill("page", ITEMS, tile="square", effort="draft", **options)
 
 
 def test_a_container_with_a_shape_is_no_tile() -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
-from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import exact_metrics
 from packwork.scene.container import Container
@@ -19,8 +20,9 @@ DISC = Container("", "", Outline.from_rings([50 + 50 * np.array(
 SCALES = np.linspace(3.0, 1.0, 60)
 
 
-def _fitted(apart: tuple[float, float] = (0.0, 0.0), angles: FloatArray | None = None) -> Poses:
-    turned = np.zeros(len(SCALES)) if angles is None else angles
+@cache
+def _fitted(apart: tuple[float, float], turn: float) -> Poses:
+    turned = np.where(np.arange(len(SCALES)) % 3, 0.0, turn)
     rng = np.random.default_rng(0)
     found = tiled_fit(DISC, [BAR] * len(SCALES), SCALES, turned, rng, apart=apart, margin_cu=0.1)
     assert found is not None
@@ -29,7 +31,7 @@ def _fitted(apart: tuple[float, float] = (0.0, 0.0), angles: FloatArray | None =
 
 @pytest.mark.parametrize("turn", [0.0, np.pi / 2])
 def test_nothing_meets_and_proportions_are_kept(turn: float) -> None:
-    poses = _fitted(angles=np.where(np.arange(len(SCALES)) % 3, 0.0, turn))
+    poses = _fitted((0.0, 0.0), turn)
     placed = [BAR.mapped(poses.matrix(k)) for k in range(len(SCALES))]
     found = exact_metrics(placed, DISC.outline)
     assert found.is_clean
@@ -39,7 +41,7 @@ def test_nothing_meets_and_proportions_are_kept(turn: float) -> None:
 
 
 def test_items_of_a_row_keep_room_by_the_smaller_one_but_not_from_the_edge() -> None:
-    poses = _fitted((1.5, 0.0))
+    poses = _fitted((1.5, 0.0), 0.0)
     half = 2 * poses.scale
     for k in range(len(SCALES)):
         is_beside = np.abs(poses.y - poses.y[k]) < poses.scale[k] + poses.scale
@@ -74,7 +76,7 @@ def test_small_items_spread_where_large_ones_bound_the_size(
 
 
 def test_room_takes_ink() -> None:
-    assert _fitted((1.5, 0.0)).scale[0] < _fitted().scale[0]
+    assert _fitted((1.5, 0.0), 0.0).scale[0] < _fitted((0.0, 0.0), 0.0).scale[0]
 
 
 def test_a_run_that_is_stopped_at_once_has_no_size() -> None:
