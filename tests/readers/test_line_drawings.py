@@ -227,7 +227,7 @@ def test_what_has_a_colour_is_engraved_true_to_a_millionth(
         _, bent, ring, area = (replace(one, points=(one.points - corner) / MM) for one in lines)
         assert np.hypot(*(ring.points - [40, 40]).T) == pytest.approx([6, 6], abs=1e-6)
         assert np.abs(ring.bulges) == pytest.approx([1, 1])
-        assert distance(bent, true_points("M60 12a8 8 0 0 1 8 9")) < 1e-6
+        assert is_near(bent, true_points("M60 12a8 8 0 0 1 8 9"), 1e-6)
         assert shapely.Polygon(area.points).area == pytest.approx(8)
 
 
