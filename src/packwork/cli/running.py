@@ -90,9 +90,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
         )
         results["advice"] += on_trust_in(drawn, run.layout) if run.certified else []
-        results["painted"] = (
-            None if was_cut_short else painting(run, drawn, outputs, results["advice"])
-        )
+        results["painted"] = None if was_cut_short else painting(run, drawn, outputs, results)
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         with saving(outputs.with_drawing(run.layout), outputs.files) as sessions:
@@ -305,7 +303,10 @@ def certify_files(
 
 
 def painting(
-    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], outputs: Outputs, advice: list[str]
+    run: pipeline.Run,
+    drawn: Sequence[tuple[Path, bytes]],
+    outputs: Outputs,
+    results: dict[str, Any],
 ) -> dict[str, int] | None:
     """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
     data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
@@ -313,5 +314,5 @@ def painting(
         return None
     painted = verify.painted_pixels(data, run.layout, is_own=True)
     if run.certified and (painted.outside or painted.double):
-        advice.append(f"{painted}")
+        results["advice"].append(f"{painted}")
     return asdict(painted)
