@@ -11,7 +11,7 @@ from typer.testing import CliRunner, Result
 from packwork.cli import app
 
 ROOT = Path(__file__).parents[1]
-SMALL = ["--levels", "32", "--epochs", "40"]
+SMALL = ["--levels", "32", "--epochs", "40", "--effort", "draft"]
 TAKES_LEVELS = {"fill", "words", "chart", "photos"}
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import time
 
 import numpy as np
 import pytest
@@ -133,12 +132,8 @@ def test_icons_stands_for_all():
     assert names("icons") == builtin.icon_names()
 
 
-def test_reading_icons_is_quick():
-    read_items("icons")
-    begin = time.process_time()
-    items = read_items("icons").items
-    assert time.process_time() - begin < 0.1 * len(items)
-    assert all(isinstance(item.art, VectorArt) for item in items)
+def test_icons_are_drawn_by_curves():
+    assert all(isinstance(item.art, VectorArt) for item in read_items("icons").items)
 
 
 @for_each(builtin.item_names())

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 
 import pytest
 from PIL import Image
 
-from studio.browsing import Desk, in_browser, own_desk
+from studio.browsing import Desk, Server, in_browser
 
 pytestmark = in_browser
 
@@ -18,10 +17,16 @@ FILLS = "studio.collage.items.map((item) => studio.collage.colour(item.id))"
 MUTED = 9
 
 
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    made = Server("circle", "star", "heart", "-n", "8").start()
+    yield made
+    made.stop()
+
+
 @pytest.fixture
-def desk(browser: Any) -> Iterator[Desk]:
-    with own_desk(browser, "circle", "star", "heart", "-n", "8") as made:
-        yield made
+def desk(open_desk: Callable[..., Desk]) -> Desk:
+    return open_desk()
 
 
 def test_a_palette_is_put_on_by_mouse_and_by_keys_and_undone(desk: Desk) -> None:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Callable
 
 import pytest
 
-from studio.browsing import Desk, in_browser, own_desk
+from studio.browsing import Desk, in_browser
 
 pytestmark = in_browser
 
 
 @pytest.fixture
-def desk(browser: Any) -> Iterator[Desk]:
-    with own_desk(browser, "circle", "star", "heart", "-n", "24") as made:
-        yield made
+def desk(open_desk: Callable[..., Desk]) -> Desk:
+    return open_desk()
 
 
 def draw(desk: Desk, radius: Callable[[float], float], turns: float = 1.0) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.ndimage import binary_dilation
 
 from packwork.arrays import BoolArray
 from packwork.fields.distance_transform import distance_inside
@@ -32,13 +33,7 @@ def _touching(mask: BoolArray, free: BoolArray, row: int, column: int) -> float 
     if (here & taken).any():
         return None
     away = np.linalg.norm(np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1], axis=0)
-    steps = np.argwhere(away**2 <= REACH**2 + REACH) - REACH
-    fringe = np.zeros_like(here)
-    for y, x in np.argwhere(here):
-        for dy, dx in steps:
-            if 0 <= y + dy < fringe.shape[0] and 0 <= x + dx < fringe.shape[1]:
-                fringe[y + dy, x + dx] = True
-    fringe &= ~here
+    fringe = binary_dilation(here, away**2 <= REACH**2 + REACH) & ~here
     return float(taken[fringe].mean())
 
 
