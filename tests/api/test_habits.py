@@ -280,7 +280,7 @@ def test_help_says_what_each_option_does() -> None:
 
 
 def test_messages_name_options_as_python_does() -> None:
-    with pytest.raises(RecipeError, match=r"graded sets words.*leave out start, force") as refused:
+    with pytest.raises(RecipeError, match=r"graded sets words.*leave out force, or") as refused:
         pw.words("heart", {"a": 2, "b": 1}, sizes="graded", force="down")
     assert "--" not in refused.value.problem + str(refused.value)
 

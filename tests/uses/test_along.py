@@ -97,7 +97,10 @@ def test_texts_run_round_the_top_and_the_bottom() -> None:
     ("container", "options", "message"),
     [
         ("circle", {"along": "limbs"}, "has no limbs"),
-        ("snake", {"along": "limbs", "sizes": "shared"}, "leave out .*sizes"),
+        ("snake", {"along": "limbs", "sizes": "shared"}, "leave out sizes shared$"),
+        ("snake", {"along": "limbs", "hero": "bee", "force": "down"}, "leave out hero, force$"),
+        (SPIRAL, {"along": "limbs", "rotate": "free"}, "turns no word that follows a line"),
+        ("circle", {"ring": ("A", "B", "C")}, "at the top and one at the bottom, not 3"),
         ("snake", {"along": "limbs", "add": ["star"]}, "sets words alone"),
         ("snake", {"along": "limbs", "padding": "40%"}, "wider than the padding"),
         ("snake", {"along": "limbs", "smallest": 400}, "no word to be read"),

@@ -182,6 +182,7 @@ def test_bad_tables_are_one_clear_line(tmp_path: Path, text: str, problem: str) 
         ("my missing notes.txt", "there is no such file"),
         (" ", "source: is empty"),
         ("... --- ...", "holds no words"),
+        ("1 2 3", "--include-numbers"),
         ("the and of the to", "holds 4 different words, and all are stop words"),
         ({}, "holds no words"),
         ({"\ud800\x00": 1}, "holds no words"),
@@ -191,6 +192,47 @@ def test_sources_without_words_are_one_clear_line(source, problem: str) -> None:
     with pytest.raises(ReadError) as caught:
         read_words(WordOptions(source=source))
     assert problem in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("data", "kind"),
+    [
+        (b"\xef\xbb\xbf <svg xmlns='http://www.w3.org/2000/svg'/>", "a drawing"),
+        (b"<!DOCTYPE html><html><p>honey bear</p></html>", "a web page"),
+        (b"%PDF-1.4\nhoney bear", "a PDF"),
+        (b"PK\x03\x04" + bytes(40), "archive"),
+        (rb"{\rtf1\ansi honey bear}", "RTF"),
+        (b"\x89PNG\r\n\x1a\n" + bytes(range(256)), "a picture"),
+    ],
+)
+@pytest.mark.parametrize("name", ["a.txt", "a.csv", "a.json", "a.svg"])
+def test_files_that_are_no_text_are_named_as_what_they_are(
+    tmp_path: Path, name: str, data: bytes, kind: str
+) -> None:
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(ReadError, match=rf"is .*{kind}.*, not text; save") as caught:
+        counted(str(tmp_path / name))
+    assert "\n" not in str(caught.value)
+
+
+def told(source: object, **options: object) -> str:
+    asked = WordOptions(source=source, **options)
+    return "; ".join(str(error) for error in ranked_words(asked).told)
+
+
+@pytest.mark.parametrize("text", ["bear,5\nfox,3\n", "word\tn\nbear\t5\nfox\t3", "w;n\nbear; 2,5"])
+def test_a_table_that_is_read_as_a_text_is_told(tmp_path: Path, text: str) -> None:
+    (tmp_path / "a.txt").write_text(text, encoding="utf-8")
+    assert "looks like a table" in told(str(tmp_path / "a.txt"))
+    assert "looks" not in told("In the year, 1984\nthe bears, and the bees\ncame, 12 of them")
+
+
+def test_numbers_for_words_and_what_is_idle_for_a_table_are_told(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("12,5\n9,25\n", encoding="utf-8")
+    assert "has numbers for words; --label-by" in told(str(tmp_path / "a.csv"))
+    said = told({"bear": 2}, min_count=3, language="de", case="upper")
+    assert "no running text, of which --language, --min-count would tell" in said
+    assert told({"bear": 2}, stopwords=("fox",)) == ""
 
 
 @pytest.mark.parametrize("weight", [0, -1, float("nan"), float("inf"), "many", None])

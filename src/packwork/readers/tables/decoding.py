@@ -38,6 +38,15 @@ ALPHABETS = {
 }  # fmt: skip
 """Letters beyond ASCII of each encoding's languages, the likeliest encoding first."""
 
+DOCUMENTS = {
+    b"<?xml": "XML or a drawing", b"<svg": "a drawing", b"<!doctype": "a web page",
+    b"<html": "a web page", b"<!--": "a web page or a drawing", b"%pdf-": "a PDF",
+    b"pk\3\4": "a .docx, .xlsx or other archive", b"\xd0\xcf\x11\xe0": "a .doc or .xls",
+    b"{\\rtf": "RTF", b"\x89png": "a picture", b"\xff\xd8\xff": "a picture",
+    b"gif89a": "a picture",
+}  # fmt: skip
+"""First bytes of files whose bytes are not what they say, in lower case."""
+
 OF_OTHER_SCRIPTS = frozenset({"cp1251", "cp1253"})
 """Encodings whose words hold no Latin letters."""
 
@@ -79,6 +88,7 @@ def decoded(data: bytes, file: str, encoding: str | None = None) -> Decoded:
     >>> decoded("Käse; Crème brûlée".encode("cp1252"), "t.csv").notice
     'is not UTF-8 and was read as Windows-1252 (Western Europe); --encoding says otherwise'
     """
+    check_no_document(data, file)
     if encoding is not None:
         return Decoded(_strictly(data, file, encoding).removeprefix("\ufeff"))
     for mark, announced in MARKS:
@@ -93,6 +103,21 @@ def decoded(data: bytes, file: str, encoding: str | None = None) -> Decoded:
         chosen = _windows_encoding(data, file)
     told = f"is not UTF-8 and was read as {NAMES[chosen]}; --encoding says otherwise"
     return Decoded(_strictly(data, file, chosen), told)
+
+
+def check_no_document(data: bytes, file: str) -> None:
+    """Refuse what is written in another way than as text.
+
+    Examples
+    --------
+    >>> check_no_document(b"<svg viewBox='0 0 9 9'/>", "bear.svg")
+    Traceback (most recent call last):
+    packwork.errors.ReadError: bear.svg: is a drawing, not text; save its text as .txt or .csv
+    """
+    head = data[:200].removeprefix(codecs.BOM_UTF8).lstrip().lower()
+    kind = next((kind for mark, kind in DOCUMENTS.items() if head.startswith(mark)), None)
+    if kind is not None:
+        raise ReadError(file, f"is {kind}, not text; save its text as .txt or .csv")
 
 
 def _strictly(data: bytes, file: str, encoding: str) -> str:

@@ -79,7 +79,9 @@ MOST_BY_DEFAULT = 100
 _TYPE = Offer(group=Group.TYPE)
 
 
-def _one_is_a_tuple(texts: Any) -> Any:
+def _top_and_bottom(texts: Any) -> Any:
+    if isinstance(texts, list | tuple) and len(texts) > 2:
+        raise RecipeError("ring", f"is a text at the top and one at the bottom, not {len(texts)}")
     return (texts,) if isinstance(texts, str) else texts
 
 
@@ -180,7 +182,7 @@ class WordOptions(Options):
     """Words follow curves, and are set again until these are full; the heaviest are a cloud in what
     is left. limbs: the middle of what is long and thin of the container; edge: its edge."""
 
-    ring: Annotated[tuple[str, ...], Field(max_length=2), BeforeValidator(_one_is_a_tuple)] = ()
+    ring: Annotated[tuple[str, ...], BeforeValidator(_top_and_bottom)] = ()
     """Text that follows the edge at the top of the container, as on a badge; a second one at its
     bottom. The words lie inside."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,7 +13,7 @@ from pathlib import Path
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.files import exists, read_bytes
-from packwork.readers.tables.decoding import Decoded, decoded
+from packwork.readers.tables.decoding import Decoded, check_no_document, decoded
 from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
@@ -219,10 +220,24 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
     else:
         text = _text(source, asked)
         read = _counted(text.text, options, stops)
-        told = (ReadError(_name(options), text.notice),) if text.notice else ()
-        return replace(read, told=told)
+        said = (text.notice, _LIKE_A_TABLE if _ROWS.fullmatch(text.text) else "")
+        return replace(read, told=tuple(ReadError(_name(options), one) for one in said if one))
+    fields = WordOptions.model_fields
+    idle = [key for key in _OF_TEXTS if getattr(options, key) != fields[key].default]
+    if idle:
+        flags = enumerated([f"--{key.replace('_', '-')}" for key in idle])
+        notice = ReadError(_name(options), f"is no running text, of which {flags} would tell")
+        read = replace(read, told=(*read.told, notice))
     kept = tuple(word for word in read.words if word.text.casefold() not in stops)
     return replace(read, words=kept, order=tuple(word.text for word in read.words))
+
+
+_OF_TEXTS = (
+    "language", "min_count", "min_word_length", "include_numbers", "regexp", "phrases", "plurals",
+)  # fmt: skip
+
+_ROWS = re.compile(r"[^\n]*(\n[^,;\t\n]+[,;\t] *\d[\d.,]*\s*)+")
+_LIKE_A_TABLE = "looks like a table, and its numbers are no weights in a text; name it .csv"
 
 
 def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
@@ -233,7 +248,10 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
     )
     counts, written = folded(count_forms(found))
     if not counts:
-        raise ReadError(_name(options), "holds no words; give a text, or a table of word,weight")
+        hint = " (--include-numbers counts numbers, tables may have emoji)" if text.strip() else ""
+        raise ReadError(
+            _name(options), f"holds no words{hint}; give a text, or a table of word,weight"
+        )
     language = options.language
     if language == "auto":
         language = guess_language(counts) or "none"
@@ -301,6 +319,7 @@ def _text(source: str, asked: TableFormat) -> Decoded:
             source[:80],
             "there is no such file; give a text, a table of word,weight, or - for stdin",
         )
+    check_no_document(source[:200].encode("utf-8", "replace"), source[:20])
     return Decoded(source)
 
 

@@ -63,6 +63,8 @@ def words_of(table: Pairs, file: str) -> TableRead:
             f"{sound[total].name[:40]!r} ({sound[total].where}) looks like the sum of the others; "
             "it is a word as they are: take it out of the table if it is none"
         )
+    if sound and all(is_number_like(pair.name) for pair in sound):
+        told.append("has numbers for words; --label-by names the column that has them")
     return TableRead(
         tuple(Word(pair.name, pair.number, dict(pair.others)) for pair in sound),
         (*table.notices, *told),

@@ -36,7 +36,7 @@ from packwork.scene.pose import Poses
 from packwork.start.lanes import FILLED, Lanes, WordOnLine, WordShape
 from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
 from packwork.uses.words.copies import words_of
-from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way
+from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way, unheeded
 from packwork.uses.words.sizes import Letters, without
 
 if TYPE_CHECKING:
@@ -97,15 +97,17 @@ class SetAlong(RunStep):
         with job.clock.time("start"):
             limbs = self._limbs(job.container, gap)
             wide = _wide_part(job.container, limbs, gap)
-        clouded, poses, rows = list[Item](), list[Poses](), list[int]()
+        clouded, poses, rows, found = list[Item](), list[Poses](), list[int](), state
         share = 0.0 if wide is None else wide.area / (wide.area + sum(one.area for one in limbs))
         inside = min(round(share * len(read.items)), len(read.items) - 1)
         if wide is not None and inside:
             # The heaviest lie where most room is.
             heavy = range(inside) if share > LARGER_PART else range(len(read.items))[-inside:]
-            found = run_steps(*self._inside(job, heavy, wide), context)
+            found = run_steps(*self._inside(state, heavy, wide), context)
             clouded, poses = list(found.job.items), [found.poses]
             rows = [read.items.index(item) for item in clouded]
+        elif not job.plan.rotation.is_still:
+            raise RecipeError("rotate", "turns no word that follows a line; leave it out")
         with job.clock.time("start"):
             rest = np.setdiff1d(np.arange(len(read.items)), rows)
             heights = np.sqrt(job.weights / [item.outline.area for item in job.items])
@@ -119,7 +121,7 @@ class SetAlong(RunStep):
         poses.append(bent.poses.subset(large))
         if not rows:
             raise RecipeError("along", f"leaves no word to be read in {job.container.source}")
-        return _joined(state, rows, (*clouded, *(bent.items[k] for k in large)), poses)
+        return _joined(found, job, rows, (*clouded, *(bent.items[k] for k in large)), poses)
 
     def _limbs(self, container: Container, gap: float) -> list[Limb]:
         """Limbs that have room beside the gap, without half of it; one at least."""
@@ -137,17 +139,17 @@ class SetAlong(RunStep):
         return [replace(one, half=np.maximum(one.half - gap / 2, 0.0)) for one in roomy]
 
     def _inside(
-        self, job: Job, rows: Sequence[int], wide: Region
+        self, state: RunState, rows: Sequence[int], wide: Region
     ) -> tuple[Sequence[RunStep], RunState]:
         """Steps of a cloud of some words in a part of the container; its first state."""
-        use = words_of(job)
+        job, use = state.job, words_of(state.job)
         read = _subset(use.read, rows, [use.read.items[k] for k in rows])
         part = replace(
             job.subset(rows),
             use=replace(use, read=read),
             container=replace(job.container, outline=Outline.from_region(wide)),
         )
-        return self._cloud(part), RunState.of(part)
+        return self._cloud(part), replace(RunState.of(part), findings=state.findings)
 
 
 @final
@@ -185,7 +187,8 @@ class RoundTheEdge(RunStep):
         if inner is None:
             raise RecipeError("ring", f"leaves no room for words in {job.container.source}")
         part = replace(job, container=replace(job.container, outline=Outline.from_region(inner)))
-        found = run_steps(self._words(part), RunState.of(part), context)
+        start = replace(RunState.of(part), findings=state.findings)
+        found = run_steps(self._words(part), start, context)
         whole = replace(
             found.job,
             container=job.container,
@@ -235,13 +238,10 @@ class RoundTheEdge(RunStep):
 def _check(job: Job, key: str) -> None:
     if key == "along" and len(job.use.words) < len(job.items):
         raise RecipeError("along", "sets words alone; leave out what is mixed in with them")
-    if not can_give_way(job) or job.recipe.sizes == "shared":
-        raise RecipeError(
-            key,
-            "gives words the sizes that limbs have room for; leave out --sizes, --start, --force, "
-            "--arrange, --embeddings, --share, losses, levels, --stretch and what is asked of "
-            "single items",
-        )
+    is_shared = job.recipe.sizes == "shared"
+    if is_shared or not can_give_way(job):
+        idle = "--sizes shared" if is_shared else unheeded(job)
+        raise RecipeError(key, f"gives words the sizes that have room; leave out {idle}")
 
 
 def _wide_part(container: Container, limbs: Sequence[Limb], gap: float) -> Region | None:
@@ -279,10 +279,10 @@ def _subset(read: WordsRead, rows: Sequence[int], items: Sequence[Item]) -> Word
 
 
 def _joined(
-    state: RunState, rows: Sequence[int], items: Sequence[Item], poses: Sequence[Poses]
+    inner: RunState, job: Job, rows: Sequence[int], items: Sequence[Item], poses: Sequence[Poses]
 ) -> RunState:
-    """State of words in place, each with what was asked of the one that it is."""
-    job, use = state.job, words_of(state.job)
+    """State of words in place, each with what was asked of its word; ``inner`` is of a cloud."""
+    use = words_of(job)
     kept = set(rows)
     gone = [item for k, item in enumerate(use.read.items) if k not in kept]
     undrawn = {item.name: Sentence.UNREADABLE_WORD.of() for item in gone}
@@ -298,7 +298,7 @@ def _joined(
         whole = whole.followed_by(more)
     found = replace(
         RunState.of(placed), poses=whole, nominal=whole.scale, method="along", is_tight=True,
-        findings=state.findings,
+        findings=inner.findings, conflicts=inner.conflicts,
     )  # fmt: skip
     if len(rows) == len(kept):
         return found

@@ -19,6 +19,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
+from packwork.phrasing import enumerated
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import lines_width
@@ -27,6 +28,7 @@ from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.progress import Stop, never
 from packwork.readers.words.items import EM_PX
+from packwork.recipe import Recipe
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -137,13 +139,28 @@ def can_give_way(job: Job) -> bool:
     return not (is_told or needs_levels(job))
 
 
+_UNHEEDED = (
+    "hero", "rules", "start", "force", "arrange", "embeddings", "share", "apart", "stretch",
+    "losses", "levels", "epochs", "preset", "finish", "least_dpi",
+)  # fmt: skip
+
+
+def unheeded(job: Job) -> str:
+    """Options that are asked for and that this cannot heed, as flags."""
+    fields = {key: Recipe.model_fields[key] for key in _UNHEEDED}
+    asked = [
+        f"--{key.replace('_', '-')}"
+        for key, field in fields.items()
+        if getattr(job.recipe, key) != field.get_default(call_default_factory=True)
+    ]
+    return enumerated(asked or ["what is asked of places or single items"], len(_UNHEEDED))
+
+
 def _check(job: Job) -> None:
     if not can_give_way(job):
         raise RecipeError(
             "sizes",
-            "graded sets words one after another; leave out --start, --force, --arrange, "
-            "--embeddings, --share, losses, levels, --stretch and what is asked of single items, "
-            "or use sizes shared",
+            f"graded sets words one after another; leave out {unheeded(job)}, or use sizes shared",
         )
 
 

@@ -125,7 +125,13 @@ class WordsUse(Use):
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks, words that could not be drawn, what was left out."""
-        return [*reporting(job, is_dressed=True, found=[ReportWords()]), RemarkWords()]
+        # Along limbs no more than their middles is to be seen.
+        shows = self.options.along != "limbs"
+        found = [ReportWords()]
+        return [
+            *reporting(job, is_dressed=True, shows_shape=shows, found=found),
+            RemarkWords(),
+        ]
 
     def _will_do(self, state: RunState) -> bool:
         """Whether words in proportion make a full cloud, or are too few to."""
