@@ -107,7 +107,7 @@ def test_a_gesture_of_several_touches_what_each_of_them_does(icons: pw.Layout) -
     session = icons.edit()
     session.apply(Together(commands=(Move(item=0, x=300, y=300), Duplicate(item=3))))
     assert {0, 9} <= session.marks.touched
-    assert session.marks.placed_by_user == {0}
+    assert session.marks.placed_by_user == {0, 3}
     assert session.settle().certified
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -215,6 +216,46 @@ def test_polish_leaves_what_was_put_last_and_the_angle_of_what_was_put_before(
     assert after.angle[3] == before.angle[3]
     assert after.x[7] == before.x[7]
     assert session.is_certified
+
+
+def far(session: pw.Session, number: int, place: tuple[float, float]) -> float:
+    """How far an item lies from a place, in sides of the canvas."""
+    row, poses = session.document.index(number), session.document.poses
+    at = (float(poses.x[row]), float(poses.y[row]))
+    return math.dist(at, place) / session.document.container.side
+
+
+def test_copies_and_what_they_are_of_stay_where_they_were_put_while_gaps_are_closed(
+    dozen: pw.Layout,
+) -> None:
+    moved: dict[str, list[float]] = {"left": [], "beside": [], "pasted": []}
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        for what, distances in moved.items():
+            session = dozen.edit()
+            first, second = rng.choice(len(dozen.items), 2, replace=False).tolist()
+            poses, new = session.document.poses, session.document.next_id
+            at, there = [(float(poses.x[k]), float(poses.y[k])) for k in (first, second)]
+            if what == "left":
+                session.apply(Grab(items=(first,)))
+                session.do("duplicate", item=first, beside=0.0)
+                session.move(first, *there)
+                session.apply(Drop())
+            elif what == "beside":
+                session.duplicate(first)
+                new = first
+            else:
+                at = there
+                session.paste(session.copy(first), *there)
+            session.flow(epochs=40)
+            assert session.settle().certified
+            distances.append(far(session, new, at))
+            while session.is_rough:
+                session.polish(48)
+            assert far(session, new, at) == distances[-1]
+    # Some are too large for the places that they were given.
+    assert all(sorted(distances)[1] < 0.01 for distances in moved.values()), moved
+    assert max(moved["left"] + moved["beside"]) < 0.1
 
 
 @pytest.mark.parametrize("item", [0, 4, 9])

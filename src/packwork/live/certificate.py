@@ -78,6 +78,16 @@ class Certificate:
         return standing
 
 
+def beyond(wrong: Iterable[Violation], near: set[int]) -> set[int]:
+    """Numbers of items in conflicts that what is near has no part in."""
+    found: set[int] = set()
+    for one in wrong:
+        pair = {one.item} if one.other is None else {one.item, one.other}
+        if not pair & near:
+            found |= pair
+    return found
+
+
 def promise_of(document: Document) -> Promise:
     """Smallest gap and shares of area that a document is to keep."""
     given = Promise.of(document.manifest) or Promise()

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.live.commands.command import index_of, made, named_item, true_scale
+from packwork.live.commands.command import Command, index_of, made, named_item, true_scale
 from packwork.live.commands.items import OFFSET, Add
+from packwork.live.commands.placing import Move
 from packwork.live.document import Document
 from packwork.live.macros import weights_in
 from packwork.units import convert
@@ -37,7 +38,7 @@ def clipped(document: Document, numbers: tuple[int, ...]) -> CopiedItems:
     )
 
 
-def pasted(session: Session, clip: CopiedItems, x: float | None, y: float | None) -> list[Add]:
+def pasted(session: Session, clip: CopiedItems, x: float | None, y: float | None) -> list[Command]:
     """Commands that bring the items of a clip, lying to each other as they did.
 
     Parts of a nest keep their true size, all else its share of the canvas.
@@ -58,7 +59,7 @@ def pasted(session: Session, clip: CopiedItems, x: float | None, y: float | None
     elif np.isin(source.ids[clip.rows], document.ids).any():
         place += OFFSET * here.side
     weights = weights_in(document, items)
-    return [
+    adds = [
         made(
             Add, asset=named_item(session.library, item), x=at[0], y=at[1],
             area=item.outline.area * size**2, angle=math.degrees(angle), weight=weight,
@@ -67,3 +68,8 @@ def pasted(session: Session, clip: CopiedItems, x: float | None, y: float | None
             items, place.tolist(), scale.tolist(), poses.angle.tolist(), weights, strict=True
         )
     ]  # fmt: skip
+    moves = [
+        made(Move, item=number, x=add.x, y=add.y)
+        for number, add in enumerate(adds, document.next_id)
+    ]
+    return [*adds, *moves]

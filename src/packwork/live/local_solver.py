@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
-from packwork.live.certificate import Certificate, Settlement
+from packwork.live.certificate import Certificate, Settlement, beyond
 from packwork.live.document import PROPERTIES, Change, Document, Invalidation, differing
 from packwork.live.history import Frames, Marks, SessionState
 from packwork.live.neighbourhood.caches import LevelCache, ShapeCache
@@ -112,6 +112,13 @@ class LocalSolver:
         self.marks.turned |= kept
         self.marks.turned_by_hand |= kept
 
+    def place(self, numbers: set[int]) -> None:
+        """Have items stay where the hand has put them, also such as are new."""
+        if not numbers <= self.marks.placed_by_user:
+            self.marks.placed_by_user |= numbers
+            self.marks.recent |= numbers
+            self._hold()
+
     def take(self, after: Document) -> None:
         """Go on with a document that a command has changed."""
         flow, before = self._flow, self.document
@@ -123,6 +130,8 @@ class LocalSolver:
         if change.stale <= Invalidation.RULES:
             flow.set_rules(after, self._strict(after))
             return
+        if not self.marks.touched:
+            self.marks.recent.clear()
         if change.stale == Invalidation.POSES:
             self._take_poses(before.poses, after)
             return
@@ -147,8 +156,6 @@ class LocalSolver:
         marks.placed_by_user |= set(numbers[moved].tolist())
         marks.turned |= set(numbers[turned].tolist())
         marks.turned_by_hand |= set(numbers[turned].tolist())
-        if not marks.touched:
-            marks.recent.clear()
         marks.recent |= set(numbers[moved | turned].tolist())
         new = np.flatnonzero(changed & ~np.isin(numbers, list(marks.touched)))
         marks.vacated |= set(numbers[flow.contacts.rings(new, RINGS) >= 0].tolist())
@@ -388,13 +395,3 @@ class LocalSolver:
 
     def _rows(self, numbers: set[int]) -> IntArray:
         return np.flatnonzero(np.isin(self.document.ids, list(numbers)))
-
-
-def beyond(wrong: Iterable[Violation], near: set[int]) -> set[int]:
-    """Numbers of items in conflicts that what is near has no part in."""
-    found: set[int] = set()
-    for one in wrong:
-        pair = {one.item} if one.other is None else {one.item, one.other}
-        if not pair & near:
-            found |= pair
-    return found

@@ -196,10 +196,12 @@ class Session:
             raise RecipeError("grab", "something is held already; drop it first")
         before = self.document
         documents: list[Document] = []
+        placed: set[int] = set()
         # What follows a change takes as long for one item as for all that change alike.
         for _, steps in groupby(command.steps, type):
             now = documents[-1] if documents else before
             for step in steps:
+                placed.update(step.places(now))
                 now = step.applied(now, self.library)
             documents.append(now)
         change = Change.between(before, documents[-1])
@@ -209,6 +211,7 @@ class Session:
         self._solver.keep_angles(one for step in command.steps for one in step.keeps_angles)
         for document in documents:
             self._solver.take(document)
+        self._solver.place(placed)
         if isinstance(command, Grab):
             self._before_grab = before, self.marks.copy(), self.requests.copy()
             self._solver.grab(command.items)
@@ -225,8 +228,7 @@ class Session:
 
     def do_together(self, commands: Iterable[Command]) -> None:
         """Do commands as one gesture."""
-        listed = tuple(commands)
-        if listed:
+        if listed := tuple(commands):
             self.apply(Together(commands=listed))  # type: ignore[arg-type]
 
     def flow(self, epochs: int | None = None, milliseconds: float | None = None) -> int:
@@ -289,8 +291,7 @@ class Session:
         By at most so many trials, 10,000 in one call, of 2 ms each, of turns of the items there;
         none unless :attr:`is_rough`, or once ``stop`` is true, which leaves all as it was.
         """
-        moved = self._solver.polish(trials := min(trials, MOST_TRIALS), stop)
-        if moved is None:
+        if (moved := self._solver.polish(trials := min(trials, MOST_TRIALS), stop)) is None:
             return 0
         self.log.note("polish", trials)
         self.log.flush()
@@ -375,8 +376,7 @@ class Session:
         self.log.flush()
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
-        seen = self._solver.run(epochs, resolution)
-        if seen is not None:
+        if (seen := self._solver.run(epochs, resolution)) is not None:
             self.log.note("flow", (seen, epochs))
 
     def _let_go(self, *, is_cancelled: bool) -> None:

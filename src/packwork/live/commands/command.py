@@ -75,6 +75,10 @@ class Command(Options):
         """Numbers of items that keep the angles it leaves them while others make room."""
         return ()
 
+    def places(self, document: Document) -> tuple[int, ...]:
+        """Numbers of items that lie where the hand puts them by it, in the document before it."""
+        return ()
+
 
 def made(command: type[_Command], **values: object) -> _Command:
     """A command of plain values; RecipeError names the value that has no meaning."""

@@ -82,6 +82,10 @@ class Duplicate(Command):
         pose = replace(pose, x=pose.x + beside, y=pose.y + beside)
         return joined(document, document.items[k], pose, float(document.weights[k]))
 
+    def places(self, document: Document) -> tuple[int, ...]:
+        """The copy that is left in its place; one beside it makes way for what it is a copy of."""
+        return (self.item,) if self.beside else (document.next_id,)
+
 
 class Remove(Command):
     """Take items away."""

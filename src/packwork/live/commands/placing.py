@@ -49,6 +49,10 @@ class Move(Command):
             raise RecipeError("move", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
         return _posed(document, k, x=self.x, y=self.y)
 
+    def places(self, document: Document) -> tuple[int, ...]:
+        """The item."""
+        return (self.item,)
+
 
 class Turn(Command):
     """Turn an item to an angle."""
