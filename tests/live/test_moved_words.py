@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import packwork as pw
+from packwork.live.face.templates import WORDS
 from packwork.live.refilling import covered
+from packwork.live.relayout import poured_again
 
 NAMES = ["bear", "fox", "owl", "snail", "ant", "tiger", "panther", "crow", "elk", "bee"]
 WEIGHTS = {f"{name}{end}": 1 / (k + 2) for k, name in enumerate(NAMES) for end in ("", "s", "y")}
@@ -64,3 +66,16 @@ def test_a_word_that_is_to_be_larger_than_the_cloud_is_as_large_as_there_is_room
     assert "not 9 times: there is no room for more" in said
     assert session.document.poses.scale[k] > before.poses.scale[k]
     assert covered(session.document) > 0.5 * covered(before)
+
+
+def test_a_cloud_whose_sizes_give_way_is_as_full_poured_anew_or_in_another_font() -> None:
+    layout = pw.words("bird", dict(WORDS), effort="draft")
+    session = layout.edit()
+    session.apply(poured_again(session.document, 1))
+    assert session.finish().certified
+    assert (session.document.poses.x != layout.poses.x).any()
+    assert covered(session.document) > 0.9 * covered(layout.edit().document)
+    session.words(dict(WORDS), font="DejaVu Serif")
+    assert session.finish().certified
+    fresh = pw.words("bird", dict(WORDS), font="DejaVu Serif", effort="draft")
+    assert covered(session.document) > 0.9 * covered(fresh.edit().document)

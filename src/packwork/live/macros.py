@@ -132,7 +132,7 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
     """
     document = session.document
     now = {item.name: share for item, share in zip(read.items, read.areas, strict=True)}
-    words = [k for k in range(len(document)) if is_word(document, k)]
+    words = word_rows(document)
     rows: dict[str, int] = {}
     # Of copies the heaviest stays.
     for k in sorted(words, key=lambda k: -document.weights[k]):
@@ -191,12 +191,12 @@ def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[st
     return dict(list(kept.items())[-MOST_LEFT_OUT:])
 
 
-def is_word(document: Document, k: int) -> bool:
-    """Whether an item is one of a cloud's words; files of shapes say so of all alone."""
-    if any(item.text is not None for item in document.items):
-        return document.items[k].text is not None
+def word_rows(document: Document) -> list[int]:
+    """Rows of a cloud's words; files of shapes say so of all alone."""
+    rows = [k for k, item in enumerate(document.items) if item.text is not None]
     recipe = document.manifest.get("recipe")
-    return isinstance(recipe, Mapping) and recipe.get("words") is not None
+    is_of_words = isinstance(recipe, Mapping) and recipe.get("words") is not None
+    return list(range(len(document))) if is_of_words and not rows else rows
 
 
 def _is_set_otherwise(before: Item, now: Item) -> bool:

@@ -11,8 +11,8 @@ from packwork.errors import PackworkError
 from packwork.live.certificate import Certificate, promise_of
 from packwork.live.commands.command import Library
 from packwork.live.document import Document
-from packwork.live.macros import is_word
-from packwork.live.relayout import job_again, poured_again
+from packwork.live.macros import word_rows
+from packwork.live.relayout import gives_way, job_again, poured_again
 from packwork.metrics.pixel import shape_metrics
 from packwork.progress import Stop
 from packwork.steps.shortfalls import LEAST_SHAPE, MOST_BARE, advice
@@ -47,8 +47,7 @@ class Refilled:
 
 def is_other_cloud(before: Document, now: Document) -> bool:
     """Whether most words of a cloud are others than before."""
-    has_words = any(is_word(now, k) for k in range(len(now)))
-    if not has_words or now.options.sizes != "shared":
+    if now.options.sizes != "shared" or not word_rows(now):
         return False
     known = {item.outline for item in before.items}
     return sum(item.outline not in known for item in now.items) > MOST_NEW * len(now)
@@ -80,9 +79,9 @@ def refilled(
     held = asked.held.copy()
     # Where sizes are promised to be in shares, those of the hand stay so beside all others.
     held[by_hand] |= [True, True, not promise_of(asked).areas_in_shares]
-    # In proportion as they are: where sizes gave way, weights ask for others.
-    areas = asked.areas
-    pinned = replace(asked, held=held, weights=areas)
+    # In proportion as they are, unless a run may find what else sizes gave way to.
+    weights = asked.weights if gives_way(asked) and is_other else asked.areas
+    pinned = replace(asked, held=held, weights=weights)
     for seed in range(SEEDS):
         try:
             poured = poured_again(pinned, seed, stop=stop).applied(pinned, Library())
@@ -98,7 +97,7 @@ def refilled(
         return None
     if not was_wrong and covered(poured) <= covered(settled) + MOST_LOST:
         return None
-    what = "words" if any(is_word(asked, k) for k in range(len(asked))) else "items"
+    what = "words" if word_rows(asked) else "items"
     share = f"{100 * covered(poured):.0f} % of the container"
     message = f"the {what} were poured anew, for they would not fill it else: {share}"
     return Refilled(kept, message)

@@ -14,12 +14,14 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, valid
+from packwork.live.certificate import promise_of
 from packwork.live.commands.command import Command, Library, made, named_container, named_item
 from packwork.live.commands.container import SetContainer, SetOption
 from packwork.live.commands.items import Add, Remove
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.kinds import PileKind
+from packwork.live.macros import word_rows
 from packwork.live.nested_again import nested_again
 from packwork.live.options import LiveOptions
 from packwork.pipeline import run
@@ -36,6 +38,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.uses.words.again import with_sizes_that_give_way
 
 BY_TEXT = FROM_TEXT
 """Stands for vectors that are made from the text of the words."""
@@ -151,7 +154,14 @@ def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
     positive = np.where(weights > 0, weights, least if math.isfinite(least) else 1.0)
     pairs = zip(document.items, positive.tolist(), strict=True)
     items = [replace(item, weight=weight) for item, weight in pairs]
-    return uses.read(_recipe(document, seed, asked), items, document.container)
+    job = uses.read(_recipe(document, seed, asked), items, document.container)
+    return with_sizes_that_give_way(job) if gives_way(document) else job
+
+
+def gives_way(document: Document) -> bool:
+    """Whether a cloud's words are in proportion only as far as that leaves it full."""
+    is_free = document.options.sizes == "shared" and not promise_of(document).areas_in_shares
+    return is_free and 0 < len(document) == len(word_rows(document))
 
 
 def _asked(document: Document) -> tuple[ItemRules, ...]:
