@@ -87,6 +87,30 @@ def test_a_place_that_cannot_be_had_is_said(open_desk: Callable[..., Desk]) -> N
     desk.settled()
 
 
+def test_places_that_cannot_be_had_are_one_line_until_they_are_had(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    moves = ", ".join(f"{{kind: 'move', item: {k}, x: 0, y: {k}}}" for k in (1, 2, 3))
+    desk.look(f"studio.connection.do({{kind: 'together', commands: [{moves}]}})")
+    lines = desk.page.locator(".toast", has_text="there is no room for it")
+    lines.wait_for()
+    desk.settled()
+    assert lines.count() == 1
+    desk.picture("not-had")
+    lines.get_by_role("button", name="And 2 more").click()
+    assert desk.page.locator("#why").get_by_text("there is no room for it").count() == 3
+    desk.page.keyboard.press("Escape")
+    desk.page.keyboard.press("Control+z")
+    desk.until("!Object.keys(studio.collage.state.unmet).length")
+    assert lines.count() == 0
+    desk.settled()
+    desk.page.keyboard.press("Control+Shift+z")
+    lines.wait_for()
+    desk.page.keyboard.press("Control+z")
+    desk.settled()
+
+
 def test_what_is_chosen_is_flipped_by_a_key(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.rested()

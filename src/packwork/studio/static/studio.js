@@ -29,7 +29,7 @@ import { Sketch } from "./sketch.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
 import { Start } from "./start.js";
-import { say, tell } from "./toasts.js";
+import { hush, say, tell } from "./toasts.js";
 import { Variants } from "./variants.js";
 import { View } from "./view.js";
 
@@ -41,6 +41,8 @@ const WIDE = 700;
 /** What is left free beside the canvas, and above it for the bar of what is chosen, px. */
 const MARGIN = 28;
 const ABOVE = 62;
+/** Subject of the line about what was asked for and not had. */
+const MISSED = "not as asked";
 
 export class Studio {
   constructor() {
@@ -152,12 +154,22 @@ export class Studio {
     if (state.fresh && !this.wasOffered) this.start.open();
     this.wasOffered = true;
     this.badge.show(state);
-    if (!state.moving) {
-      for (const [number, line] of Object.entries(state.unmet)) if (!(number in this.missed)) tell(line);
-      this.missed = state.unmet;
-    }
+    if (!state.moving) this.tellMissed(state.unmet);
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
+  }
+
+  /**
+   * Tell what was asked for and not had: one line for all, as long as there is any.
+   * @param {Record<string, string>} unmet
+   */
+  tellMissed(unmet) {
+    const fresh = Object.keys(unmet).filter((number) => !(number in this.missed));
+    const more = Object.keys(unmet).length - 1;
+    const act = more > 0 ? { label: `And ${more} more`, run: () => this.badge.open() } : undefined;
+    if (more < 0) hush(MISSED);
+    else if (fresh.length) tell(unmet[fresh[0]], { about: MISSED, act });
+    this.missed = unmet;
   }
 
   /** @param {Frame} frame */

@@ -8,21 +8,28 @@ const [LEAST, A_LETTER, LONGEST] = [4, 0.05, 12];
 const MOST = 4;
 
 /**
- * Show a line, for as long as it takes to read it.
+ * Show a line, for as long as it takes to read it, in place of any other about the same.
  * @param {string} text
- * @param {{isError?: boolean, act?: {label: string, run: () => void}}} [more]
+ * @param {{isError?: boolean, act?: {label: string, run: () => void}, about?: string}} [more]
  */
-export function tell(text, { isError = false, act } = {}) {
-  const list = byId("toasts");
-  const same = [...list.children].find((toast) => toast.getAttribute("data-text") === text);
-  same?.remove();
-  const toast = h("div", { class: isError ? "toast error" : "toast", role: isError ? "alert" : "status", "data-text": text }, h("span", {}, text));
+export function tell(text, { isError = false, act, about = text } = {}) {
+  hush(about);
+  const toast = h("div", { class: isError ? "toast error" : "toast", role: isError ? "alert" : "status", "data-about": about }, h("span", {}, text));
   if (act) toast.append(h("button", { type: "button", onclick: () => { act.run(); toast.remove(); } }, act.label));
   toast.append(h("button", { type: "button", class: "close", "aria-label": "Close", onclick: () => toast.remove() }, "×"));
+  const list = byId("toasts");
   list.append(toast);
-  while (list.children.length > MOST) list.firstElementChild?.remove();
+  while (list.children.length > MOST) (list.querySelector(".toast:not(.error)") ?? list.children[0]).remove();
   const seconds = Math.min(LEAST + A_LETTER * text.length, LONGEST) + (act ? LEAST : 0);
   setTimeout(() => toast.remove(), 1000 * seconds);
+}
+
+/**
+ * Take back a line about something, if it is still shown.
+ * @param {string} about
+ */
+export function hush(about) {
+  [...byId("toasts").children].find((toast) => toast.getAttribute("data-about") === about)?.remove();
 }
 
 /**
