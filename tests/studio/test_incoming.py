@@ -62,6 +62,7 @@ def test_a_table_is_asked_about_and_a_font_sets_its_words(
     own = tmp_path / f"own{Path(font.name).suffix}"
     own.write_bytes(font.read_bytes())
     give(desk, own)
+    desk.page.locator(".toast", has_text="Setting the words in own").wait_for()
     desk.until(
         "document.querySelector('#panel select[aria-label=Font]')?.value.startsWith('file:')"
     )

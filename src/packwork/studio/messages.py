@@ -316,7 +316,7 @@ class Words(PageRequest):
                 lambda session: edits.words(session, words, **options), "Setting words"
             )
 
-        tab.importer.read(read)
+        tab.importer.read(read, "Setting words")
 
 
 class More(PageRequest):

@@ -37,7 +37,7 @@ export class Incoming {
     if (files.some((one) => kindOf(one) === "document")) return dropping.send(files, (batch) => this.open(batch));
     if (files.length === 1 && kind === "table") return dropping.send(files, (batch) => this.tables.ask(file.name, batch));
     if (files.length === 1 && kind === "text") return this.read(file);
-    if (files.length === 1 && kind === "font") return dropping.send(files, (batch) => words.setIn(batch, file.name));
+    if (files.length === 1 && kind === "font") return words.take(file);
     const art = files.filter((one) => kindOf(one) === "art");
     for (const one of files) if (!art.includes(one)) tell(`${one.name} is no drawing; give it alone`, { isError: true });
     if (art.length) return dropping.send(art, (batch) => dropping.bring(batch));

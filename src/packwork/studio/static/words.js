@@ -6,6 +6,8 @@ import { FontField } from "./fonts.js";
 import { tell } from "./toasts.js";
 import { WordTable } from "./wordtable.js";
 
+/** Subject of lines about the font of words. */
+const FONT = "font";
 const EXAMPLE = "Paste a text here, or a table: a word and its weight on each line, as\nhope, 12\njoy, 7";
 const ROW = /^\s*(.*\S)\s*[,;\t]\s*([0-9]*\.?[0-9]+)\s*$/;
 
@@ -15,18 +17,18 @@ export class Words {
     this.studio = studio;
     this.text = h("textarea", { id: "text", rows: "10", placeholder: EXAMPLE, "aria-label": "Text or table of words", spellcheck: "false", dir: "auto" });
     this.count = h("input", { type: "number", id: "words-count", min: "1", max: "1000", value: "80" });
-    this.font = new FontField(studio, "Font");
+    this.font = new FontField(studio, "Font", (name) => this.setIn(name));
     this.palette = h("select", {});
     this.update = h("button", { type: "button", onclick: () => this.change() }, "Change these, keep their places");
     this.list = new WordTable(this);
     this.form = h("form", { class: "stack", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
-      this.text, h("label", { class: "row" }, "Words at most", this.count), this.font.element,
+      this.text, h("label", { class: "row" }, "Words at most", this.count),
       h("label", { class: "row" }, "Colours", this.palette), h("button", { type: "submit", class: "primary" }, "Fill with words"), this.update);
   }
 
   /** @param {HTMLElement} body */
   async fill(body) {
-    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), this.list.element,
+    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), this.font.element, this.list.element,
       h("details", { open: true }, h("summary", {}, "A text or another table"), this.form));
     this.list.listed = "";
     if (!this.text.value.trim()) this.text.value = this.table();
@@ -84,16 +86,20 @@ export class Words {
   }
 
   /**
-   * Have a font of a file: words that are there are set in it at once.
-   * @param {string} batch
-   * @param {string} name
+   * Have a font of a file.
+   * @param {File} file
    */
-  async setIn(batch, name) {
-    await this.font.fill();
-    this.font.own(batch, name);
+  async take(file) {
+    tell(`Reading ${file.name}`, { about: FONT });
     if (this.studio.panels.current !== "words") await this.studio.panels.toggle("words");
-    if (this.update.hidden) return tell(`${name}: words are set in it from now on`);
-    this.text.value = this.table();
-    this.change();
+    await this.font.fill();
+    await this.studio.dropping.send([file], (batch) => this.font.own(batch, file.name));
+  }
+
+  /** Set the words that are there in the font that was chosen. @param {string} name */
+  setIn(name) {
+    const areThere = this.list.things.length > 0;
+    tell(areThere ? `Setting the words in ${name}` : `${name}: words are set in it from now on`, { about: FONT });
+    this.list.tell(new Map());
   }
 }
