@@ -121,6 +121,24 @@ def test_messages_that_have_no_meaning_are_told() -> None:
     assert all(told)
 
 
+def test_two_hundred_gestures_send_what_changed_and_no_shape_that_is_gone() -> None:
+    desk = Desk(pw.fill("circle", "star", count=3, effort="draft", levels="16").edit())
+    shown = [desk.present()]
+    assert {"shapes", "scene"} <= shown[0].keys()
+
+    def do(**command: Any) -> None:
+        message = {"type": "do", "n": len(shown), "command": command}
+        desk.hear(message, lambda said: shown.append(desk.present(said)))
+
+    for turn in range(200):
+        do(kind="move", item=turn % 3, x=300.0 + turn % 7, y=300.0)
+    assert all(one.keys() == {"frame", "state"} for one in shown[1:])
+    for turn in range(20):
+        do(kind="recolour", items=[turn % 3], colour=f"#{turn:02x}4080")
+    assert "scene" in shown[-1]
+    assert len(json.loads(shown[-1]["shapes"])) == 3
+
+
 def test_an_item_is_dragged_and_undone(notebook: Notebook) -> None:
     before = notebook.desk.session.layout
     notebook.drag(0, 40, 30)

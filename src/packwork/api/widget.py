@@ -71,22 +71,25 @@ class Desk:
 
     def __init__(self, session: Session) -> None:
         self.session, self._scenes, self._shown, self._done = session, Scenes(), 0, 0
+        self._version = 0
 
     def present(self, said: str = "") -> dict[str, Any]:
-        """Values that the page is shown, by name; ``said`` in place of how things stand."""
+        """Values of the page that have changed, by name; ``said`` in place of how things stand."""
         session = self.session
         self._shown += 1
         view = View.of_document(session.document)
         scene = self._scenes.of(view)
-        shapes = [shape.model_dump() for shape in self._scenes.shapes.values()]
         is_moving = session.is_grabbed or not session.is_at_rest
         told = "moving" if is_moving else "certified" if session.is_certified else "not certified"
         state = {"covered": view.covered, "told": said or told, "is": told}
         frame = frame_bytes(self._shown, scene.version, self._done, is_moving, view.numbers)
-        return {
-            "shapes": json.dumps(shapes), "scene": scene.model_dump_json(),
-            "frame": frame, "state": json.dumps(state),
-        }  # fmt: skip
+        changed: dict[str, Any] = {"frame": frame, "state": json.dumps(state)}
+        if scene.version == self._version:
+            return changed
+        self._version = scene.version
+        used = dict.fromkeys(thing.shape for thing in scene.items)
+        shapes = [self._scenes.shapes[key].model_dump() for key in used]
+        return {"shapes": json.dumps(shapes), "scene": scene.model_dump_json(), **changed}
 
     def hear(self, message: Mapping[str, Any], show: Callable[[str], object]) -> None:
         """Do what a message of the page asks for, and show it, on its way too."""
