@@ -146,7 +146,7 @@ class Ensemble:
         self._own, self.ring_starts = joined(outlines)
         counts = [len(o.points) for o in outlines]
         self._item_starts: IntArray = np.cumsum([0, *counts], dtype=np.int64)
-        self._rings_before: IntArray = np.cumsum([0] + [len(o.rings) for o in outlines])[:-1]
+        self._rings_before: IntArray = np.cumsum([0] + [len(o.starts) - 1 for o in outlines])[:-1]
         self._points = np.empty_like(self._own)
         self._by_pose = np.zeros((len(outlines), 5))
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -53,6 +54,10 @@ MOST = 10_000
 """Outlines that are kept at most; then all is made anew. Chosen."""
 
 
+_ByPose: TypeAlias = dict[tuple[Outline, float, float], Outline]
+"""Outlines as a level sees them, by outline, logarithm of size and stretch."""
+
+
 class LevelCache:
     """Outlines and containers as levels see them, each made once.
 
@@ -66,7 +71,7 @@ class LevelCache:
     """
 
     def __init__(self) -> None:
-        self._seen: dict[tuple[float, float], OutlineCache] = {}
+        self._seen: dict[tuple[float, float], tuple[OutlineCache, _ByPose]] = {}
         self._kept = set[Outline]()
         self._covers: tuple[Sequence[Outline], Sequence[float], list[Outline]] = ((), (), [])
         self._region: tuple[Container, float, Container] | None = None
@@ -102,12 +107,15 @@ class LevelCache:
         if len(self._kept) > MOST:
             self._seen, self._kept = {}, set()
         self._kept.update(outlines)
-        seen = self._seen.setdefault((px_per_cu, margin), OutlineCache())
+        before, known = self._seen.setdefault((px_per_cu, margin), (OutlineCache(), {}))
         # Of sizes that share an outline the first would tell which: here they are the same.
         rungs = np.rint(np.log2(poses.scale) * MARGIN_RUNGS) / MARGIN_RUNGS
-        return simplify_for_level(
-            outlines, replace(poses, scale=2.0**rungs), px_per_cu, margin, seen
-        )
+        keys = list(zip(outlines, rungs.tolist(), poses.stretch.tolist(), strict=True))
+        if new := [k for k, key in enumerate(keys) if key not in known]:
+            some = replace(poses, scale=2.0**rungs).subset(np.array(new))
+            made = simplify_for_level([outlines[k] for k in new], some, px_per_cu, margin, before)
+            known.update(zip([keys[k] for k in new], made, strict=True))
+        return [known[key] for key in keys]
 
 
 def _covered(outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:
