@@ -194,6 +194,17 @@ def test_exports_are_files(open_desk: Callable[..., Desk], kind: str) -> None:
     assert waiting.value.suggested_filename.endswith(f".{kind}")
 
 
+def test_any_colour_behind_an_export_can_be_typed_on_a_phone(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk(PHONE, color_scheme="dark")
+    desk.page.keyboard.press("Control+e")
+    field = desk.page.locator("dialog.export input[name=background]")
+    field.wait_for()
+    assert field.bounding_box()["width"] > 100
+    desk.picture("export-phone")
+
+
 def test_an_export_is_shown_as_it_will_be(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.settled()
