@@ -82,7 +82,7 @@ def test_no_round_makes_trials_whatever_the_effort(monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(finish, "finish", counted)
     found = Separate().run(state, RunContext())
-    assert len(trials) == ROUNDS["best"]
+    assert len(trials) == ROUNDS
     assert set(trials) == {0}
     assert found.job is state.job
 
