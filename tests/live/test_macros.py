@@ -324,3 +324,32 @@ def test_what_is_poor_is_told_as_of_a_run() -> None:
     session.cover("10%")
     session.finish()
     assert any("would show it" in line for line in session.advice)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_words_come_among_icons_with_their_share_of_what_is_covered(
+    icons: pw.Layout, seed: int
+) -> None:
+    session = icons.edit()
+    session.mix({"bear": 4, "fox": 3, "owl": 2}, "40%", seed=seed)
+    for share in (0.4, 0.7):
+        assert session.finish().certified
+        document = session.document
+        is_word = np.array([item.text is not None for item in document.items])
+        assert (len(document), int(is_word.sum())) == (12, 3)
+        areas = document.areas
+        assert areas[is_word].sum() / areas.sum() == pytest.approx(share, rel=1e-6)
+        assert document.poses.angle[is_word] == pytest.approx(0.0, abs=1e-9)
+        if share == 0.4:
+            session.mix(None, 0.7, seed=seed)
+    for _ in range(2):
+        session.undo()
+    assert session.document.poses.x.tobytes() == icons.poses.x.tobytes()
+
+
+def test_a_share_is_of_words_among_others(icons: pw.Layout, cloud: pw.Layout) -> None:
+    for layout, source in ((icons, None), (cloud, None), (cloud, {"elk": 1})):
+        with pytest.raises(RecipeError, match="one kind only"):
+            layout.edit().mix(source, 0.5)
+    with pytest.raises(RecipeError, match="must be a share such as 70%"):
+        icons.edit().mix({"elk": 1}, 2)

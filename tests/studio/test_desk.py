@@ -285,7 +285,9 @@ KINDS = ["svg", "pdf", "png", "dxf", "geojson", "packwork", "recipe", "film.svg"
 
 def test_all_formats_are_exported(play) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
-        found = {kind: await Exporter(desk).file({"format": kind, "options": {}}) for kind in KINDS}
+        found = {
+            kind: await Exporter(desk, Path).file({"format": kind, "options": {}}) for kind in KINDS
+        }
         assert [kind for kind, (data, media) in found.items() if not (data and media)] == []
 
     async def waiting(desk: Workspace, open_page: Callable) -> None:
@@ -300,7 +302,7 @@ def test_an_exported_recipe_runs(play, tmp_path: Path) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
-        data, _ = await Exporter(desk).file({"format": "recipe"})
+        data, _ = await Exporter(desk, Path).file({"format": "recipe"})
         zipfile.ZipFile(BytesIO(data)).extractall(tmp_path)
 
     play(scenario)
@@ -323,7 +325,7 @@ def test_what_cannot_be_exported_is_refused_in_a_line(play, asked: dict, said: s
         page = open_page()
         await page.until(lambda: page.is_certified)
         with pytest.raises(PackworkError, match=said) as refusal:
-            await Exporter(desk).file(asked)
+            await Exporter(desk, Path).file(asked)
         assert "\n" not in str(refusal.value)
 
     play(scenario)
@@ -335,7 +337,7 @@ def test_options_that_mean_nothing_are_refused_before_it_is_waited_for_what_move
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
         await page.until(lambda: page.is_certified)
-        exporter = Exporter(desk)
+        exporter = Exporter(desk, Path)
         monkeypatch.setattr(exporter, "_at_rest", pytest.fail)
         with pytest.raises(PackworkError, match="no colour"):
             await exporter.file({"format": "png", "options": {"background": "notacolour"}})

@@ -173,6 +173,7 @@ class Session(LiveSession):
     count = edits.count
     cover = edits.cover
     words = edits.words
+    mix = edits.mix
     arrange = edits.arrange
 
     def widget(self) -> Any:
@@ -226,16 +227,25 @@ class Session(LiveSession):
         """Fill another container, whatever :func:`read_container` reads, on a canvas as large."""
         edits.set_container(self, read_container(source, canvas=self.canvas))
 
-    def picture(self, source: Value) -> None:
-        """Show a picture, from afar: each item takes on its colour there; photographs keep theirs.
+    def picture(self, source: Value | None = None, tint: float | str | None = None) -> None:
+        """Have a picture that the items show from afar: each takes on its colour where it lies.
 
         Parameters
         ----------
         source
-            As ``picture`` of :func:`fill`: a file, or an image in memory.
+            As ``picture`` of :func:`fill`: a file, or an image in memory; unless given, the one
+            that there is.
+        tint
+            How far, as ``.3`` or ``"30%"``. Unless given, photographs keep their colours.
         """
         with handed_over() as handed:
-            edits.picture(self, handed.picture_name_of(source, "picture"))
+            name = None if source is None else handed.picture_name_of(source, "picture")
+            edits.picture(self, name, tint)
+
+    def backdrop(self, source: Value) -> None:
+        """Have a picture behind all, which covers the canvas, also in files that are written."""
+        with handed_over() as handed:
+            edits.backdrop(self, handed.picture_name_of(source, "backdrop"))
 
     def embeddings(
         self, source: Any, anchors: str | Anchor | Sequence[str | Anchor] = (), *, seed: int = 0

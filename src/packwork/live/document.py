@@ -13,7 +13,9 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.forces.forces import NO_FORCES, Forces
+from packwork.live.ground import covering, sheet_box
 from packwork.live.kinds import Kind, kind_of
+from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.forces import forces_of
@@ -49,6 +51,10 @@ class Document:
         ``(n, 3)`` whether place, angle and size stay exactly as they are.
     notes
         Labels on items and letters beside them, as they were at first.
+    mosaic
+        The picture that items show from afar; None for none.
+    behind
+        Picture or gradient that covers the canvas behind all; None for none.
 
     Examples
     --------
@@ -70,6 +76,8 @@ class Document:
     next_id: int
     manifest: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[Attached, ...] = ()
+    mosaic: Mosaic | None = None
+    behind: Item | None = None
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -115,9 +123,16 @@ class Document:
         """The layout as it is now; of its manifest what does not depend on places."""
         ground = ground_in(self.manifest)
         manifest = self.kind.stated(self.manifest, self.ids)
-        made = Layout(self.container, self.items, self.poses, self.weights, manifest, ground=ground)
+        made = Layout(self.grounded, self.items, self.poses, self.weights, manifest, ground=ground)
         rows = {number: row for row, number in enumerate(self.ids.tolist())}
         return replace(made, notes=tuple(notes_on(made, rows, self.notes)))
+
+    @cached_property
+    def grounded(self) -> Container:
+        """The container with what is behind all."""
+        if self.behind is None:
+            return self.container
+        return replace(self.container, backdrop=covering(self.behind, sheet_box(self.container)))
 
     @property
     def title(self) -> str:
@@ -160,6 +175,13 @@ class Document:
         if not texts:
             return NO_FORCES
         return forces_of(texts, [self.items[k] for k in rows], self.weights[rows], self.container)
+
+    def rows_moved_from(self, before: Document) -> IntArray:
+        """Rows of items that lie elsewhere than in another document, or are new."""
+        _, rows, theirs = np.intersect1d(self.ids, before.ids, return_indices=True)
+        stays = np.zeros(len(self), dtype=bool)
+        stays[rows] = ~differing(self.poses.subset(rows), before.poses.subset(theirs))
+        return np.flatnonzero(~stays)
 
     def with_ranges(self, options: LiveOptions) -> Document:
         """The same with other options, and sizes that vary as these say.
@@ -255,11 +277,12 @@ class Change:
             return cls(Invalidation.RULES, after.ids[ruled])
         drawn = [a is not b for a, b in zip(before.items, after.items, strict=True)]
         drawn_or_weighed = np.array(drawn, dtype=bool) | (before.weights != after.weights)
+        is_dressed = before.mosaic is not after.mosaic or before.behind is not after.behind
         stated = (before.manifest.keys() | after.manifest.keys()) - {"title"}
         is_told = before.manifest is not after.manifest and any(
             before.manifest.get(k) != after.manifest.get(k) for k in stated
         )
-        is_seen = is_told or drawn_or_weighed.any()
+        is_seen = is_dressed or is_told or drawn_or_weighed.any()
         stale = Invalidation.DRAWING if is_seen else Invalidation.NOTHING
         return cls(stale, after.ids[drawn_or_weighed])
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from packwork.errors import RecipeError
 from packwork.live.edit_flags import Edit, Flag, declared_in
+from packwork.live.picture_edits import PICTURE_EDITS, backdrop, mix, picture, share_of
 
 if TYPE_CHECKING:
     from packwork.live.clips import CopiedItems
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from packwork.recipe.pictures import Shades
     from packwork.scene.container import Container
     from packwork.scene.item import Item
+
+__all__ = ["backdrop", "mix", "picture"]
 
 EDITS: list[Edit] = []
 """In the order in which a command line does them."""
@@ -99,7 +102,10 @@ def palette(session: Session, palette: str | Sequence[str] | None, shades: Shade
 
 @edit(Flag("--background"))
 def background(session: Session, color: str) -> None:
-    """Have a colour behind all, also in files that are written; ``none`` for none."""
+    """Have a colour behind all, also in files that are written; ``none`` for none.
+
+    Or a gradient, as CSS writes it: ``linear-gradient(90deg, navy, pink)``.
+    """
     session.do("background", colour=color)
 
 
@@ -346,15 +352,7 @@ def count(session: Session, count: int) -> None:
 @edit(Flag("--cover", "SHARE", "Make all larger or smaller, to cover that."))
 def cover(session: Session, share: str | float) -> None:
     """Make all larger or smaller, to cover a share of the container: ``.7`` or ``"70%"``."""
-    from packwork.units import parse_share
-
-    try:
-        asked = float(str(parse_share(share)))
-    except (TypeError, ValueError) as error:
-        raise RecipeError("cover", f"must be a share such as 70%, not {share!r}") from error
-    if not 0 < asked < 1:
-        raise RecipeError("cover", f"must be a share such as 70%, not {share}")
-    session.do("cover", share=asked)
+    session.do("cover", share=share_of("cover", share))
 
 
 @edit(Flag("--arrange"))
@@ -378,9 +376,4 @@ def embeddings(
     session.apply(poured_again(session.document, seed, embeddings=source, anchors=anchors))
 
 
-@edit(Flag("--picture", help="Show a picture: each item takes on its colour there."))
-def picture(session: Session, source: str) -> None:
-    """Give each item the colour of a picture under it; photographs keep theirs."""
-    from packwork.live.macros import showing
-
-    session.apply(showing(session.document, source))
+EDITS += PICTURE_EDITS

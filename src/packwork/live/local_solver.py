@@ -11,6 +11,7 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.live.certificate import Certificate, Settlement, beyond
 from packwork.live.document import PROPERTIES, Change, Document, Invalidation, differing
 from packwork.live.history import Frames, Marks, SessionState
+from packwork.live.mosaic import coloured
 from packwork.live.neighbourhood.caches import LevelCache, ShapeCache
 from packwork.live.neighbourhood.contacts import RINGS
 from packwork.live.neighbourhood.fall import fallen
@@ -196,7 +197,10 @@ class LocalSolver:
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
 
     def settled(self) -> None:
-        """Note that all that was touched is finished."""
+        """Note that all that was touched is finished; items of a mosaic take its colours there."""
+        shown = coloured(self.document, self.document.rows_moved_from(self.base))
+        if shown is not self.document:
+            self._turn_to(shown)
         self.base = self.document
         self.marks.settled()
         self.film()
@@ -246,6 +250,7 @@ class LocalSolver:
             return None
         marks.polished += 1
         now = before.with_poses(poses) if is_clean else before
+        now = coloured(now, now.rows_moved_from(before))
         self.base = now if is_clean else self.base
         self._turn_to(now)
         marks.tried += trials
@@ -260,10 +265,7 @@ class LocalSolver:
             self._frames.keep(self.document)
 
     def _put_back(self) -> set[int]:
-        """Put back what flowed and lies far from what was touched; numbers of what is near.
-
-        It lay well before, and where the hand only passed by, it does so again.
-        """
+        """Put back what flowed far from what was touched: it lay well; numbers of what is near."""
         flow, base, now = self._flow, self.base, self.document
         if not flow.is_begun:
             return set()

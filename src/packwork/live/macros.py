@@ -1,4 +1,4 @@
-"""Macros: commands for another number of items, another list of words, the colours of a picture."""
+"""Macros: commands for another number of items, or another list of words."""
 
 from __future__ import annotations
 
@@ -12,18 +12,15 @@ import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, made, named_item, true_scale
-from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut
-from packwork.live.commands.items import Add, Recolour, Remove, Replace, Weigh
-from packwork.live.commands.together import Together
+from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut, SetOption
+from packwork.live.commands.items import Add, Remove, Replace, Weigh
 from packwork.live.document import Document, counted_weight
 from packwork.live.neighbourhood.places import widest_places
 from packwork.phrasing import enumerated
-from packwork.readers.target import read_target
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.scene.colour import hex_colour
-from packwork.scene.item import Item, PhotoArt
+from packwork.scene.item import Item
 from packwork.scene.recolour import one_colour, recoloured
-from packwork.steps.mosaic import colours_under
 from packwork.uses.words.recipe import words_recipe
 
 if TYPE_CHECKING:
@@ -177,6 +174,48 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
         yield made(LeaveOut, words=left_out)
 
 
+def mixed(
+    session: Session, read: WordsRead | None, share: float, colours: Sequence[str] = ()
+) -> list[Command]:
+    """Commands after which words have a share of what all cover, and other items the rest.
+
+    Sizes are in proportion from then on, and words horizontal; where all lie, a run is to find.
+
+    Parameters
+    ----------
+    read
+        Words that come beside those that are there; None for none.
+    colours
+        Of new words, in turn; none for that in which they were set.
+    """
+    document, new = session.document, () if read is None else read.items
+    rows = np.array([item.text is not None for item in document.items])
+    if rows.all() or not (len(new) or rows.any()):
+        raise RecipeError("share", "is of words among other items; there is one kind only")
+    weights = document.weights
+    kept = weights[rows]
+    come = np.zeros(0) if read is None else read.areas / float(np.mean(read.areas))
+    come = come * (float(np.mean(kept)) if len(kept) else 1.0)
+    others = float(weights[~rows].sum())
+    unit = others * share / (1 - share) / float(kept.sum() + come.sum())
+    commands: list[Command] = [
+        made(SetOption, name=name, value=value)
+        for name, value in (("sizes", "shared"), ("rotate", "horizontal"))
+        if getattr(document.options, name) != value
+    ]
+    commands += [
+        made(Weigh, items=(int(number),), weight=unit * float(weight))
+        for number, weight in zip(document.ids[rows], kept, strict=True)
+    ]
+    x, y = (side / 2 for side in (document.container.width, document.container.height))
+    area = float(document.areas.sum()) / (others + unit * float(kept.sum()))
+    for k, (item, weight) in enumerate(zip(new, (unit * come).tolist(), strict=True)):
+        one = recoloured(item, colours[k % len(colours)]) if colours else item
+        asset = named_item(session.library, one)
+        commands.append(made(Add, asset=asset, x=x, y=y, area=area * weight, weight=weight))
+    return commands
+
+
 def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[str, float]:
     """Words left out with how often they were there; none where there are others than before."""
     before, words = document.left_out, [item.name for item in document.items]
@@ -241,26 +280,6 @@ def _spared(document: Document, present: Counter[Item], count: int) -> tuple[int
         present[document.items[k]] -= 1
         gone.append(int(document.ids[k]))
     return tuple(gone)
-
-
-def showing(document: Document, source: str) -> Together:
-    """Commands that give each item the colour of the picture under it; photographs keep theirs.
-
-    For gaps of any colour: what ``--picture`` makes up for is that of a ground of its own.
-    """
-    target = read_target(source, document.container)
-    colours = colours_under(document.layout, target)
-    triples = zip(document.ids.tolist(), document.items, colours, strict=True)
-    commands = tuple(
-        Recolour(items=(number,), colour=colour)
-        for number, item, colour in triples
-        if not isinstance(item.art, PhotoArt)
-    )
-    if not commands:
-        raise RecipeError(
-            "picture", "needs items whose colours may change; photographs keep theirs"
-        )
-    return Together(commands=commands)
 
 
 def prepared(

@@ -22,6 +22,7 @@ from packwork.live.commands.placing import Arrange
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.kinds import PileKind
 from packwork.live.macros import word_rows
+from packwork.live.mosaic import Mosaic
 from packwork.live.nested_again import nested_again
 from packwork.live.options import LiveOptions
 from packwork.pipeline import run
@@ -30,6 +31,7 @@ from packwork.pipeline.plan.copies import ItemRules, RuleSource
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.precompile import warm_up_once
 from packwork.progress import Step, Stop, never
+from packwork.readers.target import painted
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.order import FROM_TEXT
 from packwork.recipe.piles import PileOptions
@@ -38,6 +40,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.temporary import TemporaryFolder
 from packwork.uses.words.again import with_sizes_that_give_way
 
 BY_TEXT = FROM_TEXT
@@ -67,7 +70,10 @@ def poured_again(
     if isinstance(document.kind, PileKind):
         return _heaped(document, document.kind, seed, shown, stop, asked)
     is_by_text = asked.get("embeddings") == BY_TEXT
-    job = job_again(document, seed, {} if is_by_text else asked)
+    if document.mosaic is not None and not asked:
+        job = _mosaic_again(document, seed, document.mosaic)
+    else:
+        job = job_again(document, seed, {} if is_by_text else asked)
     if is_by_text:
         job = replace(job, vectors=_vectors_by_text(document, asked))
     try:
@@ -162,6 +168,14 @@ def gives_way(document: Document) -> bool:
     """Whether a cloud's words are in proportion only as far as that leaves it full."""
     is_free = document.options.sizes == "shared" and not promise_of(document).areas_in_shares
     return is_free and 0 < len(document) == len(word_rows(document))
+
+
+def _mosaic_again(document: Document, seed: int, mosaic: Mosaic) -> Job:
+    """The same, whose items lie where they show a picture best."""
+    with TemporaryFolder("mosaic") as folder:
+        file = folder.path / "picture.png"
+        file.write_bytes(painted(mosaic.picture))
+        return job_again(document, seed, {"picture": str(file), "tint": mosaic.tint})
 
 
 def _asked(document: Document) -> tuple[ItemRules, ...]:

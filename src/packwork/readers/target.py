@@ -10,15 +10,19 @@ from PIL import Image
 
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError
+from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
+from packwork.readers.pictures.developing import Photograph, inspected
 from packwork.readers.reading import reading_file
+from packwork.readers.svg.art import KeptOriginal
 from packwork.readers.svg.item import item_of_svg
+from packwork.scene.colour import hex_colour
 from packwork.scene.container import Container
 from packwork.scene.contrast import light_of
-from packwork.scene.item import VectorArt
+from packwork.scene.item import Item, PhotoArt, VectorArt
 from packwork.scene.notation import matrix_text
 from packwork.scene.target import TargetPicture
 
@@ -28,6 +32,9 @@ takes longer by its square. Chosen."""
 
 DECODED_PX = 1_600
 """Longer side to which a picture is decoded. As above."""
+
+PREVIEW_PX = 1_200
+"""Longer side of the copy of a kept picture that screens show. Chosen."""
 
 PLAIN = 0.005
 """Standard deviation of light below which a picture shows nothing. Chosen."""
@@ -50,9 +57,59 @@ def read_target(
     it.
     """
     data = read_bytes(source, MAX_PICTURE_BYTES)
-    if Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<":
-        data = _painted(data, str(source), reading)
+    if _is_drawing(source, data):
+        item = item_of_svg(data, stem(source), str(source), reading=reading)
+        return target_of(item, container)
+    return _target(data, str(source), container)
+
+
+def target_of(picture: Item, container: Container) -> TargetPicture:
+    """The same of a picture that is an item: all of what it draws."""
+    return _target(painted(picture), picture.name, container)
+
+
+def kept_picture(source: str | Path, longest_px: int) -> Item:
+    """Picture of a file as one item, which holds no more than so many pixels along its longer side.
+
+    What is no drawing is a photograph that needs its file no more.
+    """
+    data, name = read_bytes(source, MAX_PICTURE_BYTES), stem(source)
     with reading_file(str(source)):
+        if _is_drawing(source, data):
+            return item_of_svg(data, name, str(source))
+        negative = inspected(data)
+        wide, high = float(negative.width), float(negative.height)
+        photo = Photograph(
+            str(source), name, (0.0, 0.0, wide, high), "", "", "none", (-wide / 2, -high / 2)
+        )
+        seen, art = (
+            photo.drawn(photo.developed(data, px / max(wide, high)))
+            for px in (min(longest_px, PREVIEW_PX), longest_px)
+        )
+    box = Outline.box(-wide / 2, -high / 2, wide / 2, high / 2)
+    return Item(name, name, box, box, PhotoArt(seen, KeptOriginal(art)))
+
+
+def picture_colours(source: str | Path, count: int) -> list[str]:
+    """Colours of a picture that differ most, so many at most, the most frequent first."""
+    data = read_bytes(source, MAX_PICTURE_BYTES)
+    with reading_file(str(source)):
+        pixels = decode_picture(data, LONGEST_PX).pixels
+    solid = pixels[pixels[..., 3] >= SOLID][:, :3]
+    if not len(solid):
+        raise ReadError(source, "shows nothing, for it is clear; use a picture that is seen")
+    few = Image.fromarray(solid[None]).quantize(count, Image.Quantize.MEDIANCUT)
+    listed = np.reshape(few.getpalette() or [], (-1, 3)).tolist()
+    often = np.bincount(np.asarray(few).ravel())
+    return [hex_colour(tuple(listed[k])) for k in np.argsort(-often, kind="stable") if often[k]]
+
+
+def _is_drawing(source: str | Path, data: bytes) -> bool:
+    return Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<"
+
+
+def _target(data: bytes, source: str, container: Container) -> TargetPicture:
+    with reading_file(source):
         pixels = decode_picture(data, DECODED_PX).pixels
     if not (pixels[..., 3] >= SOLID).any():
         raise ReadError(source, "shows nothing, for it is clear; use a picture that is seen")
@@ -68,13 +125,12 @@ def read_target(
     return target
 
 
-def _painted(data: bytes, source: str, reading: ReadOptions | None) -> bytes:
-    """PNG of what an SVG's bytes draw, without its page unless that is to stay."""
-    item = item_of_svg(data, stem(source), source, reading=reading)
+def painted(item: Item) -> bytes:
+    """PNG of what a drawing or a photograph shows."""
+    art = cast("VectorArt", item.art.preview if isinstance(item.art, PhotoArt) else item.art)
     left, top, right, bottom = item.ink.bounds
     px = max(right - left, bottom - top) / DECODED_PX
     size = [max(round((right - left) / px), 1), max(round((bottom - top) / px), 1)]
-    art = cast("VectorArt", item.art)
     document = (
         f'<svg {_SPACES} width="{size[0]}" height="{size[1]}" preserveAspectRatio="none"'
         f' viewBox="{left!r} {top!r} {right - left!r} {bottom - top!r}">'
@@ -83,7 +139,7 @@ def _painted(data: bytes, source: str, reading: ReadOptions | None) -> bytes:
     try:
         return drawn_png(document)
     except ValueError as error:
-        raise ReadError(source, f"cannot be drawn: {error}") from None
+        raise ReadError(item.name, f"cannot be drawn: {error}") from None
 
 
 def _on_white(pixels: Pixels) -> FloatArray:

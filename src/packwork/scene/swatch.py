@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeAlias
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from PIL import Image, UnidentifiedImageError
@@ -45,6 +46,8 @@ pale the mean, smaller leaves pastels out. Chosen."""
 _COLOURED_SHARE = 0.05
 """Share of what shows that must not be all but white to stand for the whole: larger lets a
 white thing with a coloured rim vanish, smaller lets its soft edge decide. Chosen."""
+
+_LIGHTS: WeakKeyDictionary[Art, FloatArray] = WeakKeyDictionary()
 
 _SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 
@@ -89,11 +92,10 @@ def mean_light(item: Item) -> FloatArray:
 
 def mean_lights(items: Sequence[Item]) -> FloatArray:
     """``(n, 3)`` :func:`mean_light` of items, once of each drawing."""
-    known: dict[Art, FloatArray] = {}
     for item in items:
-        if item.art not in known:
-            known[item.art] = mean_light(item)
-    return np.array([known[item.art] for item in items])
+        if item.art not in _LIGHTS:
+            _LIGHTS[item.art] = mean_light(item)
+    return np.array([_LIGHTS[item.art] for item in items])
 
 
 def patch_of(item: Item, grid: int) -> FloatArray:

@@ -18,7 +18,7 @@ from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.contrast import between, channels_of, light_of, oklabs_of_light, readable
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import Layout
-from packwork.scene.recolour import tinted_photo
+from packwork.scene.recolour import tinted_photo, with_own_art
 from packwork.scene.swatch import ShownLight, mean_lights, shown_light
 from packwork.scene.target import TargetPicture, blurred
 from packwork.writers.recolour_drawings import with_mean_colour
@@ -69,13 +69,17 @@ class CoverWindow:
         return np.asarray(self.shares.ravel() @ seen.reshape(-1, seen.shape[2]) / whole)
 
 
-def in_picture(job: Job, target: TargetPicture, layout: Layout) -> Layout:
-    """Layout whose items have the colours that show a picture, on the ground that suits it."""
+def in_picture(
+    layout: Layout, target: TargetPicture, tints: FloatArray, ground: str | None
+) -> Layout:
+    """Layout whose items have the colours that show a picture, on the ground that suits it.
+
+    ``tints``: ``(n,)`` how far each takes them on; ``ground``: None for the one that shows it best.
+    """
     if not layout.items:
         return layout
-    tints = job.tints
     windows = windows_of(layout, target)
-    ground = job.recipe.ground or best_ground(target, _covered(windows, target))
+    ground = ground or best_ground(target, _covered(windows, target))
     own = mean_lights(layout.items)
     wanted = _wanted(target, windows, own, tints, light_of(_channels(ground)))
     shown = _Shown()
@@ -84,26 +88,6 @@ def in_picture(job: Job, target: TargetPicture, layout: Layout) -> Layout:
         for item, colour, share, light in zip(layout.items, wanted, tints, own, strict=True)
     ]
     return replace(layout, items=tuple(items), ground=hex_colour(css_colour(ground)))
-
-
-def colours_under(layout: Layout, target: TargetPicture) -> list[str]:
-    """Mean colour of a picture under each item of a layout, whatever shows in the gaps.
-
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.item import FlatArt, Item
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.box(0, 0, 10, 10)
-    >>> item = Item("tile", "tile", tile, tile, FlatArt("black"))
-    >>> one, zero = np.ones(1), np.zeros(1)
-    >>> room = Container("c", "c", tile, 10, 10)
-    >>> layout = Layout(room, (item,), Poses(zero, zero, zero, one), one)
-    >>> colours_under(layout, TargetPicture(np.zeros((10, 10, 3)), 1.0))
-    ['#000000']
-    """
-    return [_hex(one.mean(target.light)) for one in windows_of(layout, target)]
 
 
 def best_ground(target: TargetPicture, covered: float) -> str:
@@ -201,11 +185,11 @@ def _tinted(
     if share == 0:
         return item
     if isinstance(item.art, PhotoArt):
-        return tinted_photo(item, colour, share)
+        return with_own_art(tinted_photo(item, colour, share), item)
     mixed = between((_hex(own), colour), share) if share < 1 else colour
     if item.text is not None:
         mixed = readable(mixed, ground, READ)
-    return with_mean_colour(item, mixed, shown.of(item))
+    return with_own_art(with_mean_colour(item, mixed, shown.of(item)), item)
 
 
 def _channels(colour: str) -> FloatArray:
@@ -299,7 +283,8 @@ class ShowPicture(RunStep):
         """State whose layout is recoloured."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
-            layout = in_picture(state.job, self._target, layout)
+            job = state.job
+            layout = in_picture(layout, self._target, job.tints, job.recipe.ground)
         hidden = unrecognised(state.job, self._target, layout)
         found = state.findings if hidden is None else (*state.findings, hidden)
         return replace(state, layout=layout, findings=found)

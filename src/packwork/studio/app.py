@@ -50,7 +50,10 @@ class Studio:
 
     def __init__(self, workspace: Workspace, uploads: Uploads, secret: Secret) -> None:
         self._workspace, self._uploads, self._secret = workspace, uploads, secret
-        self._importer, self._exporter = Importer(workspace, uploads), Exporter(workspace)
+        self._importer, self._exporter = (
+            Importer(workspace, uploads),
+            Exporter(workspace, uploads.folder),
+        )
         self._tabs: set[Tab] = set()
         self._presence = Presence()
 

@@ -24,6 +24,7 @@ Template: TypeAlias = Literal[
     "icons", "letters", "words", "names", "jar", "nest", "photos", "mosaic"
 ]
 Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
+Font: TypeAlias = Annotated[str, Field(max_length=200)]
 
 
 class PageRequest(Message):

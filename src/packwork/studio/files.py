@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import re
 import secrets
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from packwork.live.face.exporting import (
     layout_bytes,
     recipe_zip,
 )
+from packwork.live.face.offers import only_file
 from packwork.studio.workspace import NOT_YET, Workspace
 from packwork.temporary import TemporaryFolder
 
@@ -31,6 +33,9 @@ MOST_BYTES_IN_ALL = 1_000_000_000
 
 MOST_FILES = 2_000
 """Files at most. Chosen."""
+
+FILES = "file:"
+"""What stands before the name of a batch of files."""
 
 LONGEST_NAME = 200
 """Bytes of a file's name at most: systems take 255, and a number may be added. Derived."""
@@ -115,10 +120,13 @@ PATIENCE_SECONDS = 20.0
 
 
 class Exporter:
-    """Writes what the workspace has."""
+    """Writes what the workspace has.
 
-    def __init__(self, workspace: Workspace) -> None:
-        self._workspace = workspace
+    ``folder_of``: folder of a batch of files that were sent.
+    """
+
+    def __init__(self, workspace: Workspace, folder_of: Callable[[str], Path]) -> None:
+        self._workspace, self._folder_of = workspace, folder_of
 
     async def file(self, asked: Any) -> tuple[bytes, str]:
         """Bytes of a file, and what browsers call its format.
@@ -130,6 +138,9 @@ class Exporter:
         kind, options = asked.get("format"), asked.get("options", {})
         if not isinstance(kind, str) or not isinstance(options, dict):
             raise RecipeError("export", "takes a format and options")
+        if (sent := str(options.get("icc"))).startswith(FILES):
+            profile = only_file(self._folder_of(sent.removeprefix(FILES)))
+            options = {**options, "icc": profile}
         if kind not in (*FORMATS, *FILM_FORMATS, SESSION, RECIPE):
             raise RecipeError("export", f"is not made as {kind[:20]!r}")
         owner = self._workspace.owner

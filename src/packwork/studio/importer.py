@@ -9,12 +9,9 @@ from pathlib import Path
 from packwork.errors import PackworkError, ReadError
 from packwork.live.face.offers import offered_fonts, only_file
 from packwork.live.face.opening import Opening
-from packwork.studio.files import Uploads
+from packwork.studio.files import FILES, Uploads
 from packwork.studio.view import told_of
 from packwork.studio.workspace import Workspace
-
-FILES = "file:"
-"""What stands before the name of a batch of files."""
 
 BUILTIN = "builtin:"
 TEXT = "text:"

@@ -25,8 +25,9 @@ from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
 from packwork.scene.container import Container, on_canvas
 from packwork.studio.clipboard import Copy, Paste
-from packwork.studio.documents import Begin, BeginChart, Name, Open, PageRequest
-from packwork.studio.importer import FILES
+from packwork.studio.documents import Begin, BeginChart, Font, Name, Open, PageRequest
+from packwork.studio.files import FILES
+from packwork.studio.pictures import Mix, Picture
 from packwork.studio.wire import SAID
 from packwork.units import canvas_size
 
@@ -47,7 +48,6 @@ SAME = "same"
 Count32: TypeAlias = Annotated[int, Field(ge=0, lt=2**32)]
 Place: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 Weight: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-Font: TypeAlias = Annotated[str, Field(max_length=200)]
 
 
 class Do(PageRequest):
@@ -252,22 +252,6 @@ class Fill(PageRequest):
         tab.workspace.fill(self.use, source, options)
 
 
-class Picture(PageRequest):
-    """Have the items show a picture by their colours."""
-
-    type: Literal["picture"] = "picture"
-    source: Name
-
-    def act(self, tab: Tab) -> None:
-        """Read it, and colour the items."""
-
-        def read() -> None:
-            file = tab.importer.file(self.source)
-            tab.workspace.change(lambda session: edits.picture(session, file), "Colouring")
-
-        tab.importer.read(read)
-
-
 class Order(PageRequest):
     """Put all anew in an order along a way; no measure of a file, which a page cannot name."""
 
@@ -343,7 +327,7 @@ class Set(PageRequest):
 
 Told: TypeAlias = Annotated[
     Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | BeginChart | Swap | Room
-    | OutlineMessage | Fill | Copy | Paste | Picture | Order | Alike | Words | More | Set,
+    | OutlineMessage | Fill | Mix | Copy | Paste | Picture | Order | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

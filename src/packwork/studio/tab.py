@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
+from itertools import chain
 from typing import Protocol
 
 from packwork.errors import PackworkError
@@ -102,11 +103,12 @@ class Tab:
         return self._seen is not None and self._seen[0] is poses and self._seen[1] == done
 
     async def _send_scene(self, scene: Scene) -> None:
-        keys = dict.fromkeys(thing.shape for thing in scene.items if thing.shape not in self._known)
+        shapes = chain((one.shape for one in scene.items), (one.shape for one in scene.under))
+        keys = dict.fromkeys(shape for shape in shapes if shape not in self._known)
         self._known.update(keys)
         if keys:
-            shapes = self.workspace.shapes.shapes
-            await self._say(Shapes(shapes=tuple(shapes[key] for key in keys)))
+            known = self.workspace.shapes.shapes
+            await self._say(Shapes(shapes=tuple(known[key] for key in keys)))
         self._scene = scene
         await self._say(scene)
 

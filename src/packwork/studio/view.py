@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import starmap
 from typing import Any, cast
 
 import numpy as np
@@ -11,14 +12,16 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document, counted_weight
 from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
+from packwork.live.ground import underlays
 from packwork.live.kinds import COLLAGE, Kind
+from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import ground_in
 from packwork.scene.pose import Poses
-from packwork.studio.wire import DrawnNote, LeftOut, Scene, Shape, Thing
+from packwork.studio.wire import DrawnNote, LeftOut, Scene, Shape, Thing, Underlay
 from packwork.studio.wording import for_page
 
 MOST_LEFT_OUT = 100
@@ -34,7 +37,8 @@ class View:
 
     ``poses``: as many as items; None before they have a place.
     ``angles``: the only ones allowed, radians; None for any.
-    ``palette``: colours put on all items; ``ground``: colour behind them.
+    ``palette``: colours put on all items; ``ground``: colour behind them, ``behind``: picture or
+    gradient there.
     """
 
     container: Container
@@ -50,6 +54,8 @@ class View:
     ground: str = ""
     notes: tuple[Attached, ...] = ()
     left_out: Mapping[str, float] = field(default_factory=dict)
+    mosaic: Mosaic | None = None
+    behind: Item | None = None
     poses: Poses | None
 
     @classmethod
@@ -69,6 +75,8 @@ class View:
             ground=ground_in(document.manifest),
             notes=document.notes,
             left_out=document.left_out,
+            mosaic=document.mosaic,
+            behind=document.behind,
             poses=poses or document.poses,
         )
 
@@ -105,6 +113,8 @@ class View:
             and (self.kind, self.title) == (other.kind, other.title)
             and (self.palette, self.ground) == (other.palette, other.ground)
             and self.notes is other.notes
+            and self.mosaic is other.mosaic
+            and self.behind is other.behind
             and self.left_out == other.left_out
             and _same(self.ids, other.ids)
             and _same(self.weights, other.weights)
@@ -112,6 +122,13 @@ class View:
             and len(self.items) == len(other.items)
             and all(a is b for a, b in zip(self.items, other.items, strict=True))
         )
+
+    @property
+    def likeness(self) -> float | None:
+        """Mean share of the picture's colours that items of a mosaic take on; else None."""
+        if self.mosaic is None or not self.items:
+            return None
+        return float(np.mean([self.mosaic.tint_of(item) for item in self.items]))
 
     @property
     def numbers(self) -> FloatArray:
@@ -127,9 +144,13 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
 
 
 def _drawn(one: Attached) -> DrawnNote:
-    note = one.note
-    matrix = cast(tuple[float, float, float, float, float, float], tuple(note.matrix.T.ravel()))
+    note, matrix = one.note, _plain(one.note.matrix)
     return DrawnNote(path=note.path, matrix=matrix, fill=note.fill, item=one.item, pose=one.pose)
+
+
+def _plain(matrix: FloatArray) -> tuple[float, float, float, float, float, float]:
+    """A map as SVGs have it."""
+    return cast(tuple[float, float, float, float, float, float], tuple(matrix.T.ravel()))
 
 
 class Scenes:
@@ -139,6 +160,7 @@ class Scenes:
         self._drawings: dict[Item, Drawing] = {}
         self._last: tuple[View, Scene] | None = None
         self._outline: tuple[Container, str] | None = None
+        self._under: tuple[tuple[object, ...], tuple[Underlay, ...]] = ((), ())
         self.shapes: dict[str, Shape] = {}
         """Looks by their keys."""
 
@@ -169,6 +191,8 @@ class Scenes:
             palette=view.palette,
             ground=view.ground,
             left_out=dict(view.left_out),
+            likeness=view.likeness,
+            under=self._underlays(view),
         )
         self._last = (view, scene)
         return scene
@@ -196,6 +220,17 @@ class Scenes:
             fields = {name: getattr(drawing, name) for name in Shape.model_fields}
             self.shapes[drawing.key] = Shape(**fields)
         return self._drawings[item]
+
+    def _underlays(self, view: View) -> tuple[Underlay, ...]:
+        """Pictures under the items, drawn anew where they or the container are others."""
+        of = (view.container, view.behind, None if view.mosaic is None else view.mosaic.picture)
+        if self._under[0] != of:
+            under = underlays(view.container, view.behind, view.mosaic)
+            self._under = (of, tuple(starmap(self._underlay, under)))
+        return self._under[1]
+
+    def _underlay(self, item: Item, matrix: FloatArray, is_faint: bool) -> Underlay:
+        return Underlay(shape=self._drawing(item).key, matrix=_plain(matrix), faint=is_faint)
 
     def _path(self, container: Container) -> str:
         if self._outline is None or self._outline[0] is not container:

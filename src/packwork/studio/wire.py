@@ -79,6 +79,17 @@ class DrawnNote(Message):
     """x, y, angle and scale of the item where the label was put."""
 
 
+class Underlay(Message):
+    """A picture under all items."""
+
+    shape: str
+    """The drawing, of a canvas' box."""
+    matrix: tuple[float, float, float, float, float, float]
+    """To canvas units, as an SVG has it."""
+    faint: bool
+    """Whether it is the picture that a mosaic shows, seen faintly in the container alone."""
+
+
 class Scene(Message):
     """All that poses do not tell; sent when any of it has changed."""
 
@@ -105,6 +116,10 @@ class Scene(Message):
     """Colour behind all; empty for none."""
     left_out: dict[str, float] = Field(default_factory=dict)
     """Words that a person left out, with how often they were there."""
+    likeness: float | None = None
+    """Share of the colours of the picture shown that items take on; None without one."""
+    under: tuple[Underlay, ...] = ()
+    """The lowest first."""
 
 
 class LeftOut(Message):

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
+import numpy as np
 from pydantic import Field
 
 from packwork.errors import RecipeError
-from packwork.live.commands.command import Command, ItemId, Library, Number, index_of
+from packwork.live.commands.command import Command, ItemId, Library, Number, index_of, known
 from packwork.live.document import Document
 from packwork.live.file.records import Text
+from packwork.live.ground import gradient
+from packwork.live.mosaic import Mosaic, coloured
 from packwork.recipe.pictures import Shades, known_palette
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.groups import of_each
-from packwork.scene.item import Item, PhotoArt
+from packwork.scene.item import Item, PhotoArt, VectorArt
+from packwork.scene.layout import ground_in
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, in_own_colours, with_own_art
 from packwork.steps.appearance import given_out
+from packwork.steps.mosaic import best_ground
 from packwork.uses.cutting import cropped
 from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
@@ -26,7 +31,7 @@ from packwork.writers.recolour_drawings import in_palette, in_shades_of
 class Paint(Command):
     """Give the colours of a palette to all items, neighbours unlike ones; photographs keep theirs.
 
-    Drawings are painted as they were before any colour was put on them.
+    Drawings are painted as they were before any colour was put on them; a mosaic ends by it.
     """
 
     kind: Literal["paint"] = "paint"
@@ -45,7 +50,7 @@ class Paint(Command):
         if palette:
             items = self._painted(document, items, palette)
         manifest = {**document.manifest, "painted": list(palette)}
-        return replace(document, items=items, manifest=manifest)
+        return replace(document, items=items, manifest=manifest, mosaic=None)
 
     def _painted(
         self, document: Document, items: tuple[Item, ...], palette: tuple[str, ...]
@@ -74,17 +79,62 @@ class Paint(Command):
 
 
 class Background(Command):
-    """Have another colour behind all, on the page and in files that ask for none."""
+    """Have another colour, a gradient or a picture behind all, on the page and in files."""
 
     kind: Literal["background"] = "background"
-    colour: Annotated[Text, Field(max_length=100)]
-    """Any CSS colour; empty for none."""
+    colour: Annotated[Text, Field(max_length=400)] = ""
+    """Any CSS colour, or a gradient as CSS writes it; empty for none."""
+    asset: str | None = None
+    """Name of a picture in the library; None for none."""
 
     def applied(self, document: Document, library: Library) -> Document:
-        """The document on that colour."""
-        channels = parse_colour("background", self.colour or "none")
-        ground = hex_colour(channels) if channels[3] else ""
-        return replace(document, manifest={**document.manifest, "ground": ground})
+        """The document on that."""
+        if self.asset is not None:
+            behind: Item | None = picture_in(library, self.asset)
+        else:
+            behind = gradient(self.colour, document.container)
+        ground = ""
+        if behind is None:
+            channels = parse_colour("background", self.colour or "none")
+            ground = hex_colour(channels) if channels[3] else ""
+        return replace(document, manifest={**document.manifest, "ground": ground}, behind=behind)
+
+
+class SetMosaic(Command):
+    """Have a picture that the items show from afar; each takes on its colour there."""
+
+    kind: Literal["mosaic"] = "mosaic"
+    asset: str | None = None
+    """Name of the picture in the library; None for the one that there is."""
+    tint: Annotated[Number, Field(ge=0, le=1)] | None = None
+    """Share of its colours that items take on; None: 0 of photographs, 1 of all else."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document as a mosaic, on a ground that suits it unless it has one."""
+        if document.kind.name == "chart":
+            raise RecipeError("picture", "has no meaning in a chart, whose colours say something")
+        if self.asset is not None:
+            mosaic = Mosaic(picture_in(library, self.asset), self.tint)
+        elif document.mosaic is not None:
+            mosaic = replace(document.mosaic, tint=self.tint)
+        else:
+            raise RecipeError("tint", "is of a mosaic; give it a picture to show")
+        target = mosaic.target(document.container)
+        ground = ground_in(document.manifest)
+        if not ground and document.grounded.backdrop is None:
+            covered = float(document.areas.sum() / document.container.outline.area)
+            ground = best_ground(target, min(covered, 1.0))
+        manifest = {**document.manifest, "painted": [], "ground": ground}
+        shown = replace(document, manifest=manifest, mosaic=mosaic)
+        return coloured(shown, np.arange(len(document)))
+
+
+def picture_in(library: Library, name: str) -> Item:
+    """Picture of a library: a drawing or a photograph."""
+    found = cast(Item, known(library.items, name, "picture"))
+    if not isinstance(found.art, PhotoArt | VectorArt):
+        raise RecipeError("picture", f"{found.name} is neither a drawing nor a photograph")
+    return found
 
 
 class CropPhoto(Command):

@@ -143,7 +143,7 @@ def recipe_zip(document: Document, name: str) -> bytes:
 
 def _drawing(options: Mapping[str, Any]) -> WriteOptions:
     """Options of drawings, or a refusal that names the first that is wrong."""
-    if "icc" in options:
+    if isinstance(options.get("icc"), str):
         raise RecipeError(
             "icc", "names a file of this machine; save the layout and use --icc of packwork edit"
         )

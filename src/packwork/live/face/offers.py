@@ -14,6 +14,7 @@ from packwork.errors import ReadError
 from packwork.fonts import installed_families
 from packwork.geometry.outline import Outline
 from packwork.live.face.exporting import missing
+from packwork.live.mosaic import MOST_PX
 from packwork.live.options import LiveOptions
 from packwork.options import SizeMode, offered
 from packwork.readers.builtin import (
@@ -28,12 +29,15 @@ from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
 from packwork.readers.tables.table import read_table
+from packwork.readers.target import kept_picture, picture_colours
+from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.notation import decimals, matrix_text, path_data
 from packwork.scene.palette import PALETTES
+from packwork.uses.words.recipe import words_recipe
 
 RANGES: Mapping[str, tuple[float, float, float]] = {
     "size_ratio": (1.0, 6.0, 0.1), "evenness": (0.0, 20.0, 0.5), "padding": (0.0, 20.0, 0.5)
@@ -164,6 +168,33 @@ def offered_fonts() -> tuple[str, ...]:
 def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
     """Container of a bundled name, ``text:WORD`` or a file that was given."""
     return read_container(source, canvas, font=font)
+
+
+def picture_of(source: str) -> Item:
+    """Picture of a file that a mosaic is to show."""
+    return kept_picture(source, MOST_PX)
+
+
+MOST_COLOURS = 8
+"""Colours that are taken from a picture at most. Chosen."""
+
+
+def colours_of(source: str) -> list[str]:
+    """Colours of a picture that differ most, the most frequent first."""
+    return picture_colours(source, MOST_COLOURS)
+
+
+def colours_called(palette: str | None) -> list[str]:
+    """Colours of a palette that is called so."""
+    return list(PALETTES.get(palette or "", ()))
+
+
+def words_to_mix(container: Container, file: str, options: Mapping[str, Any]) -> WordsRead:
+    """Words of a text or a table that come among other items."""
+    given = {name: value for name, value in options.items() if value is not None}
+    asked = words_recipe(container.name, file, **given).words
+    assert asked is not None  # noqa: S101
+    return read_word_items(asked)
 
 
 def only_file(folder: Path) -> Path:

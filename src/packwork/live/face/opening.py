@@ -11,10 +11,12 @@ from packwork import uses
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk, lock_beside
+from packwork.live.mosaic import MOST_PX, Mosaic
 from packwork.live.relayout import Shown, poured
 from packwork.live.session import Session
 from packwork.readers.layouts.read import holds_layout, is_drawn, read_written
 from packwork.readers.recipe import read_recipe
+from packwork.readers.target import kept_picture
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe_paths import named_elsewhere
 from packwork.scene.container import Container
@@ -148,6 +150,9 @@ def begun_with(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] 
     if opening.recipe is not None:
         layout = poured(opening.recipe, shown, container=opening.container)
         document = Document.from_layout(layout)
+        if (picture := opening.recipe.picture) is not None:
+            mosaic = Mosaic(kept_picture(picture, MOST_PX), opening.recipe.tint)
+            document = replace(document, mosaic=mosaic)
     if document is not None and opening.title:
         document = replace(document, manifest={**document.manifest, "title": opening.title})
     return None if document is None else (Session(document), None)

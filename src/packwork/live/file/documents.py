@@ -13,6 +13,7 @@ from packwork.live.commands.command import FARTHEST, sized
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text, kept_text
 from packwork.live.file.values import colour_of, matrix_of, matrix_record
+from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
 from packwork.live.options import LiveOptions
 from packwork.options import Options
@@ -20,7 +21,7 @@ from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDE
 from packwork.readers.reading import UnfitError
 from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.container import Container
-from packwork.scene.item import Item
+from packwork.scene.item import Item, PhotoArt, VectorArt
 from packwork.scene.layout import Note
 from packwork.scene.pose import Poses
 
@@ -65,6 +66,15 @@ class NoteRecord(Options):
     pose: tuple[Number, Number, Number, Annotated[Number, Field(gt=0)]] = (0.0, 0.0, 0.0, 1.0)
 
 
+class BehindRecord(Options):
+    """Pictures of a document, which stand among the items."""
+
+    picture: Annotated[int, Field(ge=0)] | None = None
+    """Of a mosaic."""
+    tint: Annotated[Number, Field(ge=0, le=1)] | None = None
+    behind: Annotated[int, Field(ge=0)] | None = None
+
+
 class DocumentRecord(Options):
     """A document, or what differs from the one before: what is not there is as it was.
 
@@ -79,6 +89,7 @@ class DocumentRecord(Options):
     options: LiveOptions | None = None
     next_id: Id | None = None
     manifest: dict[Text, Any] | None = None
+    pictures: BehindRecord | None = None
     notes: tuple[NoteRecord, ...] | None = None
     """Of the first document: all others have them too."""
 
@@ -99,6 +110,7 @@ def records_of(
                 options=document.options,
                 next_id=document.next_id,
                 manifest=dict(document.manifest),
+                pictures=_pictures_record(document, place),
                 notes=tuple(map(_note_record, document.notes)) if before is None else None,
             )
         else:
@@ -110,6 +122,11 @@ def records_of(
                 next_id=None if before.next_id == document.next_id else document.next_id,
                 manifest=(
                     None if before.manifest is document.manifest else dict(document.manifest)
+                ),
+                pictures=(
+                    None
+                    if before.mosaic is document.mosaic and before.behind is document.behind
+                    else _pictures_record(document, place)
                 ),
             )
         before, then = document, now
@@ -183,6 +200,10 @@ def _document(
     next_id = record.next_id if was is None or record.next_id is not None else was.next_id
     options = record.options if was is None or record.options is not None else was.options
     manifest = record.manifest if was is None or record.manifest is not None else was.manifest
+    pictures = record.pictures
+    mosaic, behind = (None, None) if was is None else (was.mosaic, was.behind)
+    if pictures is not None:
+        mosaic, behind = _pictures_of(pictures, items)
     if next_id is None or options is None or manifest is None:
         raise UnfitError("holds a document with something left out")
     _check_ids(ids, next_id)
@@ -199,9 +220,33 @@ def _document(
         next_id=next_id,
         manifest=manifest,
         notes=tuple(map(_note_of, record.notes or ())) if before is None else before.notes,
+        mosaic=mosaic,
+        behind=behind,
     )
     _check_numbers(document)
     return sized(document, "item"), columns
+
+
+def _pictures_record(document: Document, place: Callable[[object], int]) -> BehindRecord:
+    mosaic, behind = document.mosaic, document.behind
+    return BehindRecord(
+        picture=None if mosaic is None else place(mosaic.picture),
+        tint=None if mosaic is None else mosaic.tint,
+        behind=None if behind is None else place(behind),
+    )
+
+
+def _pictures_of(record: BehindRecord, items: Sequence[Item]) -> tuple[Mosaic | None, Item | None]:
+    picture, behind = (
+        None if k is None else _picture(k, items) for k in (record.picture, record.behind)
+    )
+    return None if picture is None else Mosaic(picture, record.tint), behind
+
+
+def _picture(k: int, items: Sequence[Item]) -> Item:
+    if k >= len(items) or not isinstance(items[k].art, PhotoArt | VectorArt):
+        raise UnfitError(f"holds no picture of number {k}")
+    return items[k]
 
 
 def _note_record(one: Attached) -> NoteRecord:

@@ -51,6 +51,8 @@ function choosing(studio) {
     { id: "all", group: "Choose", label: "Choose all", keys: ["Mod+A"], run: () => choice.set(collage.items.map((item) => item.id)) },
     { id: "alike", group: "Choose", label: "Choose all of the same name", keys: ["A"], when: () => choice.ids.size > 0,
       run: () => studio.chooseAlike() },
+    { id: "lasso", group: "Choose", label: "Choose by a line drawn round them", keys: ["Q"], when: () => collage.hasPoses, run: () => studio.lasso.begin() },
+    { id: "lasso-more", group: "Choose", label: "Choose more by a line", keys: ["Shift+Q"], when: () => choice.ids.size > 0, run: () => studio.lasso.begin(true) },
     { id: "find", group: "Choose", label: "Find items by name", keys: ["/"], run: () => studio.find() },
     { id: "none", group: "Choose", label: "Choose nothing, or leave off", keys: ["Escape"], run: () => studio.escape() },
   ];

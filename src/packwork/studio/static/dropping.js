@@ -97,6 +97,11 @@ export class Dropping {
     this.question(accept, isMany, (files) => this.send(files, then));
   }
 
+  /** Ask for one file. @param {string} accept @param {(batch: string, name: string) => void} then told of its batch and its name */
+  askFile(accept, then) {
+    this.question(accept, false, ([file]) => this.send([file], (batch) => then(batch, file.name)));
+  }
+
   /**
    * @param {string} accept
    * @param {boolean} isMany
@@ -116,9 +121,14 @@ export class Dropping {
     if (files.length) (this.asked ?? this.takes)(files);
   }
 
-  /** Ask for a picture that the items come to show. */
-  choosePicture() {
-    this.ask("image/*", false, (batch) => this.connection.send({ type: "picture", source: `file:${batch}` }));
+  /** Ask for a picture, by default one that the items come to show. @param {import("./mosaic.js").Purpose} [purpose] */
+  choosePicture(purpose = "mosaic") {
+    this.ask("image/*", false, (batch) => this.show(batch, purpose));
+  }
+
+  /** @param {string} batch of one picture @param {import("./mosaic.js").Purpose} purpose */
+  show(batch, purpose) {
+    this.connection.send({ type: "picture", source: `file:${batch}`, purpose });
   }
 
   /** Bring files beside what is there. @param {string} batch */

@@ -2,7 +2,8 @@
 /** The dialog that makes files of the collage. */
 
 import { h } from "./dom.js";
-import { grounds } from "./look.js";
+import { grounds } from "./ground.js";
+import { printFields } from "./printing.js";
 import { tell } from "./toasts.js";
 
 /** @typedef {import("./connection.js").Connection} Connection */
@@ -12,13 +13,13 @@ const FILMED = /** @type {const} */ (["seconds", "film_ratio", "film_pixels", "l
 
 /** Formats: ending, name, what it is for, which options it has. */
 const FORMATS = /** @type {const} */ ([
-  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "margin", "show_container", "text", "flatten"]],
-  ["pdf", "PDF", "for printing", ["background", "margin", "show_container", "bleed"]],
-  ["png", "PNG", "a picture", ["pixels", "background", "margin", "show_container"]],
+  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "margin", "show_container", "text", "flatten", "print"]],
+  ["pdf", "PDF", "for printing", ["background", "margin", "show_container", "bleed", "print"]],
+  ["png", "PNG", "a picture", ["pixels", "background", "margin", "show_container", "print"]],
   ["packwork", "Session", "all of it, with all that undo leads to", []],
   ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "margin", "show_container"]],
   ["webp", "WebP", "a small picture for the web", ["pixels", "background", "margin", "show_container"]],
-  ["tif", "TIFF", "a picture for printers", ["pixels", "background", "margin", "show_container"]],
+  ["tif", "TIFF", "a picture for printers", ["pixels", "background", "margin", "show_container", "print"]],
   ["dxf", "DXF", "for cutters and CAD, in mm", []],
   ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
   ["recipe", "Recipe", "a folder to run again, from the command line or Python", ["lines"]],
@@ -52,10 +53,12 @@ export class Exporting {
   /**
    * @param {Connection} connection
    * @param {Collage} collage
+   * @param {import("./dropping.js").Dropping} dropping
    * @param {() => Promise<any>} offers what the studio offers, or null
    */
-  constructor(connection, collage, offers) {
+  constructor(connection, collage, dropping, offers) {
     this.connection = connection;
+    this.dropping = dropping;
     this.offers = offers;
     this.collage = collage;
     this.kind = "svg";
@@ -86,7 +89,7 @@ export class Exporting {
     const options = FORMATS.find(([ending]) => ending === kind)?.[3] ?? [];
     // Places of parts on a sheet are a machine's.
     const shown = options.filter((name) => name !== "margin" || this.collage.scene?.kind !== "nest");
-    this.fields.replaceChildren(...shown.map((name) => FIELDS[name]()));
+    this.fields.replaceChildren(...shown.map((name) => (name === "print" ? printFields(kind, this.dropping) : FIELDS[name]())));
     this.changed();
   }
 
@@ -114,7 +117,7 @@ export class Exporting {
 
   get options() {
     const fields = /** @type {NodeListOf<HTMLInputElement>} */ (this.fields.querySelectorAll("[name]"));
-    return Object.fromEntries([...fields].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
+    return Object.fromEntries([...fields].filter((field) => !field.disabled).map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
   }
 
   /** @param {string} kind @param {Record<string, any>} options */

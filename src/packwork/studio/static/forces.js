@@ -57,8 +57,8 @@ export class Forces {
     this.studio.canvas.focus();
   }
 
-  /** @param {Point} from @param {Point} to in the window */
-  draw(from, to) {
+  /** @param {Point} to @param {Point} from in the window */
+  draw(to, from) {
     const { view } = this.studio;
     this.arrow = [view.toCanvas(from.x, from.y), view.toCanvas(to.x, to.y)];
   }

@@ -76,8 +76,7 @@ export class Gestures {
    * @returns {Doing}
    */
   begun(event, at, kind) {
-    if (this.stage.forces?.isDrawing) return { act: "force", from: at, at, kind };
-    if (this.stage.sketch?.isDrawing) return { act: "sketch", from: at, at, kind };
+    if (this.drawer) return { act: "draw", from: at, at, kind };
     const room = this.stage.room;
     if (room?.isOn) {
       room.down(at, REACH[kind]);
@@ -91,12 +90,22 @@ export class Gestures {
     const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
     if (handle) return { act: handle.kind, from: at, at, kind, about: this.about(handle), wide: false };
     const id = this.stage.itemAt(at.x, at.y, kind === "touch" ? 8 : 3);
+    if (id === null && event.altKey) {
+      this.stage.lasso?.begin(event.shiftKey);
+      return { act: "draw", from: at, at, kind };
+    }
     if (id === null) return { act: kind === "touch" ? "pan" : "marquee", from: at, at, kind, adds: event.shiftKey };
     const isMore = event.shiftKey || event.metaKey || event.ctrlKey;
     const was = this.choice.has(id);
     if (isMore) this.choice.toggle(id);
     else if (!was) this.choice.set([id]);
     return { act: "item", from: at, at, kind, id, single: was && !isMore, copies: event.altKey };
+  }
+
+  /** What the next drag draws: a force, an outline or a line round items. */
+  get drawer() {
+    const { forces, sketch, lasso } = this.stage;
+    return [forces, sketch, lasso].find((one) => one?.isDrawing);
   }
 
   /**
@@ -157,8 +166,7 @@ export class Gestures {
     else if (doing.act === "crop") this.stage.cropping?.drag(at.x - doing.at.x, at.y - doing.at.y);
     else if (doing.act === "marquee") this.marquee(doing, at);
     else if (doing.act === "room") this.stage.room?.move(doing.from, at, snaps);
-    else if (doing.act === "force") this.stage.forces?.draw(doing.from, at);
-    else if (doing.act === "sketch") this.stage.sketch?.draw(at);
+    else if (doing.act === "draw") this.drawer?.draw(at, doing.from);
     else if (doing.act === "item") {
       const alongX = Math.abs(x) >= Math.abs(y);
       const way = snaps ? [alongX ? x : 0, alongX ? 0 : y] : [x, y];
@@ -237,8 +245,7 @@ export class Gestures {
 
   end() {
     this.stage.room?.drop();
-    this.stage.forces?.drop();
-    this.stage.sketch?.drop();
+    this.drawer?.drop();
     this.hand.drop();
     this.stage.snapping.end();
     this.choice.isBusy = false;
@@ -247,7 +254,8 @@ export class Gestures {
 
   /** Leave off what the pointer does; whether it did anything. */
   cancel() {
-    if (this.stage.forces?.cancel() || this.stage.sketch?.cancel()) {
+    if (this.drawer?.cancel()) {
+      this.choice.isBusy = false;
       this.doing = null;
       this.hears.changed();
       return true;
@@ -330,8 +338,8 @@ export class Gestures {
 
   /** @param {Point} at */
   pointer(at) {
-    const { room, forces, sketch } = this.stage;
-    if (forces?.isDrawing || sketch?.isDrawing) {
+    const { room } = this.stage;
+    if (this.drawer) {
       this.stage.canvas.dataset.over = "draw";
       return;
     }
@@ -347,7 +355,7 @@ export class Gestures {
 }
 
 /**
- * @typedef {{act: "pan" | "force" | "sketch" | "crop" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ * @typedef {{act: "pan" | "draw" | "crop" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, base?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */

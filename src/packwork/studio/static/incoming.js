@@ -1,6 +1,8 @@
 // @ts-check
 /** Dropped or chosen files by their kind: documents open, texts and tables fill, fonts set words. */
 
+import { kindOf as kindOfDocument } from "./kinds.js";
+import { isPicture, PictureQuestion } from "./mosaic.js";
 import { Tables } from "./tables.js";
 import { tell } from "./toasts.js";
 
@@ -24,6 +26,7 @@ export class Incoming {
   constructor(studio) {
     this.studio = studio;
     this.tables = new Tables(studio);
+    this.pictures = new PictureQuestion(studio);
   }
 
   /**
@@ -40,6 +43,7 @@ export class Incoming {
     if (files.length === 1 && kind === "font") return words.take(file);
     const art = files.filter((one) => kindOf(one) === "art");
     for (const one of files) if (!art.includes(one)) tell(`${one.name} is no drawing; give it alone`, { isError: true });
+    if (files.length === 1 && isPicture(file) && dropping.as === "beside" && this.studio.collage.hasPoses && kindOfDocument(this.studio.collage).orders) return this.pictures.ask(file);
     if (art.length) return dropping.send(art, (batch) => dropping.bring(batch));
   }
 

@@ -1,19 +1,19 @@
 // @ts-check
 /** The panel of colours: palettes as strips, colours of one's own, and what is behind all. */
 
-import { button, h, picker } from "./dom.js";
+import { button, h } from "./dom.js";
+import { Ground } from "./ground.js";
+import { Mosaic } from "./mosaic.js";
 
 const SHADES = /** @type {const} */ ([["tint", "tints and shades of one"], ["nearest", "the nearest of these, each"], ["keep", "their own"]]);
 /** A colour that is added, to be changed. */
 const NEW = "#8a8f98";
-/** What is behind all, a press away. */
-const GROUNDS = /** @type {const} */ ([["none", "Transparent"], ["white", "White"], ["#faf7f0", "Paper"], ["#171717", "Black"]]);
-
 export class Look {
   /** @param {import("./studio.js").Studio} studio */
   constructor(studio) {
     this.studio = studio;
-    this.ground = picker("Colour behind all", (colour) => this.setGround(colour));
+    this.ground = new Ground(studio);
+    this.mosaic = new Mosaic(studio);
     this.shades = h("select", { onchange: () => this.colours.length && this.paint(this.colours) }, ...SHADES.map(([value, label]) => h("option", { value }, label)));
     this.strips = h("div", { class: "strips", role: "group", "aria-label": "Palettes" });
     this.own = h("div", { class: "swatches", role: "group", "aria-label": "Colours of the palette" });
@@ -28,7 +28,7 @@ export class Look {
   /** @param {HTMLElement} body */
   async fill(body) {
     body.replaceChildren(
-      h("div", { class: "row wrap" }, h("span", {}, "Background"), ...grounds((colour) => this.setGround(colour)), this.ground.element),
+      ...this.ground.elements, this.mosaic.element,
       h("h3", {}, "Palettes"), this.strips, this.own,
       h("label", { class: "stack" }, "Drawings of several colours get", this.shades),
       h("p", { class: "hint" }, "Neighbours get unlike colours; photographs keep theirs."));
@@ -46,10 +46,10 @@ export class Look {
 
   /** Show what is put on now. */
   refresh() {
-    const { scene } = this.studio.collage;
-    this.ground.show(scene?.ground || "#ffffff", !scene?.ground);
+    this.ground.refresh();
+    this.mosaic.refresh();
     const now = this.colours.join(" ");
-    for (const one of this.strips.querySelectorAll(".strip")) one.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (one).dataset.colours === now));
+    for (const one of this.strips.querySelectorAll(".strip")) one.setAttribute("aria-pressed", String(!this.mosaic.isOn && /** @type {HTMLElement} */ (one).dataset.colours === now));
     if (this.shown === now && this.own.childElementCount) return;
     this.shown = now;
     this.own.hidden = !now;
@@ -69,19 +69,6 @@ export class Look {
   paint(colours) {
     this.studio.connection.do({ kind: "paint", palette: colours, shades: this.shades.value });
   }
-
-  /** @param {string} colour */
-  setGround(colour) {
-    this.studio.connection.do({ kind: "background", colour });
-  }
-}
-
-/**
- * Buttons of a few backgrounds.
- * @param {(colour: string) => void} take
- */
-export function grounds(take) {
-  return GROUNDS.map(([colour, name]) => h("button", { type: "button", class: "ground", "data-ground": colour, title: name, "aria-label": name, onclick: () => take(colour) }));
 }
 
 /** @param {string} colour */

@@ -19,6 +19,8 @@ const TURN_AWAY = 22;
 const HALF = 5;
 /** Characters of path data from which on a drawing is a sprite and not a path. */
 const LONG = 6000;
+/** Opacity of the picture that a mosaic shows, under its items. */
+const FAINT = 0.3;
 /** Half a handle of the smallest items, px. */
 const LEAST_HALF = 2.5;
 
@@ -51,6 +53,8 @@ export class Stage {
     this.forces = null;
     /** @type {import("./sketch.js").Sketch | null} */
     this.sketch = null;
+    /** @type {import("./lasso.js").Lasso | null} */
+    this.lasso = null;
     /** The container in the hand. @type {import("./room.js").Room | null} */
     this.room = null;
     /** A photograph in the hand within its frame. @type {Cropping | null} */
@@ -146,14 +150,31 @@ export class Stage {
     const ground = scene.ground || (scene.notes?.length ? colours.paper : "");
     pen.fillStyle = ground || colours.paper;
     if (ground) pen.fillRect(0, 0, scene.width, scene.height);
-    if (this.showsFaults) pen.fillStyle = colours.free;
     if (this.showsFaults || !ground) pen.fill(this.outline.path, "evenodd");
+    for (const one of scene.under ?? []) this.drawUnder(one);
+    this.toCanvas();
+    if (this.showsFaults) pen.fillStyle = colours.free;
+    if (this.showsFaults) pen.fill(this.outline.path, "evenodd");
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.25 / this.view.zoom;
     pen.stroke(this.outline.path);
     // A sheet of paper has edges that matter.
     if (scene.unit !== "px") pen.strokeRect(0, 0, scene.width, scene.height);
     for (const note of this.notes.get(null) ?? []) this.drawNote(note, new DOMMatrix());
+  }
+
+  /** A picture behind all; that of a mosaic faintly, in the container. @param {import("./wire.js").Underlay} one */
+  drawUnder({ shape, matrix, faint }) {
+    const look = this.collage.looks.get(shape);
+    if (!look) return;
+    const { pen, ratio, view } = this;
+    pen.save();
+    if (faint) pen.clip(this.outline.path, "evenodd");
+    pen.globalAlpha = faint ? FAINT : 1;
+    pen.transform(...matrix);
+    const size = look.extent * Math.hypot(matrix[0], matrix[1]) * view.zoom * ratio;
+    this.drawLook(look, size, this.sprites);
+    pen.restore();
   }
 
   /** Letters and keys, by the item that they are on; null for what stands beside. */
@@ -277,6 +298,7 @@ export class Stage {
     this.room?.draw(this.pen);
     this.forces?.paint(this.pen);
     this.sketch?.paint(this.pen);
+    this.lasso?.paint(this.pen);
     this.drawGuides();
     if (this.marquee) this.drawMarquee(this.marquee);
   }

@@ -18,6 +18,7 @@ import { Hand, together } from "./hand.js";
 import { Incoming } from "./incoming.js";
 import { listenToKeys } from "./keys.js";
 import { kindOf } from "./kinds.js";
+import { Lasso } from "./lasso.js";
 import { Menu } from "./menu.js";
 import { Ordering } from "./ordering.js";
 import { Outage } from "./outage.js";
@@ -70,7 +71,7 @@ export class Studio {
     this.dropping = new Dropping(this.connection, this.collage);
     this.clipboard = new Clipboard(this);
     this.ordering = new Ordering(this);
-    this.exporting = new Exporting(this.connection, this.collage, () => this.panels.load());
+    this.exporting = new Exporting(this.connection, this.collage, this.dropping, () => this.panels.load());
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
     this.bar = new Bar(this.actions, {
@@ -85,6 +86,7 @@ export class Studio {
     this.variants = new Variants(this);
     this.forces = this.stage.forces = new Forces(this);
     this.sketch = this.stage.sketch = new Sketch(this);
+    this.lasso = this.stage.lasso = new Lasso(this);
     this.panels = new Panels(this);
     this.words = this.panels.words;
     this.incoming = new Incoming(this);

@@ -9,7 +9,7 @@
  * @typedef {{kind: "align", items: number[], to: ("left" | "center" | "right" | "top" | "middle" | "bottom")}} Align
  * @typedef {{type: "alike", source: string}} Alike
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
- * @typedef {{kind: "background", colour: string}} Background
+ * @typedef {{kind: "background", colour?: string, asset?: (string | null)}} Background
  * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "names" | "jar" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
  * @typedef {{type: "chart", source: string, size_by?: (string | null), color_by?: (string | null), label_by?: (string | null), mark?: (string | null), title?: string}} BeginChart
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
@@ -19,7 +19,7 @@
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{kind: "crop", item: number, zoom: number, x?: number, y?: number}} CropPhoto
  * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | SetMosaic | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} DrawnNote
  * @typedef {{kind: "drop"}} Drop
@@ -35,6 +35,7 @@
  * @typedef {{kind: "leave_out", words: any}} LeaveOut
  * @typedef {{name: string, reason: string}} LeftOut
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
+ * @typedef {{type: "mix", share: number, source?: (string | null), count?: (number | null), font?: (string | null), palette?: (string | null)}} Mix
  * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
  * @typedef {{type: "open", source: string}} Open
@@ -42,7 +43,7 @@
  * @typedef {{type: "outline", line: [number, number][]}} OutlineMessage
  * @typedef {{kind: "paint", palette: string[], shades?: ("tint" | "nearest" | "keep")}} Paint
  * @typedef {{type: "paste", x?: (number | null), y?: (number | null)}} Paste
- * @typedef {{type: "picture", source: string}} Picture
+ * @typedef {{type: "picture", source: string, purpose?: ("mosaic" | "colours" | "behind")}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
  * @typedef {{kind: "recolour", items: number[], colour: string}} Recolour
@@ -54,9 +55,10 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], ground?: string, left_out?: any}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], ground?: string, left_out?: any, likeness?: (number | null), under?: Underlay[]}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
+ * @typedef {{kind: "mosaic", asset?: (string | null), tint?: (number | null)}} SetMosaic
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
@@ -64,9 +66,10 @@
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null), parts: number}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | CropPhoto | Background | DrawContainer)[]}} Together
- * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | SetMosaic | CropPhoto | Background | DrawContainer)[]}} Together
+ * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | Mix | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
+ * @typedef {{shape: string, matrix: [number, number, number, number, number, number], faint: boolean}} Underlay
  * @typedef {{kind: "ungroup", items: number[]}} Ungroup
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh

@@ -3,6 +3,7 @@
 
 import { h } from "./dom.js";
 import { FontField } from "./fonts.js";
+import { Mixing } from "./mixing.js";
 import { tell } from "./toasts.js";
 import { WordTable } from "./wordtable.js";
 
@@ -19,16 +20,17 @@ export class Words {
     this.count = h("input", { type: "number", id: "words-count", min: "1", max: "1000", value: "80" });
     this.font = new FontField(studio, "Font", (name) => this.setIn(name));
     this.palette = h("select", {});
+    this.mixing = new Mixing(studio);
     this.update = h("button", { type: "button", onclick: () => this.change() }, "Change these, keep their places");
     this.list = new WordTable(this);
     this.form = h("form", { class: "stack", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
       this.text, h("label", { class: "row" }, "Words at most", this.count),
-      h("label", { class: "row" }, "Colours", this.palette), h("button", { type: "submit", class: "primary" }, "Fill with words"), this.update);
+      h("label", { class: "row" }, "Colours", this.palette), this.mixing.choice, h("button", { type: "submit", class: "primary" }, "Fill with words"), this.update);
   }
 
   /** @param {HTMLElement} body */
   async fill(body) {
-    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), this.font.element, this.list.element,
+    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet, which undo brings back, or come beside it with a share of their own."), this.mixing.element, this.font.element, this.list.element,
       h("details", { open: true }, h("summary", {}, "A text or another table"), this.form));
     this.list.listed = "";
     if (!this.text.value.trim()) this.text.value = this.table();
@@ -42,6 +44,7 @@ export class Words {
 
   refresh() {
     this.list.refresh();
+    this.mixing.refresh();
     this.update.hidden = !this.studio.collage.items.some((item) => item.is_word);
   }
 
@@ -81,8 +84,9 @@ export class Words {
 
   /** @param {string} batch of a text or a table */
   fillFrom(batch) {
-    this.studio.connection.send({
-      type: "fill", use: "words", source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null, without: [...this.list.without.keys()] });
+    const words = { source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null };
+    if (this.mixing.isBeside) this.mixing.send(words);
+    else this.studio.connection.send({ type: "fill", use: "words", ...words, without: [...this.list.without.keys()] });
   }
 
   /**

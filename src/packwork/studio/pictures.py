@@ -1,0 +1,80 @@
+"""Messages of a page about pictures that items show, or that lie behind, and words among items."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
+
+from packwork.live import edits
+from packwork.live.commands.command import Command, made, named_item
+from packwork.live.commands.look import SetMosaic
+from packwork.live.face.offers import colours_called, colours_of, picture_of, words_to_mix
+from packwork.live.macros import mixed
+from packwork.live.session import Session
+from packwork.scene.item import Item, PhotoArt
+from packwork.studio.documents import Font, Name, PageRequest
+
+if TYPE_CHECKING:
+    from packwork.studio.tab import Tab
+
+COLOURING = "Colouring"
+
+
+class Mix(PageRequest):
+    """Have words among the other items, with a share of what all cover."""
+
+    type: Literal["mix"] = "mix"
+    share: Annotated[float, Field(gt=0, lt=1)]
+    source: Name | None = None
+    """Of words that come more; None for those that are there."""
+    count: Annotated[int, Field(ge=1, le=2_000)] | None = None
+    font: Font | None = None
+    palette: Annotated[str, Field(max_length=200)] | None = None
+
+    def act(self, tab: Tab) -> None:
+        """Read them, and have a run of all."""
+        tab.importer.read(partial(self._mix, tab))
+
+    def _mix(self, tab: Tab) -> None:
+        importer, workspace = tab.importer, tab.workspace
+        read, colours = None, colours_called(self.palette)
+        if self.source is not None and workspace.shown is not None:
+            font, file = importer.font(self.font), importer.file(self.source)
+            options = {"count": self.count, "fonts": None if font is None else [font]}
+            read = words_to_mix(workspace.shown.view.container, file, options)
+        workspace.pour(0, lambda session: mixed(session, read, self.share, colours))
+
+
+class Picture(PageRequest):
+    """Have a picture shown by the items, its colours on them, or itself behind all."""
+
+    type: Literal["picture"] = "picture"
+    source: Name
+    purpose: Literal["mosaic", "colours", "behind"] = "mosaic"
+
+    def act(self, tab: Tab) -> None:
+        """Read it, and do that; photographs, which keep their colours, are poured anew."""
+        tab.importer.read(partial(self._show, tab))
+
+    def _show(self, tab: Tab) -> None:
+        workspace, file = tab.workspace, tab.importer.file(self.source)
+        if self.purpose == "colours":
+            colours = colours_of(file)
+            workspace.change(lambda session: edits.palette(session, colours), COLOURING)
+        elif self.purpose == "behind":
+            workspace.change(lambda session: edits.backdrop(session, file), COLOURING)
+        elif (shown := workspace.shown) and all(_is_photo(item) for item in shown.view.items):
+            picture = picture_of(file)
+
+            def make(session: Session) -> list[Command]:
+                return [made(SetMosaic, asset=named_item(session.library, picture))]
+
+            workspace.pour(0, make)
+        else:
+            workspace.change(lambda session: edits.picture(session, file), COLOURING)
+
+
+def _is_photo(item: Item) -> bool:
+    return isinstance(item.art, PhotoArt)

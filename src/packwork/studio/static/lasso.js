@@ -1,0 +1,67 @@
+// @ts-check
+/** Choosing items by a line that is drawn round them. */
+
+import { pathOf } from "./rings.js";
+import { say } from "./toasts.js";
+
+/** @typedef {{x: number, y: number}} Point */
+
+export class Lasso {
+  /** @param {import("./studio.js").Studio} studio */
+  constructor(studio) {
+    this.studio = studio;
+    this.isDrawing = false;
+    /** The line in the hand, canvas units. @type {[number, number][]} */
+    this.line = [];
+    /** What is chosen beside what the line holds. @type {number[]} */
+    this.base = [];
+  }
+
+  /** Have the next drag draw the line. @param {boolean} [adds] to what is chosen */
+  begin(adds = false) {
+    this.isDrawing = true;
+    this.base = adds ? [...this.studio.choice.ids] : [];
+    this.studio.canvas.focus();
+    say("Draw round the items; Escape leaves off");
+  }
+
+  /** Go on with the line: what it holds, closed, is chosen. @param {Point} at in the window @param {Point} from where it began */
+  draw(at, from) {
+    const { choice, collage, stage, view } = this.studio;
+    for (const point of this.line.length ? [at] : [from, at]) {
+      const { x, y } = view.toCanvas(point.x, point.y);
+      this.line.push([x, y]);
+    }
+    stage.pen.resetTransform();
+    const path = new Path2D(pathOf([this.line]));
+    const held = collage.items.filter((_, k) => stage.pen.isPointInPath(path, collage.shown[4 * k], collage.shown[4 * k + 1], "nonzero"));
+    choice.isBusy = true;
+    choice.set([...this.base, ...held.map((item) => item.id)]);
+  }
+
+  /** Let go of the line. */
+  drop() {
+    this.cancel();
+  }
+
+  cancel() {
+    const was = this.isDrawing;
+    [this.isDrawing, this.line] = [false, []];
+    return was;
+  }
+
+  /** @param {import("./room.js").Pen} pen */
+  paint(pen) {
+    if (!this.line.length) return;
+    const { stage, view } = this.studio;
+    stage.toCanvas();
+    const path = new Path2D(pathOf([this.line]));
+    pen.fillStyle = stage.colours.marquee;
+    pen.fill(path, "nonzero");
+    pen.strokeStyle = stage.colours.accent;
+    pen.lineWidth = 1.5 / view.zoom;
+    pen.setLineDash([6 / view.zoom, 4 / view.zoom]);
+    pen.stroke(path);
+    pen.setLineDash([]);
+  }
+}

@@ -1,0 +1,103 @@
+"""Items chosen by a line that is drawn round them: by mouse, by finger, and left off by keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from studio.browsing import PHONE, Desk, in_browser, own_desk
+
+pytestmark = in_browser
+
+WINDOW = (
+    "(() => { const r = studio.canvas.getBoundingClientRect(); return studio.collage.items.map("
+    "(item) => { const p = studio.collage.pose(item.id); const s = studio.view.toScreen(p.x, p.y);"
+    " return [s.x + r.left, s.y + r.top]; }); })()"
+)
+CHOSEN = "[...studio.choice.ids].sort((a, b) => a - b)"
+
+
+@pytest.fixture(scope="module")
+def desk(browser: Any) -> Iterator[Desk]:
+    with own_desk(browser, "circle", "star", "heart", "-n", "30") as made:
+        yield made
+
+
+def wedge(places: np.ndarray) -> tuple[np.ndarray, list[int]]:
+    """A triangle from the middle to the right edge, beyond all, and the items that lie in it."""
+    middle, far = places.mean(axis=0), np.ptp(places, axis=0).max()
+    ways = places - middle
+    inside = [k for k, (x, y) in enumerate(ways) if x > 0 and abs(y) < 0.8 * x]
+    corners = middle + far * np.array([[0, 0], [0.75, -0.6], [0.75, 0.6]])
+    return corners, inside
+
+
+def test_a_line_round_items_chooses_them_and_shift_adds(desk: Desk) -> None:
+    places = np.array(desk.look(WINDOW))
+    (start, upper, lower), inside = wedge(places)
+    page = desk.page
+    page.keyboard.press("q")
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(*upper, steps=6)
+    page.mouse.move(*lower, steps=6)
+    desk.picture("lasso-line")
+    page.mouse.up()
+    ids = desk.look("studio.collage.items.map((item) => item.id)")
+    assert desk.look(CHOSEN) == sorted(ids[k] for k in inside)
+    assert not desk.look("studio.lasso.isDrawing")
+    other = next(k for k in range(len(ids)) if k not in inside)
+    page.keyboard.press("Shift+Q")
+    x, y = places[other]
+    page.mouse.move(x - 3, y - 3)
+    page.mouse.down()
+    for corner in ((x + 3, y - 3), (x + 3, y + 3), (x - 3, y + 3)):
+        page.mouse.move(*corner, steps=3)
+    page.mouse.up()
+    assert desk.look(CHOSEN) == sorted(ids[k] for k in (*inside, other))
+    page.keyboard.press("Escape")
+    assert desk.look(CHOSEN) == []
+
+
+def test_escape_leaves_off_and_a_press_alone_draws_nothing(desk: Desk) -> None:
+    desk.page.keyboard.press("q")
+    assert desk.look("studio.lasso.isDrawing")
+    desk.page.keyboard.press("Escape")
+    assert not desk.look("studio.lasso.isDrawing")
+    left, top = desk.look(
+        "(r => [r.right - 40, r.bottom - 160])(studio.canvas.getBoundingClientRect())"
+    )
+    desk.page.keyboard.down("Alt")
+    desk.page.mouse.click(left, top)
+    desk.page.keyboard.up("Alt")
+    assert not desk.look("studio.lasso.isDrawing")
+
+
+def test_a_finger_draws_it_from_the_menu_of_a_long_press(desk: Desk) -> None:
+    desk.page.set_viewport_size(PHONE)
+    desk.settled()
+    places = np.array(desk.look(WINDOW))
+    (start, upper, lower), inside = wedge(places)
+    touch = desk.page.context.new_cdp_session(desk.page)
+
+    def finger(kind: str, *at: float) -> None:
+        points = [{"x": float(at[0]), "y": float(at[1])}] if at else []
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    bare = (20.0, float(places[:, 1].min() - 60))
+    finger("touchStart", *bare)
+    item = desk.page.get_by_role("menuitem", name="Choose by a line drawn round them")
+    item.wait_for()
+    finger("touchEnd")
+    item.click()
+    finger("touchStart", *start)
+    for corner in np.linspace(start, upper, 6), np.linspace(upper, lower, 6):
+        for x, y in corner:
+            finger("touchMove", x, y)
+    finger("touchEnd")
+    ids = desk.look("studio.collage.items.map((item) => item.id)")
+    assert desk.look(CHOSEN) == sorted(ids[k] for k in inside)
+    desk.picture("lasso-phone")

@@ -1,0 +1,82 @@
+"""Words that come beside icons, each kind with its share; and files for a print shop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studio.browsing import PHONE, Desk, in_browser, own_desk
+
+pytestmark = in_browser
+
+SHARE = "(([words, others]) => words / (words + others))(studio.words.mixing.weights)"
+
+
+@pytest.fixture(scope="module")
+def desk(browser: Any) -> Iterator[Desk]:
+    with own_desk(browser, "circle", "star", "heart", "-n", "16") as made:
+        yield made
+
+
+def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) -> None:
+    page = desk.page
+    page.locator("#tab-words").click()
+    page.locator("#text").fill("hope, 6\njoy, 4\npeace, 3\nsea, 2\nsun, 2")
+    page.get_by_label("Where the words come").select_option("beside")
+    page.get_by_label("Share of words, %").fill("40")
+    page.get_by_role("button", name="Fill with words").click()
+    desk.until("studio.collage.items.length === 21")
+    desk.settled()
+    assert desk.look(SHARE) == pytest.approx(0.4, abs=1e-3)
+    assert desk.look("studio.collage.scene.options.sizes") == "shared"
+    desk.picture("mixing")
+    slider = page.locator("#share-of-words")
+    slider.focus()
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+    desk.until(f"Math.abs({SHARE} - 0.6) < 1e-3")
+    desk.settled()
+    desk.picture("mixing-more")
+    page.set_viewport_size(PHONE)
+    page.wait_for_timeout(100)
+    desk.picture("mixing-phone")
+    page.set_viewport_size({"width": 1440, "height": 900})
+    for _ in range(2):
+        page.locator("#bar [data-do=undo]").click()
+    desk.until("studio.collage.items.length === 16")
+
+
+def test_a_pdf_has_marks_and_spot_inks_and_others_say_why_not(desk: Desk) -> None:
+    page = desk.page
+    page.locator("#export").click()
+    dialog = page.locator("dialog.export")
+    dialog.locator("input[value=png]").check()
+    dialog.get_by_text("More, for print").click()
+    assert dialog.locator("[name=marks]").is_disabled()
+    assert dialog.get_by_text("PDF alone has it").count() == 3
+    dialog.locator("input[value=pdf]").check()
+    dialog.get_by_text("More, for print").click()
+    assert dialog.locator("[name=tiles]").is_disabled()
+    dialog.locator("[name=marks]").select_option("all")
+    dialog.locator("[name=spot]").fill("Gold=#b58b2a")
+    desk.picture("printing")
+    with page.expect_download() as waited:
+        dialog.locator("button.primary").click()
+    data = Path(waited.value.path()).read_bytes()
+    assert b"/TrimBox" in data
+    page.locator("#export").click()
+    dialog.get_by_text("More, for print").click()
+    with page.expect_file_chooser() as chooser:
+        dialog.get_by_role("button", name="Its profile").click()
+    wrong = Path(waited.value.path()).with_name("wrong.icc")
+    wrong.write_bytes(b"no profile")
+    chooser.value.set_files(wrong)
+    dialog.get_by_role("button", name="wrong.icc").wait_for()
+    dialog.locator("button.primary").click()
+    dialog.locator(".note[data-is=bad]", has_text="wrong.icc").wait_for()
+    page.keyboard.press("Escape")
+    # The browser notes that the file was refused.
+    desk.faults.clear()
