@@ -242,3 +242,25 @@ def test_a_layer_of_any_name_may_be_engraved(tmp_path: Path) -> None:
     (item,) = parts(tmp_path, f"<g {HAIRLINE}>{drawn}</g>", engrave=["inner"])
     assert isinstance(item.art, LineArt)
     assert (len(item.art.cut), len(item.art.engraved)) == (1, 1)
+
+
+def test_what_is_traced_has_no_colours_to_engrave_and_that_is_told(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    clip = '<clipPath id="c"><circle cx="20" cy="20" r="9"/></clipPath>'
+    drawn = f'{clip}<rect width="50" height="40" clip-path="url(#c)"/>{MARKED.format("red")}'
+    with caplog.at_level(logging.WARNING):
+        parts(tmp_path, drawn, engrave=["red"])
+    assert "what is to be engraved cannot be told apart" in caplog.text
+
+
+def test_marks_beyond_a_filled_part_are_counted(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    plate = '<rect width="30" height="20"/>'
+    mark = '<path d="M50 5h9M20 9h20" fill="none" stroke="red" stroke-width=".1"/>'
+    with caplog.at_level(logging.WARNING):
+        (item,) = parts(tmp_path, plate + mark, engrave=["red"])
+    assert isinstance(item.art, LineArt)
+    assert [len(line.points) for line in item.art.engraved] == [2]
+    assert "1 engraved beyond an edge, 1 to engrave beside all parts" in caplog.text

@@ -32,6 +32,7 @@ from packwork.readers.dxf.item import (
     engraved_in,
     items_of,
     line_art,
+    tell_left_out,
 )
 from packwork.readers.dxf.rings import Ring, RingPart, rings_of
 from packwork.readers.engraving import Engraving
@@ -266,7 +267,7 @@ def _with_true_curves(
     known = [
         ring for one in drawing.shapes if one.painting.has_fill for ring in _rings(one, extent)
     ]
-    slack = 3.0 * FLATTENING * extent
+    slack, left_out = 3.0 * FLATTENING * extent, Counter[str]()
     rings = [
         RingPart(_ring_at(polygon.exterior, known, slack),
                  tuple(_ring_at(ring, known, slack) for ring in polygon.interiors))
@@ -274,8 +275,9 @@ def _with_true_curves(
     ]  # fmt: skip
     parts = [
         cad_part(part, own, _UP, within=False)
-        for part, own in zip(rings, engraved_in(rings, marks, [], Counter()), strict=True)
+        for part, own in zip(rings, engraved_in(rings, marks, [], left_out), strict=True)
     ]
+    tell_left_out(left_out)
     whole = valid(MultiPolygon([one for part in parts for one in polygon_parts(part.region)]))
     outline, ink, move = centred(whole, holes)
     to_px = affine.compose(affine.inverse(centred(drawn, holes)[2]), art.matrix)

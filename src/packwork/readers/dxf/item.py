@@ -146,13 +146,18 @@ def cad_parts(
     marked = engraved_in(parts, engraved, loose, left_out)
     if doubled:
         notice(f"{number_of(doubled, 'outline')} that lay on another was taken once")
-    if left_out:
-        told = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
-        notice(f"left out: {told}; text and hatches have to be made curves to be engraved")
+    tell_left_out(left_out)
     flip = np.array([[px, 0.0, 0.0], [0.0, -px, 0.0]])
     return [
         cad_part(part, own, flip, within=within) for part, own in zip(parts, marked, strict=True)
     ]
+
+
+def tell_left_out(left_out: Counter[str]) -> None:
+    """Count what is neither cut nor engraved, in a line."""
+    if left_out:
+        told = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
+        notice(f"left out: {told}; text and hatches have to be made curves to be engraved")
 
 
 def _px_of(drawing: CadDrawing) -> float:
