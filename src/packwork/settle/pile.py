@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.arrangement import FINE, Arrangement, Detail, find_conflicts
+from packwork.compaction.arrangement import Arrangement, Detail, find_conflicts
 from packwork.compaction.objective import turn_ranges
 from packwork.compaction.options import HAIR, MoveOptions
 from packwork.forces.field import Distance
@@ -25,9 +25,9 @@ from packwork.settle.round_pack import start_round_pack
 from packwork.settle.separate_fixed import separate_fixed
 from packwork.settle.settle import FIRST_TRUST, LAST_TRUST, Settling
 
-COARSE = 0.02
-"""Tolerance of the outlines that are settled first, shares of an item's extent. Larger is faster
-and leaves more way to the fine ones. Tried."""
+COARSE, FINE = 0.01, 1e-3
+"""Tolerances of the outlines that are settled first and last, shares of an item's extent. Larger
+ones have fewer vertices and leave more bare. Tried."""
 
 ROUGH_TRUST = 0.06
 """Bound of a move, as the settling has it, down to which outlines are coarse. Larger takes

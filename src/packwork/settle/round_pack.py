@@ -64,10 +64,10 @@ def start_round_pack(
     circles = np.zeros(len(starts))
     if len(starts) > 1:
         for k, start in enumerate(starts):
-            arrangement.put(settling.active, start)
+            arrangement.put(settling.all_items, start)
             settling.settle(lambda _: None, stop, trusts)
-            circles[k] = settling.circle()
-    arrangement.put(settling.active, starts[int(np.argmin(circles))])
+            circles[k] = settling.circle(settling.all_items)
+    arrangement.put(settling.all_items, starts[int(np.argmin(circles))])
     return True
 
 

@@ -2,7 +2,8 @@
 
 The compaction of Z. Li and V. Milenkovic (1995, see :mod:`packwork.compaction`) with a potential
 as its objective; items also turn, and while steps are wide the way down sways to both sides. A
-step is a linear programme over the contacts of some items.
+step is a linear programme over the contacts of a few items. Such blocks move at once where they do
+not touch, and items wait while nothing about them goes.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.compact import blocks
+from packwork.compaction.compact import blocks, disjoint_groups
 from packwork.compaction.kernels import broad_phase, contacts, steps
 from packwork.compaction.kernels.distances import Board
 from packwork.compaction.kernels.steps import TRAVEL
@@ -21,6 +22,7 @@ from packwork.compaction.programmes import maximised
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
 from packwork.settle.kernels import descent
+from packwork.threads import at_once
 
 FIRST_TRUST, LAST_TRUST = 0.25, 1e-2
 """First and last bound of a move, in sides of the square of an item's mean area. A larger
@@ -31,7 +33,7 @@ NARROWING = 0.5
 """Factor on that bound once a round gains little. Larger takes more rounds, smaller leaves
 way that was to be gained by larger steps. Tried."""
 
-WORTHWHILE = 0.3
+WORTHWHILE = 0.5
 """Share of the bound by which the tenth of the items that went farthest down have to go in a
 round to be followed by one of the same bound. Larger leaves arches and items in the air, smaller
 takes more rounds. Tried."""
@@ -56,6 +58,14 @@ TILTED_TRUST = 0.03
 
 MOST_ROUNDS = 400
 """Rounds at most. Chosen."""
+
+MOST_IN_BLOCK = 32
+"""Items of one programme. Larger takes longer, an item, and comes no lower; smaller comes less far
+down. Tried."""
+
+STILL = 0.1
+"""Way down, shares of a round's bound, below which an item waits until what lies about it goes, or
+bounds and tilt change. Larger leaves way, smaller takes longer. Tried."""
 
 ROUNDNESS = 30.0
 """What a smaller circle is worth where a pack is to be round, mean heights. Larger lets items
@@ -90,35 +100,27 @@ class Settling:
         """Whether wide rounds are tilted."""
         self.centre: FloatArray | None = None
         """Of the circle that is to become small; None for none."""
-        self.active = np.arange(len(areas))
-        """Items that move; all others count as not there, and have to be far away."""
+        self.all_items = np.arange(len(areas))
         self._drops, self._narrowed = np.zeros(len(areas)), 0.0
         self._spacing = float(np.sqrt(np.mean(areas)))
 
-    def pull(self) -> Pull:
-        """Heights and slopes of the active items where they are now."""
-        forces = self._forces if len(self.active) == len(self.areas) else (
-            self._forces.subset(self.active)
-        )  # fmt: skip
-        return forces(self.arrangement.places[self.active, :2], self.areas[self.active])
-
     def mean_height(self) -> float:
-        """Area-weighted mean height of the active items, canvas units."""
-        return self._mean(self.pull())
+        """Area-weighted mean height, canvas units."""
+        return self._pull(self.all_items).value / self._mass
 
-    def _mean(self, now: Pull) -> float:
-        return now.value / max(float(self.areas[self.active].sum()), 1e-300)
+    @property
+    def _mass(self) -> float:
+        return max(float(self.areas.sum()), 1e-300)
 
-    def _cost(self, now: Pull, items: IntArray) -> float:
-        """Mean height, and the circle that holds some items where that counts."""
-        return self._mean(now) + ROUNDNESS * self.circle(items)
+    def _pull(self, items: IntArray) -> Pull:
+        places, areas = self.arrangement.places[items, :2], self.areas[items]
+        return self._forces.subset(items)(places, areas)
 
-    def circle(self, items: IntArray | None = None) -> float:
-        """Radius, canvas units, of the circle that holds items ``(m,)``; 0 if none is asked."""
+    def circle(self, items: IntArray) -> float:
+        """Radius, canvas units, of the circle that holds some items; 0 if none is asked."""
         if self.centre is None:
             return 0.0
-        some = self.active if items is None else items
-        return float(descent.circle_about(self.arrangement.board, some, self.centre))
+        return float(descent.circle_about(self.arrangement.board, items, self.centre))
 
     def settle(
         self,
@@ -131,41 +133,56 @@ class Settling:
         ``tell``: called with the places ``(n, 4)``, canvas units and rad, after each round.
         ``trusts``: first and last bound of a move.
         """
-        trust = trusts[0]
+        trust, items = trusts[0], self.all_items
         for rounds in range(MOST_ROUNDS):
             if stop():
                 return rounds
-            gained = self.round(trust, rounds)
+            gained = self._round(trust, rounds, items)
             tell(self.arrangement.places)
-            is_last = trust <= trusts[1]
-            reach = self._farthest() / (trust * self._spacing)
+            is_slow = self._farthest() < WORTHWHILE * trust * self._spacing
             rest = REST if self.centre is None else ROUND_REST
-            if is_last and gained < rest * self._side and reach < WORTHWHILE:
+            is_last = trust <= trusts[1] and len(items) == len(self.all_items)
+            if is_slow and is_last and gained < rest * self._side:
                 return rounds + 1
-            if reach < WORTHWHILE:
+            if is_slow:
                 trust = max(trust * NARROWING, trusts[1])
+            is_anew = is_slow or (rounds + 1) % SWAY == 0
+            items = self.all_items if is_anew else self._stirred(trust)
         return MOST_ROUNDS
 
-    def round(self, trust: float, turn: int) -> float:
-        """One step of each block, the lowest first; the mean way down, and that of the circle.
+    def _stirred(self, trust: float) -> IntArray:
+        """Items that went down in the last round, and those that they might touch."""
+        if self._forces.bonds or self.centre is not None:
+            return self.all_items
+        went = np.append(self._drops > STILL * trust * self._spacing, False)
+        pairs = self.arrangement.pairs(self._gap + trust * self._spacing)
+        stirred = went.copy()
+        stirred[pairs[went[pairs].any(axis=1)]] = True
+        return np.flatnonzero(stirred[:-1])
+
+    def _round(self, trust: float, turn: int, items: IntArray) -> float:
+        """One step of each block of some items, the lowest first; the mean way down of all.
 
         ``trust``: bound of a move, in sides of the square of an item's mean area.
         ``turn``: number of the round: others cut blocks elsewhere.
         """
-        now = self.pull()
-        before, circle, low = self._cost(now, self.active), self.circle(), self._lows(now)
+        before, circle = self._pull(self.all_items), self.circle(self.all_items)
+        low = before.parts / self.areas
         tilt = (
             TILT * (1 - 2 * (turn // SWAY % 2)) if self.is_swaying and trust > TILTED_TRUST else 0.0
         )
-        found = blocks(self.arrangement.places[self.active, :2], turn)
-        for block in sorted(found, key=lambda items: float(low[items].mean())):
-            now = self._step(block, trust * self._spacing, tilt, now)
-        self._drops = low - self._lows(now)
-        self._narrowed = circle - self.circle()
-        return before - self._cost(now, self.active)
-
-    def _lows(self, now: Pull) -> FloatArray:
-        return np.asarray(now.parts / self.areas[self.active])
+        found = blocks(self.arrangement.places[items, :2], turn, MOST_IN_BLOCK)
+        found = sorted((items[b] for b in found), key=lambda block: float(low[block].mean()))
+        # What draws together, or all in one circle, is moved one block after another.
+        is_apart = not self._forces.bonds and self.centre is None
+        bound = trust * self._spacing
+        reach = self._gap + 2 * TRAVEL * bound if is_apart else np.inf
+        for group in disjoint_groups(found, self.arrangement.board.boxes, reach):
+            at_once(self._step, [(block, bound, tilt) for block in group])
+        after = self._pull(self.all_items)
+        self._drops = low - after.parts / self.areas
+        self._narrowed = circle - self.circle(self.all_items)
+        return (before.value - after.value) / self._mass + ROUNDNESS * self._narrowed
 
     def _farthest(self) -> float:
         """Distance of the tenth that went farthest down in the last round, canvas units.
@@ -175,36 +192,31 @@ class Settling:
         some = max(len(self._drops) // 10, 1)
         return max(float(np.sort(self._drops)[-some:].mean()), self._narrowed)
 
-    def _step(self, block: IntArray, trust: float, tilt: float, now: Pull) -> Pull:
-        """One step of some of the active items, the way down turned by ``tilt``.
-
-        ``now``: heights and slopes before it; returns those after it.
-        """
+    def _step(self, items: IntArray, trust: float, tilt: float) -> None:
+        """One step of some items, the way down turned by ``tilt``."""
         board = self.arrangement.board
-        slopes = now.slopes[block]
+        felt = self.all_items if self._forces.bonds else items
+        now = self._pull(felt)
+        slopes = now.slopes[items] if self._forces.bonds else now.slopes
         if not slopes.any():
-            return now
-        items = self.active[block]
+            return
         cosine, sine = np.cos(tilt), np.sin(tilt)
         slopes = slopes @ np.array([[cosine, sine], [-sine, cosine]])
         before = self.arrangement.places[items].copy()
-        height = self._cost(now, items)
+        worth = ROUNDNESS * self._mass
+        height = now.value + worth * self.circle(items)
         pairs = broad_phase.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
         if self.centre is None:
             step = downward(board, slopes, self._turns, items, pairs, trust, self._gap, self._hair)
         else:
-            worth = ROUNDNESS * float(self.areas[self.active].sum())
             step = inward(
                 board, slopes, self._turns, items, pairs, trust, self._gap, self._hair,
                 self.centre, worth,
             )  # fmt: skip
         descent.move(board, items, step, pairs, self._gap)
-        after = self.pull()
-        if self._cost(after, items) > height:
+        if self._pull(felt).value + worth * self.circle(items) > height:
             # Near a point the slope turns within a step.
             self.arrangement.put(items, before)
-            return now
-        return after
 
 
 ACCURACY = 0.05
