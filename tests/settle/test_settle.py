@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 import shapely
 from shapely import affinity
 
+from packwork import threads
 from packwork.arrays import FloatArray
 from packwork.forces.field import Direction, Distance, Field
 from packwork.forces.forces import FieldForce, Forces
@@ -114,9 +117,29 @@ def test_the_judge_sees_what_is_not_at_rest() -> None:
     assert _mean_depth(shaken) - _mean_depth(lifted) > LOWER * SIDE
 
 
-def test_the_same_seed_gives_the_same_pile() -> None:
-    first, second = _heaped(_some(9)), _heaped(_some(9))
-    assert first.poses.x.tolist() == second.poses.x.tolist()
+@pytest.mark.parametrize("seed", range(3))
+def test_the_same_seed_gives_the_same_pile_on_any_number_of_cores(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.settle.settle.MOST_IN_BLOCK", 4)
+    found = []
+    for count in (1, 3):
+        with threads.using(count):
+            found.append(_heaped(_some(16), seed=seed).poses)
+    assert found[0].x.tolist() == found[1].x.tolist()
+
+
+def test_blocks_that_do_not_touch_go_down_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    sizes = []
+
+    def heard(call: Callable[..., None], arguments: list[tuple[object, ...]]) -> list[None]:
+        sizes.append(len(arguments))
+        return threads.at_once(call, arguments)
+
+    monkeypatch.setattr("packwork.settle.settle.MOST_IN_BLOCK", 2)
+    monkeypatch.setattr("packwork.settle.settle.at_once", heard)
+    _heaped([disc(3.0)] * 12)
+    assert max(sizes) > 1
 
 
 def test_sizes_and_still_angles_stay() -> None:

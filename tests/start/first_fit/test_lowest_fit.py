@@ -43,8 +43,9 @@ MIXED = [star(9.0), disc(6.0), box(-9.0, -2.0, 9.0, 2.0)] * 6
 
 
 @pytest.mark.parametrize("field", [DOWN, Direction(0.0), Direction(-np.pi / 2)])
-def test_nothing_meets_and_all_is_inside(field: Field) -> None:
-    _, found, regions = _laid(MIXED, field, margin=0.5)
+@pytest.mark.parametrize("seed", range(3))
+def test_nothing_meets_and_all_is_inside(field: Field, seed: int) -> None:
+    _, found, regions = _laid(MIXED, field, margin=0.5, seed=seed)
     assert len(found) == len(MIXED)
     for k, region in enumerate(regions):
         assert shapely.contains_properly(square_container().outline.region, region)

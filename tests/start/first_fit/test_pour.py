@@ -62,8 +62,9 @@ def _regions(outlines: list[Outline], found: Poured) -> list[shapely.Polygon]:
     return [outlines[k].mapped(found.poses.matrix(int(k))).region for k in found.items]
 
 
-def test_nothing_meets_in_any_round() -> None:
-    found = _poured(MIXED, margin=0.5)
+@pytest.mark.parametrize("seed", range(4))
+def test_nothing_meets_in_any_round(seed: int) -> None:
+    found = _poured(MIXED, margin=0.5, seed=seed)
     assert len(found.items) == len(MIXED)
     wall = square_container().outline.region
     for items, points in found.rounds():
@@ -77,9 +78,10 @@ def test_nothing_meets_in_any_round() -> None:
         assert (first == second).all()
 
 
+@pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("every", [1, 7])
-def test_items_come_in_one_by_one_and_end_at_their_places(every: int) -> None:
-    found = _poured(MIXED, every=every)
+def test_items_come_in_one_by_one_and_end_at_their_places(every: int, seed: int) -> None:
+    found = _poured(MIXED, every=every, seed=seed)
     starts = np.array([flight.start for flight in found.flights])
     assert starts[0] == 0
     assert np.diff(starts).min() >= every
@@ -95,9 +97,12 @@ def test_items_come_in_one_by_one_and_end_at_their_places(every: int) -> None:
 
 
 def test_a_pour_is_about_as_low_as_what_is_put_without_a_way() -> None:
-    outlines = MIXED * 2
-    laid, _ = lowest_fit(square_container(), _falling(outlines), np.random.default_rng(0), never)
-    assert _poured(outlines).poses.y.mean() > laid.y.mean() - 2.0
+    outlines, higher = MIXED * 2, []
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        laid, _ = lowest_fit(square_container(), _falling(outlines), rng, never)
+        higher.append(laid.y.mean() - _poured(outlines, seed=seed).poses.y.mean())
+    assert np.median(higher) < 2.0
 
 
 def test_nothing_comes_where_no_way_leads() -> None:
