@@ -80,24 +80,35 @@ def statuses(outcomes: Any) -> list[str]:
     return [one.status for one in outcomes]
 
 
-@pytest.fixture
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+def _started(folder: Path) -> Iterator[Cluster]:
     pytest.importorskip("distributed", reason="the extra packwork[cluster] is not installed")
-    one = Cluster(tmp_path_factory.mktemp("cluster"))
+    one = Cluster(folder)
     try:
         yield one
     finally:
         one.close()
 
 
+@pytest.fixture
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A cluster of which processes may be killed."""
+    yield from _started(tmp_path_factory.mktemp("cluster"))
+
+
+@pytest.fixture(scope="module")
+def whole_cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A cluster that is left as it is."""
+    yield from _started(tmp_path_factory.mktemp("cluster"))
+
+
 def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
-    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+    home: Path, whole_cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(home)
     plan = plan_of(Path(), "alone")
     assert statuses(run_batch(plan, batch_progress(plan), 1)) == ["made"] * 6
     plan = plan_of(Path(), "far")
-    found = run_batch(plan, batch_progress(plan), scheduler=cluster.address)
+    found = run_batch(plan, batch_progress(plan), scheduler=whole_cluster.address)
     assert statuses(found) == ["made"] * 6
     assert contents(Path("far")) == contents(Path("alone"))
     again = plan_of(Path(), "far")
@@ -157,7 +168,9 @@ def test_a_scheduler_that_is_lost_ends_with_what_was_made(
     assert set(statuses(rest)) == {"made", "kept"}
 
 
-def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster: Cluster) -> None:
+def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(
+    home: Path, whole_cluster: Cluster
+) -> None:
     rows = [
         {"name": "a", "shape": "heart", "art": str(home / "own.svg"), "n": 4},
         {"name": "b", "shape": "none.svg", "art": "leaf", "n": 4},
@@ -165,7 +178,7 @@ def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster:
     poster = {**POSTER, "items": ["star", "{art}"]}
     for in_place in (False, True):
         made = pw.batch(
-            poster, rows, home / f"{in_place}-{{name}}.svg", scheduler=cluster.address,
+            poster, rows, home / f"{in_place}-{{name}}.svg", scheduler=whole_cluster.address,
             in_place=in_place,
         )  # fmt: skip
         assert statuses(made) == ["made", "failed"]
@@ -177,7 +190,7 @@ def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster:
 def test_a_local_cluster_serves_too(home: Path) -> None:
     distributed = pytest.importorskip("distributed", reason="packwork[cluster] is not installed")
     local = distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50
     )
     with local:
         plan = plan_of(home, "local", 3)
