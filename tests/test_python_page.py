@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +27,16 @@ def blocks(*kinds: str) -> str:
     return "\n".join(block for kind, block in found if kind in kinds)
 
 
+def short_runs(patch: pytest.MonkeyPatch, folder: Path) -> dict[str, Any]:
+    """Where a page's names end up; runs are short and files go to a folder of the test."""
+    patch.chdir(folder)
+    patch.setattr(packwork, "fill", partial(fill, epochs=60, levels="32"), raising=False)
+    return {}
+
+
 @pytest.fixture
 def names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
-    """Where a page's names end up; runs are short and files go to a folder of the test."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(packwork, "fill", partial(fill, epochs=60, levels="32"), raising=False)
-    return {}
+    return short_runs(monkeypatch, tmp_path)
 
 
 def test_every_block_is_one_that_a_test_runs() -> None:
@@ -65,22 +70,34 @@ def test_mypy_says_what_the_page_says(tmp_path: Path) -> None:
         assert lines[int(number) - 1].partition("  # ")[2] in said
 
 
-def test_the_page_runs_with_geopandas(names: dict[str, Any]) -> None:
+EXTRAS = {"geopandas": "geopandas", "widget": "anywidget", "torch": "torch"}
+"""Module that blocks of a kind need."""
+
+
+@pytest.fixture(scope="module")
+def with_extras(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """Names of the page, run once with the blocks of all extras that are installed."""
+    kinds = [f"python {kind}" for kind, module in EXTRAS.items() if find_spec(module)]
+    with pytest.MonkeyPatch.context() as patch:
+        found = short_runs(patch, tmp_path_factory.mktemp("page"))
+        exec(blocks("python", *kinds), found)  # noqa: S102
+    return found
+
+
+def test_the_page_runs_with_geopandas(with_extras: dict[str, Any]) -> None:
     pytest.importorskip("geopandas")
-    exec(blocks("python", "python geopandas"), names)  # noqa: S102
-    assert len(names["placed"]) == 3
+    assert len(with_extras["placed"]) == 3
 
 
-def test_the_page_runs_with_anywidget(names: dict[str, Any]) -> None:
-    pytest.importorskip("anywidget")
-    exec(blocks("python", "python widget"), names)  # noqa: S102
+def test_the_page_runs_with_anywidget(with_extras: dict[str, Any]) -> None:
+    widget = pytest.importorskip("anywidget")
+    assert isinstance(with_extras["hand"], widget.AnyWidget)
 
 
-def test_the_page_runs_with_pytorch(names: dict[str, Any]) -> None:
+def test_the_page_runs_with_pytorch(with_extras: dict[str, Any]) -> None:
     pytest.importorskip("torch")
-    exec(blocks("python", "python torch"), names)  # noqa: S102
-    assert names["points"].grad.shape == (4, 2)
-    assert names["image"].requires_grad
+    assert with_extras["points"].grad.shape == (4, 2)
+    assert with_extras["image"].requires_grad
 
 
 def _to_left(layout: packwork.Layout) -> float:
@@ -117,7 +134,7 @@ def test_losses_of_the_pages_move_items_where_they_say(
     plain: list[float] = []
 
     def drawn(*given: Any, seed: int, losses: Any, **options: Any) -> packwork.Layout:
-        asked = {**options, "effort": "draft", "seed": seed}
+        asked = {**options, "effort": "draft", "levels": "32,64", "seed": seed}
         plain.append(moved(fill(*given, **asked)))
         layout = fill(*given, losses=losses, **asked)
         made.append(moved(layout))
