@@ -15,11 +15,11 @@ from packwork.geometry.outline import Outline
 from packwork.steps.lay_grid import APART, grid_in
 
 
-@pytest.fixture(scope="module")
-def album(tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="module", params=[0, 1, 2])
+def album(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
     """Forty photographs, from dark to bright, half of them dark above and bright below."""
     folder = tmp_path_factory.mktemp("album")
-    rng = np.random.default_rng(0)
+    rng = np.random.default_rng(request.param)
     for k in range(40):
         pixels = np.full((48, 64, 3), 255 * (k // 2 + 0.5) / 20)
         if k % 2:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -54,6 +54,10 @@ STEP = 0.25
 
 NEARLY = 0.999
 """Width of a stretch over that at which a word was set, from which it is. Chosen."""
+
+LARGER = 1.05
+"""Size of a word over that of a heavier one, at most. Smaller holds more words down, larger tells
+weights less well. Chosen."""
 
 LEVEL = 0.1
 """Cosine of the angle of words that count as upright. Chosen."""
@@ -104,6 +108,12 @@ class WordOnLine:
     start: float
     end: float
     size: float
+
+    def at_most(self, size: float) -> WordOnLine:
+        """The same at a smaller size, round its middle."""
+        share = min(size / self.size, 1.0)
+        middle, half = (self.start + self.end) / 2, (self.end - self.start) / 2 * share
+        return replace(self, start=middle - half, end=middle + half, size=self.size * share)
 
 
 @dataclass
@@ -327,3 +337,32 @@ class Lanes:
         if math.cos(angle) < -LEVEL or (math.cos(angle) <= LEVEL and math.sin(angle) > 0):
             line, middle = line.reversed(), line.length - middle
         return WordOnLine(put.word, line, middle - half, middle + half, size)
+
+
+def in_order(found: Sequence[WordOnLine], wanted: FloatArray) -> list[WordOnLine]:
+    """The largest of each word in turn, then those set again.
+
+    None is larger than itself before, nor by more than ``LARGER`` than what wants a larger size.
+    """
+    by_size = sorted(found, key=lambda one: (one.word, -one.size))
+    firsts = list({one.word: one for one in reversed(by_size)}.values())[::-1]
+    once, sizes = set(firsts), np.full(len(wanted), np.inf)
+    sizes[[one.word for one in firsts]] = [one.size for one in firsts]
+    most = np.minimum(sizes, LARGER * least_above(sizes, wanted))
+    again = [one for one in by_size if one not in once]
+    return [one.at_most(float(most[one.word])) for one in (*firsts, *again)]
+
+
+def least_above(sizes: FloatArray, wanted: FloatArray) -> FloatArray:
+    """``(n,)`` least size of all that want more than each.
+
+    Examples
+    --------
+    >>> least_above(np.array([4.0, 3.0, 5.0, 2.0]), np.array([9.0, 8.0, 8.0, 7.0])).tolist()
+    [inf, 4.0, 4.0, 3.0]
+    """
+    # Rounded: what the last digits say is no weight.
+    ranked, rows = np.unique(-np.round(wanted / wanted.max(), 9), return_inverse=True)
+    least = np.full(len(ranked) + 1, np.inf)
+    np.minimum.at(least, rows + 1, sizes)
+    return np.asarray(np.minimum.accumulate(least)[rows])

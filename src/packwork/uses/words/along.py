@@ -33,7 +33,7 @@ from packwork.readers.words.options import Along, Word, lines_of, sound
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.start.lanes import FILLED, Lanes, WordOnLine, WordShape
+from packwork.start.lanes import FILLED, LARGER, Lanes, WordOnLine, WordShape, in_order, least_above
 from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
 from packwork.uses.words.copies import words_of
 from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way, unheeded
@@ -114,8 +114,9 @@ class SetAlong(RunStep):
             least = max(self._letters.smallest or 0.0, LEGIBLE * job.container.side)
             line = _LineOfWords.of([read.words[k] for k in rest], words_of(job), job.plan.holes)
             lanes = line.set_along(limbs, heights[rest], least / SLACK, gap, self._letters.largest)
-            settings = _in_order(lanes.found)
-            bent = line.bent(settings, job.container, gap, context.stop)
+            settings = in_order(lanes.found, heights[rest])
+            wanted = heights[rest[[one.word for one in settings]]]
+            bent = line.bent(settings, job.container, gap, context.stop, wanted)
         large = np.flatnonzero(bent.poses.scale * EM_PX >= least)
         rows += [int(rest[settings[k].word]) for k in large]
         poses.append(bent.poses.subset(large))
@@ -259,15 +260,6 @@ def _band(limb: Limb, gap: float) -> Region:
     return buffered(valid(Polygon(np.concatenate([right, left[::-1]]))), gap / 2)
 
 
-def _in_order(found: Sequence[WordOnLine]) -> list[WordOnLine]:
-    """Words in the order of their weights, the largest of each, then those set again."""
-    by_size = sorted(found, key=lambda one: (one.word, -one.size))
-    pairs = zip(by_size, [None, *by_size], strict=False)
-    firsts = [one for one, before in pairs if before is None or before.word != one.word]
-    once = set(firsts)
-    return [*firsts, *(one for one in by_size if one not in once)]
-
-
 def _subset(read: WordsRead, rows: Sequence[int], items: Sequence[Item]) -> WordsRead:
     """Some words, in any order, as other items."""
     return replace(
@@ -368,9 +360,14 @@ class _LineOfWords:
         return best
 
     def bent(
-        self, found: Sequence[WordOnLine], container: Container, gap: float, stop: Stop
+        self,
+        found: Sequence[WordOnLine],
+        container: Container,
+        gap: float,
+        stop: Stop,
+        wanted: FloatArray | None = None,
     ) -> _Bent:
-        """Words on their lines, smaller where they come too near to each other or to the edge."""
+        """Words on their lines, smaller where they come too near to others; in order if wanted."""
         pairs = [self._bent(one) for one in found]
         items = tuple(item for item, _ in pairs)
         poses = Poses(*np.array([row for _, row in pairs]).reshape(-1, 4).T)
@@ -381,6 +378,8 @@ class _LineOfWords:
                 break
             scale = poses.scale.copy()
             scale[[k for one in wrong for k in (one.item, one.other) if k is not None]] *= SHRUNK
+            if wanted is not None:
+                scale = np.minimum(scale, LARGER * least_above(scale, wanted))
             poses = replace(poses, scale=scale)
         return _Bent(items, poses)
 
