@@ -12,7 +12,9 @@ from PIL import Image
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
+from packwork.recipe import make_recipe
 from packwork.steps.lay_grid import APART, grid_in
+from packwork.uses import fill
 
 
 @pytest.fixture(scope="module", params=[0, 1, 2])
@@ -110,3 +112,37 @@ def test_padding_is_kept(album: Path, ramp: np.ndarray) -> None:
     )
     assert layout.certified
     assert layout.metrics["exact"]["min_gap"] >= 1.0
+
+
+@pytest.mark.parametrize(
+    ("count", "told"),
+    [(1, "1 tile is too large .* use 8"), (3, "3 tiles are too large .* use 6")],
+)
+def test_tiles_too_large_for_the_container_are_refused(
+    album: Path, ramp: np.ndarray, count: int, told: str
+) -> None:
+    with pytest.raises(RecipeError, match=told):
+        pw.photos("heart", album, picture=ramp, grid=True, count=count)
+
+
+def test_one_photo_is_told_in_the_singular(album: Path, ramp: np.ndarray) -> None:
+    with pytest.raises(RecipeError, match="1 photo makes 5 tiles at most, not 36; use 36 or more"):
+        pw.photos("square", album / "p00.png", picture=ramp, grid=True, count=36, repeats=5)
+
+
+@pytest.mark.parametrize("stripes", [6, 12])
+def test_a_picture_finer_than_the_tiles_is_told(album: Path, tmp_path: Path, stripes: int) -> None:
+    """Stripes show once each tile lies in one."""
+    row = np.repeat(np.arange(stripes) % 2 * 255, 120 // stripes).astype(np.uint8)
+    Image.fromarray(np.tile(row, (120, 1))).save(tmp_path / "stripes.png")
+    few, enough = (
+        fill(
+            make_recipe(
+                container="square", items=[str(album)], photos={}, grid=True, count=side**2,
+                picture=str(tmp_path / "stripes.png"), tint="80%",
+            )
+        ).advice
+        for side in (stripes - 1, stripes)
+    )  # fmt: skip
+    assert any(f"hard to recognise with {(stripes - 1) ** 2} tiles; -n " in one for one in few)
+    assert not any("hard to recognise" in one for one in enough)

@@ -32,6 +32,24 @@ def box_mean(image: Image, size: int) -> Image:
     return result
 
 
+def structural_similarity(one: FloatArray, other: FloatArray) -> float:
+    """Mean structural similarity of two images of lightness, 0..1, over squares of 7 pixels.
+
+    Z. Wang, A. Bovik, H. Sheikh and E. Simoncelli, "Image quality assessment: from error
+    visibility to structural similarity", IEEE Transactions on Image Processing 13 (2004), 600-612.
+
+    >>> ramp = np.tile(np.linspace(0, 1, 20), (20, 1))
+    >>> structural_similarity(ramp, ramp), structural_similarity(ramp, 1 - ramp) < 0
+    (1.0, True)
+    """
+    whole = box_mean(np.ones(one.shape), 7)
+    a, b, aa, bb, ab = (
+        box_mean(image, 7) / whole for image in (one, other, one**2, other**2, one * other)
+    )
+    like = (2 * a * b + 1e-4) * (2 * (ab - a * b) + 9e-4)
+    return float((like / ((a**2 + b**2 + 1e-4) * (aa - a**2 + bb - b**2 + 9e-4))).mean())
+
+
 BLANK = 0.01
 """Standard deviation of a picture, of 1, below which nothing in it stands out: about that of
 compression. Chosen."""

@@ -79,6 +79,7 @@ class Sentence(Enum):
         Told.ADVICE,
         "the picture shows to {percent:.0f} % only; {remedy} would show it",
     )
+    FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
     COUNT = Told.REMARK, "auto chose {many}"
     COUNT_BY_WIDTH = (

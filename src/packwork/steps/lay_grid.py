@@ -15,13 +15,18 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
+from packwork.phrasing import number_of
+from packwork.pipeline.findings import Finding, Sentence
+from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item
+from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import patch_of
 from packwork.scene.target import TargetPicture, blurred
+from packwork.steps.mosaic import COUNTS, structure_in_squares, unrecognised
 
 TILES = 1_500
 """Tiles where no number is asked for: at so many a face is recognised. Measured: decision 0053."""
@@ -44,6 +49,10 @@ APART = 3
 SPARE = 2
 """Times as often as it takes that a photo may repeat, where nothing is asked. Larger shows more of
 the picture and the same photos. Chosen."""
+
+SHOWN = 0.84
+"""Structural similarity of a picture and the means in its cells from which it is recognised. Larger
+asks for more tiles than it takes, smaller passes faces that nobody knows. By eye: decision 0053."""
 
 _CLEARANCE = 2 * HAIR
 _WIDTHS = np.linspace(0.8, 1.25, 91)
@@ -72,6 +81,14 @@ def grid_in(outline: Outline, most: int) -> Grid:
     >>> len(grid.cells), grid.side
     (24, 1.0)
     """
+    if (found := _largest(outline, most)) is not None:
+        return found
+    enough = next((n for k in range(1, 10) if _largest(outline, n := most << k)), "a wider one")
+    tiles = number_of(most, "tile is", "tiles are")
+    raise RecipeError("count", f"{tiles} too large to lie in this container; use {enough}")
+
+
+def _largest(outline: Outline, most: int) -> Grid | None:
     left, top, right, bottom = outline.bounds
     whole = outline.region
     shapely.prepare(whole)
@@ -88,11 +105,9 @@ def grid_in(outline: Outline, most: int) -> Grid:
             x[column] + inset, y[row] + inset, x[column] + side - inset, y[row] + side - inset
         )
         inside = np.flatnonzero(shapely.covers(whole, boxes))
-        if len(inside) <= most and (best is None or len(inside) > len(best.cells)):
+        if (0 if best is None else len(best.cells)) < len(inside) <= most:
             centres = np.column_stack([x[column], y[row]])[inside] + side / 2
             best = Grid(np.column_stack([row, column])[inside], centres, side)
-    if best is None or not len(best.cells):
-        raise RecipeError("grid", "has no cell that lies in the container; use a larger count")
     return best
 
 
@@ -122,8 +137,9 @@ class LayGrid(RunStep):
             if repeats * len(job.items) < count:
                 raise RecipeError(
                     "repeats",
-                    f"{len(job.items):,} photos make {repeats * len(job.items):,} tiles at most, "
-                    f"not {count:,}; use {-(-count // len(job.items))} or more",
+                    f"{number_of(len(job.items), 'photo makes', 'photos make')} "
+                    f"{number_of(repeats * len(job.items), 'tile')} at most, not {count:,}; "
+                    f"use {-(-count // len(job.items))} or more",
                 )
             chosen = self._chosen(job.items, grid, repeats, job.plan.seed)
         tiles = job.subset(chosen)
@@ -160,6 +176,21 @@ class LayGrid(RunStep):
             np.clip((at * target.px_per_cu).astype(np.int64), 0, shape[::-1] - 1).reshape(-1, 2).T
         )
         return oklabs_of_light(light[y, x])
+
+
+def hardly_shown(job: Job, target: TargetPicture, layout: Layout) -> Finding | None:
+    """Finding of a picture that is finer than the tiles, or that these photos do not show."""
+    area = layout.container.outline.area
+
+    def shows(count: int) -> bool:
+        return structure_in_squares(target, float(np.sqrt(area / count))) >= SHOWN
+
+    count = len(layout.items)
+    if not count or shows(count):
+        return unrecognised(job, target, layout)
+    more = (f"-n {n}" for n in COUNTS if n > count and shows(n))
+    values = {"tiles": number_of(count, "tile"), "remedy": next(more, "a plainer picture")}
+    return Finding(Sentence.FEW_TILES, values)
 
 
 def _features(colours: FloatArray) -> FloatArray:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import final
+from typing import TypeAlias, final
 
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
+from packwork.fields.filters import structural_similarity
 from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
@@ -216,6 +217,10 @@ HALF = "50%"
 """Tint that shows a picture by photographs of any colours. By eye."""
 
 
+Judge: TypeAlias = Callable[[Job, TargetPicture, Layout], Finding | None]
+"""What tells that a layout does not show a picture."""
+
+
 def unrecognised(job: Job, target: TargetPicture, layout: Layout) -> Finding | None:
     """Finding of a picture that does not show, and what would do; None where it shows."""
     found = correlation_with(layout, target) if layout.items else LEAST
@@ -234,6 +239,29 @@ def correlation_with(layout: Layout, target: TargetPicture) -> float:
     """Correlation of a layout with the picture, both thumbnails, inside the container."""
     seen = _thumb(_seen(layout, target))
     return _correlation(seen, _thumb(target.light), _inside(layout, target))
+
+
+def structure_in_squares(target: TargetPicture, side: float) -> float:
+    """Structural similarity of a picture and the same in squares of its mean colours.
+
+    Of lightness, both thumbnails. ``side``: in canvas units.
+
+    Examples
+    --------
+    >>> lines = TargetPicture(np.tile(np.arange(12.0)[:, None, None] % 2, (1, 12, 3)), 1.0)
+    >>> structure_in_squares(lines, 1.0), round(structure_in_squares(lines, 2.0))
+    (1.0, 0)
+    """
+    squares = target.light
+    for axis in (0, 1):
+        cell = (np.arange(squares.shape[axis]) / (side * target.px_per_cu)).astype(np.int64)
+        firsts = np.flatnonzero(np.diff(cell, prepend=-1))
+        sums = np.add.reduceat(squares, firsts, axis)
+        sizes = np.diff(firsts, append=len(cell))
+        squares = np.repeat(sums / np.expand_dims(sizes, (1 - axis, 2)), sizes, axis)
+    return structural_similarity(
+        *(np.ascontiguousarray(_thumb(one)[..., 0]) for one in (target.light, squares))
+    )
 
 
 def _seen(layout: Layout, target: TargetPicture) -> FloatArray:
@@ -276,8 +304,8 @@ def _correlation(one: FloatArray, other: FloatArray, inside: BoolArray) -> float
 class ShowPicture(RunStep):
     """Colours by which the items show a picture from afar, and advice where they do not."""
 
-    def __init__(self, target: TargetPicture) -> None:
-        self._target = target
+    def __init__(self, target: TargetPicture, judge: Judge) -> None:
+        self._target, self._judge = target, judge
 
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State whose layout is recoloured."""
@@ -285,6 +313,6 @@ class ShowPicture(RunStep):
         with state.job.clock.time("measure"):
             job = state.job
             layout = in_picture(layout, self._target, job.tints, job.recipe.ground)
-        hidden = unrecognised(state.job, self._target, layout)
+        hidden = self._judge(state.job, self._target, layout)
         found = state.findings if hidden is None else (*state.findings, hidden)
         return replace(state, layout=layout, findings=found)

@@ -26,7 +26,7 @@ from packwork.steps.jam_discs import JamDiscs, jams_discs
 from packwork.steps.levels import Levels
 from packwork.steps.line_weights import EvenLines, FinishThinner
 from packwork.steps.measure import Measure, RemarkCount, TellCoarse
-from packwork.steps.mosaic import ShowPicture
+from packwork.steps.mosaic import Judge, ShowPicture, unrecognised
 from packwork.steps.place import Place
 from packwork.steps.shortfalls import Advise, TellShortfalls
 from packwork.steps.starts import new_starts
@@ -136,7 +136,12 @@ def filling(job: Job, scales: FillerScales = as_planned) -> list[RunStep]:
 
 
 def reporting(
-    job: Job, *, is_dressed: bool, shows_shape: bool = True, found: Sequence[RunStep] = ()
+    job: Job,
+    *,
+    is_dressed: bool,
+    shows_shape: bool = True,
+    found: Sequence[RunStep] = (),
+    judge: Judge = unrecognised,
 ) -> list[RunStep]:
     """Steps after the last move: measures, what a use finds in them, colours, film, advice."""
     steps: list[RunStep] = [Measure(), *found]
@@ -151,7 +156,7 @@ def reporting(
     if is_dressed or job.plan.palette or any(one.values for one in job.asked):
         steps.append(Dress())
     if job.target is not None:
-        steps.append(ShowPicture(job.target))
+        steps.append(ShowPicture(job.target, judge))
     if job.container.backdrop is not None:
         steps.append(StandOut())
     if job.is_counted:

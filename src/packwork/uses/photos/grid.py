@@ -12,7 +12,7 @@ from packwork.pipeline.read import Material, read_named
 from packwork.pipeline.run import RunStep
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
-from packwork.steps.lay_grid import TILES, LayGrid
+from packwork.steps.lay_grid import TILES, LayGrid, hardly_shown
 from packwork.uses.collage import reporting
 from packwork.uses.icons import KnownContainer
 
@@ -33,7 +33,7 @@ class GridUse(Use):
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
-        return reporting(job, is_dressed=False, shows_shape=False)
+        return reporting(job, is_dressed=False, shows_shape=False, judge=hardly_shown)
 
 
 def read_grid(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None) -> Material:
