@@ -14,13 +14,17 @@ import pytest
 from defusedxml import ElementTree
 from fontTools.ttLib import TTFont, newTable
 from fontTools.ttLib.tables._k_e_r_n import KernTable_format_0
+from shapely import affinity
 
 import packwork as pw
 from made_fonts import variable_font
+from packwork.geometry.curves import Curve
+from packwork.geometry.polygon import united
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.fonts.glyph_ink import glyph_ink
 from packwork.readers.layouts.read import read_written
-from packwork.readers.words.items import word_item
+from packwork.readers.words.items import bent_word, word_item
 from packwork.readers.words.options import Word
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
@@ -42,6 +46,15 @@ def layout(*words: str, fonts: Fonts | None = None) -> Layout:
     poses = pw.fill("circle", "star", count=1, effort="draft", levels="50").poses
     placed = type(poses)(150.0 + 150 * k, 300.0 * one, 0.2 * k, 0.4 * one)
     return Layout(pw.read_container("circle"), items, placed, one)
+
+
+def bent(word: str, radius: float = 4.0, fonts: Fonts | None = None) -> Layout:
+    """A word round a circle, radius in ems."""
+    turn = np.linspace(-2.6, 2.6, 200)
+    arc = Curve(radius * np.column_stack([1 + np.sin(turn), 1 - np.cos(turn)]))
+    placed = layout("ox")
+    item = bent_word(Word(word, 1.0), fonts or Fonts([Typeface(INTER, "I")]), arc, 1.0, 12.0).item
+    return Layout(placed.container, (item,), placed.poses, placed.weights)
 
 
 def embedded(text: str) -> list[TTFont]:
@@ -190,3 +203,42 @@ def test_pictures_and_pages_keep_to_outlines() -> None:
 def test_icons_are_drawn_as_ever() -> None:
     star = pw.fill("circle", "star", count=2, effort="draft", levels="50")
     assert svg_text(star, LIVE) == svg_text(star)
+
+
+@pytest.mark.parametrize("radius", [3.0, 4.0, 6.0])
+def test_letters_along_a_curve_are_one_text_and_stand_where_their_outlines_do(
+    radius: float,
+) -> None:
+    """Each letter of the text, turned about its origin, covers its part of the outline."""
+    placed = bent("THE OFFICE Å", radius)
+    (item,) = placed.items
+    (shown,) = ElementTree.fromstring(svg_text(placed, LIVE)).iter(f"{SVG}text")
+    assert "".join(span.text for span in shown) == "THE OFFICE Å"
+    face = Typeface(INTER, "Inter")
+    regions = []
+    for span in shown:
+        alone = face.shaped(span.text.strip()).glyphs
+        ink = united([glyph_ink(face, glyph.number, 0.5).region for glyph in alone])
+        turned = affinity.rotate(ink, float(span.get("rotate")), origin=(0, 0))
+        regions.append(affinity.translate(turned, float(span.get("x")), float(span.get("y"))))
+    matrix = item.art.matrix
+    drawn = affinity.affine_transform(united(regions), [*matrix[:, :2].ravel(), *matrix[:, 2]])
+    missed = drawn.symmetric_difference(item.ink.region).area
+    assert missed < 1e-3 * item.ink.region.area
+
+
+@pytest.mark.parametrize(
+    ("font", "word"), [("NotoNaskhArabic.ttf", "العربية"), ("NotoSansHebrew.ttf", "שלום")]
+)
+def test_bent_letters_that_no_document_sets_alike_are_outlines(font: str, word: str) -> None:
+    fonts = Fonts([Typeface((FONTS / font).read_bytes(), font)])
+    assert bent(word, fonts=fonts).items[0].text is None
+
+
+def test_what_is_measured_of_bent_text_is_what_is_measured_of_outlines(tmp_path: Path) -> None:
+    placed = bent("ROUND & ROUND")
+    for name, options in (("live.svg", LIVE), ("curves.svg", SvgOptions())):
+        (tmp_path / name).write_text(svg_text(placed, options), encoding="utf-8")
+    live, curves = (read_written(tmp_path / name) for name in ("live.svg", "curves.svg"))
+    assert live.outlines[0].area == pytest.approx(curves.outlines[0].area, rel=1e-6)
+    assert live.outlines[0].bounds == pytest.approx(curves.outlines[0].bounds, abs=1e-3)

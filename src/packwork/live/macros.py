@@ -231,8 +231,9 @@ def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[st
 
 
 def word_rows(document: Document) -> list[int]:
-    """Rows of a cloud's words; files of shapes say so of all alone."""
-    rows = [k for k, item in enumerate(document.items) if item.text is not None]
+    """Rows of a cloud's words, those that are not bent; files of shapes say so of all alone."""
+    texts = [item.text for item in document.items]
+    rows = [k for k, text in enumerate(texts) if text is not None and text.is_straight]
     recipe = document.manifest.get("recipe")
     is_of_words = isinstance(recipe, Mapping) and recipe.get("words") is not None
     return list(range(len(document))) if is_of_words and not rows else rows

@@ -127,6 +127,7 @@ class TextRun:
     ``steps``: where each glyph's origin stands, from the left, as shares of an em.
     ``advance``: from the left end to the right one, as a share of an em.
     ``is_leftward``: whether it is read from right to left.
+    ``angle``: by which it is turned about the left end of its base line.
     """
 
     text: str
@@ -137,6 +138,7 @@ class TextRun:
     steps: tuple[float, ...]
     advance: float
     is_leftward: bool = False
+    angle: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,6 +153,11 @@ class LiveText:
     runs: tuple[TextRun, ...]
     path: str
     language: str = ""
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether no run is turned, as runs along a curve are."""
+        return not any(run.angle for run in self.runs)
 
 
 @dataclass(frozen=True)

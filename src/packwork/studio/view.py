@@ -207,7 +207,7 @@ class Scenes:
             weight=float(view.weights[k]),
             stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
             count=counted_weight(item),
-            is_word=item.text is not None,
+            is_word=item.text is not None and item.text.is_straight,
             held=(place, angle, size),
             crop=None if item.parts is not None else _crop_of(item.art),
             parts=0 if item.parts is None else len(item.parts.items),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import logging
+import math
 import struct
 import unicodedata
 import zlib
@@ -112,6 +113,7 @@ def _run_attributes(run: TextRun, fonts: Mapping[FontFile, Embedded]) -> dict[st
         "font-size": f"{run.size:.10g}",
         "x": f"{start:.10g}",
         "y": f"{run.y:.10g}",
+        "rotate": f"{math.degrees(run.angle):.10g}" if run.angle else "",
         "direction": "rtl" if run.is_leftward else "",
         "unicode-bidi": "bidi-override" if run.is_leftward else "",
     }

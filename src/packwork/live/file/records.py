@@ -162,6 +162,7 @@ class RunRecord(Options):
     steps: Annotated[tuple[Number, ...], Field(max_length=MOST_LINES)]
     advance: Number
     is_leftward: bool = False
+    angle: Number = 0.0
 
 
 class WordRecord(Options):

@@ -221,7 +221,7 @@ def _word_record(text: LiveText, things: Things) -> WordRecord:
         RunRecord(
             text=run.text, font=things.font(run.font), font_name=run.font.name,
             index=run.font.index, weight=run.font.weight, x=run.x, y=run.y, size=run.size,
-            steps=run.steps, advance=run.advance, is_leftward=run.is_leftward,
+            steps=run.steps, advance=run.advance, is_leftward=run.is_leftward, angle=run.angle,
         )
         for run in text.runs
     ]  # fmt: skip
@@ -236,7 +236,8 @@ def _text_of(record: WordRecord, shared: Shared) -> LiveText:
 
 def _run_of(run: RunRecord, shared: Shared) -> TextRun:
     return TextRun(
-        run.text, shared.font(run), run.x, run.y, run.size, run.steps, run.advance, run.is_leftward
+        run.text, shared.font(run), run.x, run.y, run.size, run.steps, run.advance,
+        run.is_leftward, run.angle,
     )  # fmt: skip
 
 

@@ -261,7 +261,7 @@ class GlyphRun:
 
 
 @dataclass(frozen=True)
-class _FontRun(GlyphRun):
+class FontRun(GlyphRun):
     """A run of glyphs with the text that it is."""
 
     piece: Piece
@@ -269,6 +269,7 @@ class _FontRun(GlyphRun):
 
     @property
     def text(self) -> TextRun:
+        """The run as text, upright."""
         units = self.face.units
         return TextRun(
             self.piece.text,
@@ -284,15 +285,15 @@ class _FontRun(GlyphRun):
 
 def line_of_runs(
     line: Sequence[TypeSetting], number: int, units: float, language: str
-) -> list[_FontRun]:
+) -> list[FontRun]:
     """Runs of one line beside each other, centred about 0 by what they draw."""
-    runs: dict[int, _FontRun] = {}
+    runs: dict[int, FontRun] = {}
     x = 0.0
     for k in visual_order([setting.piece for setting in line]):
         piece, face = line[k].piece, line[k].face
         shaped = face.shaped(piece.text, is_leftward=piece.is_leftward, language=language)
         y, scale = number * LINE_STEP * units, units / face.units
-        runs[k] = _FontRun(face, shaped.glyphs, x, y, scale, piece, shaped.advance)
+        runs[k] = FontRun(face, shaped.glyphs, x, y, scale, piece, shaped.advance)
         x += shaped.advance * runs[k].scale
     ends = [end for run in runs.values() for end in run.ends()]
     middle = float(np.round((min(ends) + max(ends)) / 2)) if ends else 0.0
