@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import logging
+import resource
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -112,7 +114,7 @@ def test_small_words_are_told_though_they_are_curves() -> None:
 
     layout = words("page", {"pear": 9, "fig": 1}, canvas="10mm", **QUICK)  # type: ignore[arg-type]
     data = encoded(layout, "a.pdf", write_options())
-    assert by_name(preflight_of(data, "a.pdf"))["text"].found == "none"
+    assert by_name(preflight_of(data, "a.pdf"))["text"].found.startswith("none; ")
     assert not by_name(preflight_of(data, "a.pdf", layout))["text"].is_well
     large = words("page", {"pear": 9, "fig": 1}, canvas="300mm", **QUICK)  # type: ignore[arg-type]
     found = preflight_of(encoded(large, "a.pdf", write_options()), "a.pdf", large)
@@ -146,6 +148,48 @@ def test_live_text_has_its_size(content: bytes, told: str) -> None:
 )
 def test_colours_are_found_in_all_that_paints(content: bytes, told: str) -> None:
     assert by_name(preflight_of(made(content), "a.pdf"))["colours"].found == told
+
+
+@pytest.mark.parametrize("unit", [1.0, 2.5])
+def test_the_unit_of_a_page_counts(unit: float) -> None:
+    with pikepdf.open(io.BytesIO(made(b".1 w 90 90 9 9 re S"))) as pdf:
+        pdf.pages[0].obj.UserUnit = unit
+        pdf.save(written := io.BytesIO())
+    found = by_name(preflight_of(written.getvalue(), "a.pdf"))
+    side = 300 * unit / 72 * 25.4
+    assert found["trimmed sheet"].found == f"{side:.4g} x {side:.4g} mm, no bleed"
+    assert found["lines"].found.startswith(f"thinnest {0.1 * unit:.2f} pt")
+    assert found["lines"].is_well == (unit > 2)
+
+
+@pytest.mark.parametrize(("width", "is_well"), [(200, True), (300, False)])
+def test_a_form_is_clipped_by_its_box(width: int, is_well: bool) -> None:
+    with pikepdf.open(io.BytesIO(made(b"/Form Do"))) as pdf:
+        form = pdf.make_stream(b"50 50 900 9 re f", Subtype=Name.Form, BBox=[0, 0, width, 300])
+        pdf.pages[0].obj.Resources.XObject.Form = form
+        pdf.save(written := io.BytesIO())
+    assert by_name(preflight_of(written.getvalue(), "a.pdf"))[NEAR].is_well == is_well
+
+
+def packed_twice() -> bytes:
+    """PDF whose content of a gigabyte is a few kilobytes."""
+    packer = zlib.compressobj(9)
+    packed = b"".join(packer.compress(bytes(10**7)) for _ in range(100)) + packer.flush()
+    with pikepdf.open(io.BytesIO(made(b""))) as pdf:
+        flate = Name.FlateDecode
+        page = pdf.pages[0].obj
+        page.Contents = pdf.make_stream(zlib.compress(packed, 9), Filter=Array([flate, flate]))
+        pdf.save(written := io.BytesIO(), stream_decode_level=pikepdf.StreamDecodeLevel.none)
+    return written.getvalue()
+
+
+def test_content_is_refused_before_it_is_unpacked() -> None:
+    data = packed_twice()
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    with pytest.raises(ReadError, match="more than can be looked at"):
+        preflight_of(data, "a.pdf")
+    grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    assert grown * 1024 < 5e8
 
 
 def made(content: bytes, encryption: pikepdf.Encryption | None = None) -> bytes:

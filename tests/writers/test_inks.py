@@ -136,6 +136,8 @@ def test_a_spot_colour_that_nothing_has_is_told(
         "A=red,A=blue",
         "All=red",
         "black=red",
+        "Go\nld=red",
+        "Gold\x00=red",
     ],
 )
 def test_spot_colours_that_are_none_are_refused(spot: str) -> None:
@@ -167,6 +169,31 @@ def test_a_file_that_is_no_profile_of_a_press_is_refused(tmp_path: Path) -> None
 def test_a_palette_names_no_reserved_ink(name: str) -> None:
     with pytest.raises(RecipeError, match=f"{name} is no spot ink"):
         fill("page", "star", count=2, palette=f"spot:{name} #b58b2a", levels="24", epochs=4)
+
+
+@pytest.mark.parametrize(
+    ("palette", "told"),
+    [
+        ("spot:Gold #b58b2a,spot:Bronze #b58b2a", "Gold and Bronze have one colour"),
+        (["spot:Gold #b58b2a", "spot:Bronze #B58B2A"], "Gold and Bronze have one colour"),
+        ("spot:Go\tld #b58b2a", "cannot be called"),
+    ],
+)
+def test_a_palette_gives_each_ink_a_colour_and_a_name_that_prints(
+    palette: str | list[str], told: str
+) -> None:
+    with pytest.raises(RecipeError, match=told):
+        fill("page", "star", count=2, palette=palette, levels="24", epochs=4)
+
+
+@pytest.mark.parametrize("has_press", [False, True])
+def test_a_gradient_of_a_spot_colour_is_told(
+    coloured: Layout, press: Path, caplog: pytest.LogCaptureFixture, has_press: bool
+) -> None:
+    for spot, is_told in (("Blue=#0000ff", True), ("Gold=#b58b2a", False)):
+        caplog.clear()
+        encoded(coloured, "a.pdf", write_options(icc=press if has_press else None, spot=spot))
+        assert ("1 gradient has the colour of a spot ink" in caplog.text) == is_told
 
 
 def test_a_file_for_a_press_says_where_it_is_trimmed(coloured: Layout, press: Path) -> None:

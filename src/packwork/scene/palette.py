@@ -68,6 +68,7 @@ def palette_colours(value: object) -> tuple[str, ...]:
     """
     if isinstance(value, Mapping):
         return tuple((colours_by_name(value) or {}).values())
+    spot_inks_in(value)
     if isinstance(value, str):
         named = PALETTES.get(value.strip().lower())
         return named or tuple(_colour(part) for part in _parts_of(value))
@@ -134,6 +135,8 @@ SPOT = "spot:"
 def spot_inks_in(palette: object) -> dict[str, str]:
     """Names of the spot inks that a palette asks for, by colour.
 
+    Raises ``ValueError`` if two have one colour.
+
     Examples
     --------
     >>> spot_inks_in("spot:PANTONE 186 C #c8102e, black"), spot_inks_in("okabe-ito")
@@ -142,8 +145,12 @@ def spot_inks_in(palette: object) -> dict[str, str]:
     listed = palette if isinstance(palette, list | tuple) else ()
     parts = _COMMA.split(palette) if isinstance(palette, str) else map(str, listed)
     spots = (part.strip() for part in parts if part.strip().lower().startswith(SPOT))
-    names = ((_colour(part), part[len(SPOT) :].rpartition(" ")[0].strip()) for part in spots)
-    return {colour: name for colour, name in names if name}
+    inks = dict[str, str]()
+    for part in spots:
+        colour, name = _colour(part), part[len(SPOT) :].rpartition(" ")[0].strip()
+        if name and inks.setdefault(colour, name) != name:
+            raise ValueError(f"{inks[colour]} and {name} have one colour; give each its own")
+    return inks
 
 
 _RESERVED = frozenset({"all", "none", "cyan", "magenta", "yellow", "black"})
@@ -155,6 +162,8 @@ def check_ink(name: str) -> None:
     """Raise ``ValueError`` if a spot ink cannot be called so."""
     if name.casefold() in _RESERVED:
         raise ValueError(f"{name} is no spot ink in a PDF; give it another name")
+    if not name.isprintable():
+        raise ValueError(f"an ink cannot be called {name[:40]!r}; leave out what is not printed")
 
 
 def _colour(text: str) -> str:

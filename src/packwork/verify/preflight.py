@@ -6,7 +6,9 @@ is set on a page first.
 
 from __future__ import annotations
 
+import contextlib
 import io
+import zlib
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -64,6 +66,8 @@ _POINTS = {"m": 1, "l": 1, "c": 3, "v": 2, "y": 2}
 _DEVICE = {"rg": "RGB", "g": "grey", "k": "CMYK"}
 _MALFORMED = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of content that is not as the standard has it."""
+
+_TOO_MUCH = "paints more than can be looked at"
 
 _NOWHERE = np.zeros((2, 2))
 _EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
@@ -158,8 +162,9 @@ class _Content:
 
     def __init__(self, pdf: pikepdf.Pdf) -> None:
         page = pdf.pages[0]
-        self._trim = _box(page.trimbox)
-        self._bleed = _box(page.obj.get("/BleedBox", page.trimbox))
+        unit = float(page.obj.get("/UserUnit", 1))
+        self._trim = unit * _box(page.trimbox)
+        self._bleed = unit * _box(page.obj.get("/BleedBox", page.trimbox))
         self._intents = [
             str(one.get("/OutputConditionIdentifier", ""))
             for one in pdf.Root.get("/OutputIntents", [])
@@ -174,10 +179,13 @@ class _Content:
         self._clear: Counter[str] = Counter()
         self._painted_boxes: list[FloatArray] = []
         self._left = MAX_CONTENT
-        page.contents_coalesce()
         if "/Contents" in page.obj:
+            for part in _listed(page.obj.Contents):
+                _check_size(part, self._left)
+            page.contents_coalesce()
             resources: Any = page.obj.get("/Resources", {})
-            self._follow(page.obj.Contents, resources, _Graphics(affine.identity()), 0)
+            state = _Graphics(affine.similarity(0.0, 0.0, 0.0, unit))
+            self._follow(page.obj.Contents, resources, state, 0)
 
     def checks(self, ems: Sequence[float]) -> list[Check]:
         """Lines of the table; ``ems`` are heights of letters that are curves here."""
@@ -209,7 +217,9 @@ class _Content:
     @staticmethod
     def _letters(ems: Sequence[float]) -> Check:
         small = [em for em in ems if em < LEAST_TEXT_PT]
-        told = f"smallest {min(ems):.1f} pt" if ems else "none"
+        told = (
+            f"smallest {min(ems):.1f} pt" if ems else "none; letters that are curves are not seen"
+        )
         told += f"; {len(small)} under {LEAST_TEXT_PT:g} pt" if small else ""
         return Check("text", told, not small)
 
@@ -258,9 +268,10 @@ class _Content:
         return Check("output intent", told or "none", bool(told))
 
     def _follow(self, stream: Any, resources: Any, state: _Graphics, depth: int) -> None:
+        _check_size(stream, self._left)
         self._left -= len(stream.read_bytes()) + _FORM_BYTES
         if self._left < 0 or depth > _DEEPEST:
-            raise UnfitError("paints more than can be looked at")
+            raise UnfitError(_TOO_MUCH)
         kept: list[_Graphics] = []
         points: list[FloatArray] = []
         clips = False
@@ -270,9 +281,7 @@ class _Content:
                 points.append(np.reshape([float(v) for v in operands], (-1, 2)))
             elif name == "re":
                 x, y, wide, high = (float(v) for v in operands)
-                points.append(
-                    np.array([[x, y], [x + wide, y + high], [x, y + high], [x + wide, y]])
-                )
+                points.append(_corners(x, y, x + wide, y + high))
             elif name in {"W", "W*"}:
                 clips = True
             elif name in _PAINTING or name == "n":
@@ -314,12 +323,14 @@ class _Content:
             self._picture(drawn, resources, state)
             return
         own = affine.compose(state.matrix, _matrix(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
-        self._follow(
-            drawn, drawn.get("/Resources", resources), replace(state, matrix=own), depth + 1
-        )
+        state = replace(state, matrix=own)
+        if "/BBox" in drawn:
+            corners = _corners(*(float(v) for v in drawn.BBox))
+            state = replace(state, window=_bounds([corners], state))
+        self._follow(drawn, drawn.get("/Resources", resources), state, depth + 1)
 
     def _picture(self, drawn: Any, resources: Any, state: _Graphics) -> None:
-        box = _bounds([np.array([[0, 0], [1, 0], [0, 1], [1, 1]])], state)
+        box = _bounds([_corners(0.0, 0.0, 1.0, 1.0)], state)
         self._painted_boxes.append(box)
         if (box[1] > self._trim[0] + _SEEN_PT).all() and (box[0] < self._trim[1] - _SEEN_PT).all():
             inches = np.hypot(*state.matrix[:, :2]) / 72
@@ -380,8 +391,27 @@ def _bounds(points: Sequence[FloatArray], state: _Graphics) -> FloatArray:
     return np.array([low, np.maximum(np.minimum(placed.max(axis=0), state.window[1]), low)])
 
 
+def _corners(left: float, low: float, right: float, high: float) -> FloatArray:
+    return np.array([[left, low], [right, high], [left, high], [right, low]])
+
+
+def _check_size(stream: Any, most: int) -> None:
+    """Refuse a stream that would be larger than ``most`` bytes, before it is unpacked."""
+    packed, kinds = stream.read_raw_bytes(), _listed(stream.get("/Filter", ""))
+    with contextlib.suppress(zlib.error):
+        for _ in filter("/FlateDecode".__eq__, map(str, kinds)):
+            packed = zlib.decompressobj().decompress(packed, most + 1)
+            if len(packed) > most:
+                raise UnfitError(_TOO_MUCH)
+
+
 def _box(box: Any) -> FloatArray:
     return np.sort(np.reshape([float(v) for v in box], (2, 2)), axis=0)
+
+
+def _listed(found: Any) -> list[Any]:
+    """What may stand in a list or alone."""
+    return list(found) if isinstance(found, pikepdf.Array) else [found]
 
 
 def _matrix(numbers: Any) -> FloatArray:

@@ -42,7 +42,7 @@ class InkWriter:
         self._spaces: dict[_Channels, Any] = {}
         self._known: dict[_Channels, tuple[float, ...]] = {}
         self._done: set[tuple[int, int]] = set()
-        self._left = 0
+        self._left = self._blended = 0
 
     def convert(self) -> None:
         """Convert the first page and all that it paints with; what cannot be is told."""
@@ -54,6 +54,9 @@ class InkWriter:
         vain = [name for rgb, name in self._spots.items() if rgb not in self._spaces]
         if vain:
             _LOG.warning("nothing is drawn in the colour of the spot ink %s", " or ".join(vain))
+        if self._blended:
+            told = number_of(self._blended, "gradient has", "gradients have")
+            _LOG.warning("%s the colour of a spot ink and no such ink", told)
         if self._left:
             told = number_of(self._left, "gradient stays", "gradients stay")
             _LOG.warning("%s in sRGB, which the press converts", told)
@@ -147,7 +150,10 @@ class InkWriter:
         return is_new
 
     def _shading(self, shading: Any) -> None:
-        if self._profile is None or not _components(shading.ColorSpace):
+        if not _components(shading.ColorSpace):
+            return
+        self._blended += not self._spots.keys().isdisjoint(_ends(shading.Function))
+        if self._profile is None:
             return
         converted = self._function(shading.Function)
         if converted is None:
@@ -199,6 +205,13 @@ def _bytes_of(operands: Any) -> _Channels:
     values = [round(float(v) * 255) for v in operands]
     red, green, blue = values * 3 if len(values) == 1 else values
     return red, green, blue
+
+
+def _ends(function: Any) -> list[_Channels]:
+    """Colours between which a function of a share blends, of one to sRGB or grey."""
+    if function.FunctionType == 2:
+        return [_bytes_of(function.C0), _bytes_of(function.C1)]
+    return [rgb for part in function.get("/Functions", []) for rgb in _ends(part)]
 
 
 def _channels_of(colour: str) -> _Channels:
