@@ -103,8 +103,8 @@ def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str])
     if bleed_px and shapes and _is_beyond(shapes[0], page, bleed_px):
         # The background of the whole sheet lies behind all.
         shapes = shapes[1:]
-    seen = ([one for one in whole if not _is_off(one, page)] for whole in (drawn, shapes))
-    found = differences(*seen, tolerance)
+    drawn, shapes = ([one for one in all_ if not _is_off(one, page)] for all_ in (drawn, shapes))
+    found = differences(drawn, shapes, tolerance)
     # What is painted besides was named as taken on trust.
     is_known = bool({"filter", "marker"} & beyond) or not found.strange
     if is_known and not found.missing:
