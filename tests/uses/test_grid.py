@@ -138,7 +138,7 @@ def test_a_picture_finer_than_the_tiles_is_told(album: Path, tmp_path: Path, str
     few, enough = (
         fill(
             make_recipe(
-                container="square", items=[str(album)], photos={"shape": "square"}, grid=True,
+                container="square", photos={"sources": [str(album)]}, grid=True,
                 picture=str(tmp_path / "stripes.png"), tint="80%", count=side**2,
             )
         ).advice
