@@ -299,6 +299,11 @@ def differing(before: Poses, after: Poses) -> BoolArray:
     return np.asarray(np.logical_or.reduce(columns))
 
 
+def is_straight_word(item: Item) -> bool:
+    """Whether an item is a word that no curve bends."""
+    return item.text is not None and not any(run.angle for run in item.text.runs)
+
+
 def counted_weight(item: Item) -> float | None:
     """Weight that a word's tooltip tells; None of what is no word, or was renamed.
 

@@ -14,7 +14,7 @@ from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, made, named_item, true_scale
 from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut, SetOption
 from packwork.live.commands.items import Add, Remove, Replace, Weigh
-from packwork.live.document import Document, counted_weight
+from packwork.live.document import Document, counted_weight, is_straight_word
 from packwork.live.neighbourhood.places import widest_places
 from packwork.phrasing import enumerated
 from packwork.readers.words.items import WordsRead, read_word_items
@@ -232,8 +232,7 @@ def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[st
 
 def word_rows(document: Document) -> list[int]:
     """Rows of a cloud's words, those that are not bent; files of shapes say so of all alone."""
-    texts = [item.text for item in document.items]
-    rows = [k for k, text in enumerate(texts) if text is not None and text.is_straight]
+    rows = [k for k, item in enumerate(document.items) if is_straight_word(item)]
     recipe = document.manifest.get("recipe")
     is_of_words = isinstance(recipe, Mapping) and recipe.get("words") is not None
     return list(range(len(document))) if is_of_words and not rows else rows

@@ -126,8 +126,7 @@ class TextRun:
     ``size``: height of an em, in the same units.
     ``steps``: where each glyph's origin stands, from the left, as shares of an em.
     ``advance``: from the left end to the right one, as a share of an em.
-    ``is_leftward``: whether it is read from right to left.
-    ``angle``: by which it is turned about the left end of its base line.
+    ``is_leftward``: whether it is read from right to left; ``angle``: turn about its left end.
     """
 
     text: str
@@ -153,11 +152,6 @@ class LiveText:
     runs: tuple[TextRun, ...]
     path: str
     language: str = ""
-
-    @property
-    def is_straight(self) -> bool:
-        """Whether no run is turned, as runs along a curve are."""
-        return not any(run.angle for run in self.runs)
 
 
 @dataclass(frozen=True)

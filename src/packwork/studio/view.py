@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.live.document import PROPERTIES, Document, counted_weight
+from packwork.live.document import PROPERTIES, Document, counted_weight, is_straight_word
 from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
 from packwork.live.ground import underlays
 from packwork.live.kinds import COLLAGE, Kind
@@ -207,7 +207,7 @@ class Scenes:
             weight=float(view.weights[k]),
             stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
             count=counted_weight(item),
-            is_word=item.text is not None and item.text.is_straight,
+            is_word=is_straight_word(item),
             held=(place, angle, size),
             crop=None if item.parts is not None else _crop_of(item.art),
             parts=0 if item.parts is None else len(item.parts.items),

@@ -6,9 +6,7 @@ is set on a page first.
 
 from __future__ import annotations
 
-import contextlib
 import io
-import zlib
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -29,7 +27,7 @@ from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert
-from packwork.verify.colour_spaces import space_name
+from packwork.verify.pdf_objects import TOO_MUCH, check_size, listed, space_name
 
 MAX_BYTES = 500_000_000
 """Bytes of a file at most. Chosen."""
@@ -66,8 +64,6 @@ _POINTS = {"m": 1, "l": 1, "c": 3, "v": 2, "y": 2}
 _DEVICE = {"rg": "RGB", "g": "grey", "k": "CMYK"}
 _MALFORMED = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of content that is not as the standard has it."""
-
-_TOO_MUCH = "paints more than can be looked at"
 
 _NOWHERE = np.zeros((2, 2))
 _EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
@@ -180,8 +176,8 @@ class _Content:
         self._painted_boxes: list[FloatArray] = []
         self._left = MAX_CONTENT
         if "/Contents" in page.obj:
-            for part in _listed(page.obj.Contents):
-                _check_size(part, self._left)
+            for part in listed(page.obj.Contents):
+                check_size(part, self._left)
             page.contents_coalesce()
             resources: Any = page.obj.get("/Resources", {})
             state = _Graphics(affine.similarity(0.0, 0.0, 0.0, unit))
@@ -268,10 +264,10 @@ class _Content:
         return Check("output intent", told or "none", bool(told))
 
     def _follow(self, stream: Any, resources: Any, state: _Graphics, depth: int) -> None:
-        _check_size(stream, self._left)
+        check_size(stream, self._left)
         self._left -= len(stream.read_bytes()) + _FORM_BYTES
         if self._left < 0 or depth > _DEEPEST:
-            raise UnfitError(_TOO_MUCH)
+            raise UnfitError(TOO_MUCH)
         kept: list[_Graphics] = []
         points: list[FloatArray] = []
         clips = False
@@ -395,23 +391,8 @@ def _corners(left: float, low: float, right: float, high: float) -> FloatArray:
     return np.array([[left, low], [right, high], [left, high], [right, low]])
 
 
-def _check_size(stream: Any, most: int) -> None:
-    """Refuse a stream that would be larger than ``most`` bytes, before it is unpacked."""
-    packed, kinds = stream.read_raw_bytes(), _listed(stream.get("/Filter", ""))
-    with contextlib.suppress(zlib.error):
-        for _ in filter("/FlateDecode".__eq__, map(str, kinds)):
-            packed = zlib.decompressobj().decompress(packed, most + 1)
-            if len(packed) > most:
-                raise UnfitError(_TOO_MUCH)
-
-
 def _box(box: Any) -> FloatArray:
     return np.sort(np.reshape([float(v) for v in box], (2, 2)), axis=0)
-
-
-def _listed(found: Any) -> list[Any]:
-    """What may stand in a list or alone."""
-    return list(found) if isinstance(found, pikepdf.Array) else [found]
 
 
 def _matrix(numbers: Any) -> FloatArray:
