@@ -196,7 +196,7 @@ def check_told(sheets: Sequence[Sheet], parts: Sequence[SheetPart], engraving: E
 
 
 def _states_unit(file: str) -> bool | None:
-    """Whether a drawing says how large it is; None of what is no file of one."""
+    """True of a drawing that says how large it is; None of what is no file of one."""
     ending = Path(file).suffix.lower()
     if ending not in {".svg", ".svgz", ".dxf"} or not exists(file):
         return None

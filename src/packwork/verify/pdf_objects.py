@@ -43,5 +43,5 @@ def check_size(stream: Any, most: int) -> None:
 
 
 def listed(found: Any) -> list[Any]:
-    """What may stand in a list or alone."""
+    """Objects that may stand in a list or alone."""
     return list(found) if isinstance(found, pikepdf.Array) else [found]
