@@ -17,6 +17,7 @@ import tempfile
 from itertools import pairwise
 from pathlib import Path
 
+import pypdfium2 as pdfium
 from PIL import Image
 
 from packwork.cli import app
@@ -50,9 +51,10 @@ def scripts(folder: Path) -> list[str]:
 
 
 def pictures(arguments: list[str], flag: str = "-o") -> list[str]:
-    """PNGs that a command writes for a flag."""
+    """PNGs that a command writes for a flag, else its PDFs."""
     written = [value for given, value in pairwise(arguments) if given == flag]
-    return [name for name in written if name.endswith(".png")]
+    pngs = [name for name in written if name.endswith(".png")]
+    return pngs or [name for name in written if name.endswith(".pdf")]
 
 
 def films(arguments: list[str]) -> list[str]:
@@ -91,9 +93,18 @@ def run(arguments: list[str]) -> None:
             raise
 
 
+def opened(picture: Path) -> Image.Image:
+    """A picture, or the first page of a PDF, on white and larger than it is kept."""
+    if picture.suffix != ".pdf":
+        return Image.open(picture)
+    page = pdfium.PdfDocument(picture)[0]
+    image: Image.Image = page.render(scale=2 * LONGEST_PX / max(page.get_size())).to_pil()
+    return image
+
+
 def keep(picture: Path, target: Path) -> None:
     """Save a picture small: in fewer pixels where it is full of detail, as photographs are."""
-    with Image.open(picture) as image:
+    with opened(picture) as image:
         is_opaque = image.mode == "RGB" or image.getchannel("A").getextrema()[0] == 255
         plain = image.convert("RGB") if is_opaque else image
         for longest in range(LONGEST_PX, 100, -50):
