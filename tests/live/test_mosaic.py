@@ -11,9 +11,14 @@ from PIL import Image
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.live.commands.command import named_container
+from packwork.live.commands.container import SetContainer
 from packwork.live.log import Log, read_entries
 from packwork.live.mosaic import MOST_PX
+from packwork.live.owner import Owner
+from packwork.live.relayout import poured_again
 from packwork.live.session import Session
+from packwork.readers.container import read_container
 from packwork.readers.target import picture_colours
 from packwork.scene.item import PhotoArt
 from packwork.scene.swatch import mean_lights
@@ -170,3 +175,36 @@ def test_colours_of_a_picture_are_its_own(tmp_path: Path) -> None:
     picture.paste("#f2c14e", (20, 0, 30, 20))
     picture.save(tmp_path / "two.png")
     assert picture_colours(tmp_path / "two.png", 8) == ["#102a6e", "#f2c14e"]
+
+
+def test_items_keep_their_colours_where_the_container_has_one_colour_of_the_picture(
+    layout: pw.Layout, tmp_path: Path
+) -> None:
+    picture = np.full((400, 400, 3), 255, np.uint8)
+    picture[:, :40] = picture[:, -40:] = 20
+    Image.fromarray(picture).save(tmp_path / "edges.png")
+    session = layout.edit()
+    session.picture(tmp_path / "edges.png")
+    before = lights(session)
+    narrow = named_container(session.library, read_container("page", "60x600px"))
+    owner = Owner(session)
+    with owner:
+        owner.post(SetContainer(asset=narrow))
+    assert owner.failure is None
+    assert lights(session).tolist() == before.tolist()
+    session.apply(poured_again(session.document, 1))
+    assert lights(session).tolist() == before.tolist()
+
+
+def test_held_items_take_on_the_colours_of_a_container_that_is_moved(
+    layout: pw.Layout, ramp: str
+) -> None:
+    session = layout.edit()
+    session.picture(ramp)
+    number = int(np.argmax(session.document.poses.x))
+    session.hold(number)
+    before = lights(session)[number]
+    session.do("place_container", x=layout.container.width * 0.3, factor=1.6)
+    session.finish()
+    assert session.document.poses.x[number] == layout.poses.x[number]
+    assert lights(session)[number] < before - 0.1

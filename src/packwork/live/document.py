@@ -177,10 +177,11 @@ class Document:
         return forces_of(texts, [self.items[k] for k in rows], self.weights[rows], self.container)
 
     def rows_moved_from(self, before: Document) -> IntArray:
-        """Rows of items that lie elsewhere than in another document, or are new."""
+        """Rows of items that are new or lie elsewhere than before; in another container all do."""
         _, rows, theirs = np.intersect1d(self.ids, before.ids, return_indices=True)
         stays = np.zeros(len(self), dtype=bool)
-        stays[rows] = ~differing(self.poses.subset(rows), before.poses.subset(theirs))
+        if self.container is before.container:
+            stays[rows] = ~differing(self.poses.subset(rows), before.poses.subset(theirs))
         return np.flatnonzero(~stays)
 
     def with_ranges(self, options: LiveOptions) -> Document:

@@ -9,6 +9,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.errors import ReadError
 from packwork.readers.target import target_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item, PhotoArt
@@ -44,6 +45,14 @@ class Mosaic:
             self._targets[container] = target_of(self.picture, container)
         return self._targets[container]
 
+    def is_seen_on(self, container: Container) -> bool:
+        """Whether a container has more than one colour of it: colours are to be had there."""
+        try:
+            self.target(container)
+        except ReadError:
+            return False
+        return True
+
     def tint_of(self, item: Item) -> float:
         """Share of the colours that an item takes on."""
         usual = 0.0 if isinstance(item.art, PhotoArt) else 1.0
@@ -53,11 +62,12 @@ class Mosaic:
 def coloured(document: Document, rows: IntArray) -> Document:
     """A document with some of its items in the colours that show its picture where they lie.
 
-    The others keep theirs, and are made up for where they are near; groups keep theirs too.
+    The others keep theirs, and are made up for where they are near; groups keep theirs too,
+    and so do all where the container has one colour of the picture only.
     """
     mosaic, container = document.mosaic, document.container
     rows = rows[[document.items[k].parts is None for k in rows]]
-    if mosaic is None or not len(rows):
+    if mosaic is None or not len(rows) or not mosaic.is_seen_on(container):
         return document
     items, tints = list(document.items), np.zeros(len(document))
     for k in rows.tolist():

@@ -70,8 +70,9 @@ def poured_again(
     if isinstance(document.kind, PileKind):
         return _heaped(document, document.kind, seed, shown, stop, asked)
     is_by_text = asked.get("embeddings") == BY_TEXT
-    if document.mosaic is not None and not asked:
-        job = _mosaic_again(document, seed, document.mosaic)
+    mosaic = document.mosaic
+    if mosaic is not None and not asked and mosaic.is_seen_on(document.container):
+        job = _mosaic_again(document, seed, mosaic)
     else:
         job = job_again(document, seed, {} if is_by_text else asked)
     if is_by_text:
