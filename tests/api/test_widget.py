@@ -137,6 +137,9 @@ def test_two_hundred_gestures_send_what_changed_and_no_shape_that_is_gone() -> N
         do(kind="recolour", items=[turn % 3], colour=f"#{turn:02x}4080")
     assert "scene" in shown[-1]
     assert len(json.loads(shown[-1]["shapes"])) == 3
+    do(kind="background", colour="linear-gradient(#ff0000, #0000ff)")
+    (behind,) = json.loads(shown[-1]["scene"])["under"]
+    assert behind["shape"] in [one["key"] for one in json.loads(shown[-1]["shapes"])]
 
 
 def test_an_item_is_dragged_and_undone(notebook: Notebook) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
-from itertools import chain
 from typing import Protocol
 
 from packwork.errors import PackworkError
@@ -103,7 +102,7 @@ class Tab:
         return self._seen is not None and self._seen[0] is poses and self._seen[1] == done
 
     async def _send_scene(self, scene: Scene) -> None:
-        shapes = chain((one.shape for one in scene.items), (one.shape for one in scene.under))
+        shapes = (one.shape for one in (*scene.items, *scene.under))
         keys = dict.fromkeys(shape for shape in shapes if shape not in self._known)
         self._known.update(keys)
         if keys:
