@@ -7,6 +7,7 @@ import itertools
 import json
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any, get_args
 from urllib.parse import quote
 
@@ -20,6 +21,7 @@ from packwork.studio import messages as requests
 from packwork.studio.app import guarded
 from packwork.studio.files import Uploads
 from packwork.studio.guard import TOKEN_HEADER
+from packwork.studio.importer import Importer
 from packwork.studio.proof import Secret
 from packwork.studio.workspace import Workspace
 from packwork.writers.options import DrawingOptions
@@ -128,6 +130,23 @@ def test_an_export_is_made_or_refused_in_a_line(opening: Opening) -> None:
 
     assert FORMATS
     assert FILM_FORMATS
+    talk(opening, scenario)
+
+
+def test_a_refusal_names_no_folder_of_what_was_sent(opening: Opening) -> None:
+    async def scenario(ask: Ask, desk: Workspace, uploads: Uploads) -> None:
+        batch = uploads.new_batch()
+        uploads.add(batch, "wrong.png", b"no picture")
+        asked = {"format": "pdf", "options": {"icc": f"file:{batch}"}}
+        answer = await ask("POST", "/export", json.dumps(asked).encode(), {})
+        assert answer.body.startswith(b"wrong.png: ")
+        told: asyncio.Queue[Any] = asyncio.Queue()
+        desk.listen(told, lambda news: news and told.put_nowait(news.text))
+        tab: Any = SimpleNamespace(workspace=desk, importer=Importer(desk, uploads))
+        for purpose in ("mosaic", "behind", "colours"):
+            requests.Picture(source=f"file:{batch}", purpose=purpose).act(tab)
+            assert (await asyncio.wait_for(told.get(), 60)).startswith("wrong.png: ")
+
     talk(opening, scenario)
 
 

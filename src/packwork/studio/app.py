@@ -117,7 +117,7 @@ class Studio:
             asked = json.loads(await _body(request, MOST_ASKED))
             data, media = await self._exporter.file(asked)
         except PackworkError as error:
-            return refused(error)
+            return refused(PackworkError(self._importer.without_folder(str(error))))
         except (ValueError, RecursionError):
             return PlainTextResponse("what is asked for cannot be read\n", 400)
         return Response(data, media_type=media)

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from packwork.live import edits
 from packwork.live.commands.command import Command, made, named_item
-from packwork.live.commands.look import SetMosaic
+from packwork.live.commands.look import Background, SetMosaic
 from packwork.live.face.offers import colours_called, colours_of, picture_of, words_to_mix
 from packwork.live.macros import mixed
 from packwork.live.session import Session
@@ -63,17 +63,20 @@ class Picture(PageRequest):
         if self.purpose == "colours":
             colours = colours_of(file)
             workspace.change(lambda session: edits.palette(session, colours), COLOURING)
-        elif self.purpose == "behind":
-            workspace.change(lambda session: edits.backdrop(session, file), COLOURING)
-        elif (shown := workspace.shown) and all(_is_photo(item) for item in shown.view.items):
-            picture = picture_of(file)
+            return
+        # Read here: the session's thread has the hand to follow.
+        is_behind = self.purpose == "behind"
+        picture = picture_of(file, is_behind=is_behind)
 
-            def make(session: Session) -> list[Command]:
-                return [made(SetMosaic, asset=named_item(session.library, picture))]
+        def make(session: Session) -> list[Command]:
+            asset = named_item(session.library, picture)
+            return [made(Background if is_behind else SetMosaic, asset=asset)]
 
+        shown = workspace.shown
+        if not is_behind and shown and all(_is_photo(item) for item in shown.view.items):
             workspace.pour(0, make)
         else:
-            workspace.change(lambda session: edits.picture(session, file), COLOURING)
+            workspace.change(lambda session: session.do_together(make(session)), COLOURING)
 
 
 def _is_photo(item: Item) -> bool:

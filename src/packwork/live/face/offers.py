@@ -13,6 +13,7 @@ from typing import Any, get_args
 from packwork.errors import ReadError
 from packwork.fonts import installed_families
 from packwork.geometry.outline import Outline
+from packwork.live import ground
 from packwork.live.face.exporting import missing
 from packwork.live.mosaic import MOST_PX
 from packwork.live.options import LiveOptions
@@ -170,9 +171,9 @@ def container_of(source: str, canvas: str | None, font: str | None = None) -> Co
     return read_container(source, canvas, font=font)
 
 
-def picture_of(source: str) -> Item:
-    """Picture of a file that a mosaic is to show."""
-    return kept_picture(source, MOST_PX)
+def picture_of(source: str, *, is_behind: bool = False) -> Item:
+    """Picture of a file that a mosaic is to show, or that comes behind all."""
+    return kept_picture(source, ground.MOST_PX if is_behind else MOST_PX)
 
 
 MOST_COLOURS = 8
