@@ -87,8 +87,7 @@ class Desk:
         if scene.version == self._version:
             return changed
         self._version = scene.version
-        used = dict.fromkeys(one.shape for one in (*scene.items, *scene.under))
-        shapes = [self._scenes.shapes[key].model_dump() for key in used]
+        shapes = [self._scenes.shapes[key].model_dump() for key in scene.shapes]
         return {"shapes": json.dumps(shapes), "scene": scene.model_dump_json(), **changed}
 
     def hear(self, message: Mapping[str, Any], show: Callable[[str], object]) -> None:

@@ -102,8 +102,7 @@ class Tab:
         return self._seen is not None and self._seen[0] is poses and self._seen[1] == done
 
     async def _send_scene(self, scene: Scene) -> None:
-        shapes = (one.shape for one in (*scene.items, *scene.under))
-        keys = dict.fromkeys(shape for shape in shapes if shape not in self._known)
+        keys = [key for key in scene.shapes if key not in self._known]
         self._known.update(keys)
         if keys:
             known = self.workspace.shapes.shapes

@@ -121,6 +121,12 @@ class Scene(Message):
     under: tuple[Underlay, ...] = ()
     """The lowest first."""
 
+    @property
+    def shapes(self) -> list[str]:
+        """Keys of all that it draws, each once."""
+        below = (one.shape for one in self.under)
+        return list(dict.fromkeys((*(thing.shape for thing in self.items), *below)))
+
 
 class LeftOut(Message):
     """Items that found no place in the last run."""
