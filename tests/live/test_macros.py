@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -345,6 +346,15 @@ def test_words_come_among_icons_with_their_share_of_what_is_covered(
     for _ in range(2):
         session.undo()
     assert session.document.poses.x.tobytes() == icons.poses.x.tobytes()
+
+
+@pytest.mark.parametrize("weightless", [2, 9])
+def test_fillers_count_in_the_share_of_words(icons: pw.Layout, weightless: int) -> None:
+    weights = np.where(np.arange(9) < weightless, 0.0, 1.0)
+    session = replace(icons, weights=weights).edit()
+    session.mix({"bear": 4, "fox": 3}, "40%")
+    areas = session.document.areas
+    assert areas[9:].sum() / areas.sum() == pytest.approx(0.4, rel=1e-6)
 
 
 def test_a_share_is_of_words_among_others(icons: pw.Layout, cloud: pw.Layout) -> None:

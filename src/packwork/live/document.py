@@ -135,6 +135,13 @@ class Document:
         return replace(self.container, backdrop=covering(self.behind, sheet_box(self.container)))
 
     @property
+    def positive_weights(self) -> FloatArray:
+        """Weights; fillers, which ask for nothing, have the smallest of any other."""
+        asked = self.weights > 0
+        least = self.weights[asked].min() if asked.any() else 1.0
+        return np.where(asked, self.weights, least)
+
+    @property
     def title(self) -> str:
         """Title that a person has given, or its container's name."""
         given = self.manifest.get("title")

@@ -192,7 +192,7 @@ def mixed(
     rows = np.array([item.text is not None for item in document.items])
     if rows.all() or not (len(new) or rows.any()):
         raise RecipeError("share", "is of words among other items; there is one kind only")
-    weights = document.weights
+    weights = document.positive_weights
     kept = weights[rows]
     come = np.zeros(0) if read is None else read.areas / float(np.mean(read.areas))
     come = come * (float(np.mean(kept)) if len(kept) else 1.0)
@@ -203,9 +203,10 @@ def mixed(
         for name, value in (("sizes", "shared"), ("rotate", "horizontal"))
         if getattr(document.options, name) != value
     ]
+    shared = np.where(rows, unit * weights, weights)
     commands += [
-        made(Weigh, items=(int(number),), weight=unit * float(weight))
-        for number, weight in zip(document.ids[rows], kept, strict=True)
+        made(Weigh, items=(int(document.ids[k]),), weight=float(shared[k]))
+        for k in np.flatnonzero(shared != document.weights)
     ]
     x, y = (side / 2 for side in (document.container.width, document.container.height))
     area = float(document.areas.sum()) / (others + unit * float(kept.sum()))

@@ -152,14 +152,8 @@ FAR_ABOVE = -1e6
 
 
 def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
-    """A run of the items of a document in its container, with the weights that they have there.
-
-    Fillers, which ask for nothing, have the smallest weight of any other.
-    """
-    weights = document.weights
-    least = float(weights[weights > 0].min(initial=math.inf))
-    positive = np.where(weights > 0, weights, least if math.isfinite(least) else 1.0)
-    pairs = zip(document.items, positive.tolist(), strict=True)
+    """A run of the items of a document in its container, with the weights that they have there."""
+    pairs = zip(document.items, document.positive_weights.tolist(), strict=True)
     items = [replace(item, weight=weight) for item, weight in pairs]
     job = uses.read(_recipe(document, seed, asked), items, document.container)
     return with_sizes_that_give_way(job) if gives_way(document) else job
