@@ -7,6 +7,8 @@ import io
 import numpy as np
 from PIL import Image
 
+from packwork.readers.fonts.fallback import open_fonts
+from packwork.readers.words.items import shaped_word
 from packwork.wordcloud import WordCloud
 from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SvgOptions
@@ -33,3 +35,13 @@ def test_clear_colours_let_the_background_through() -> None:
     cloud.generate_from_frequencies(WORDS)
     cloud.recolor(color_func=lambda *_, **__: (0, 0, 0, 128))
     assert cloud.to_array().min() == 127
+
+
+def test_outlines_are_a_twentieth_of_a_pixel_off_their_curves_at_most() -> None:
+    cloud = WordCloud(random_state=1).generate_from_frequencies(WORDS)
+    words, poses = cloud._placed.words, cloud._placed.poses
+    for word, scale in zip(words, poses.scale.tolist(), strict=True):
+        fine = shaped_word(word.word, open_fonts([]), "keep").outline
+        off = word.outline.region.boundary.hausdorff_distance(fine.region.boundary)
+        assert off * scale < 1 / 20
+        assert len(word.outline.points) < len(fine.points)

@@ -56,6 +56,10 @@ WHOLE = 1.75
 """How many pixels of that image one of the canvas is worth from which on they are a whole number,
 so that margins are too. Chosen."""
 
+SHOWN_PX, COARSEST = 2_500.0, 32.0
+"""Pixels of the side of a picture in which curves are followed as finely: a twentieth of one of the
+canvas; and coarseness at most. Smaller shows in enlarged clouds, larger takes longer. Chosen."""
+
 EDGE = 0.01
 """Room along the edge of a canvas, as a share of its shorter side, where margins are narrower:
 words cut off by the edge is what it looks like with less. By eye."""
@@ -94,6 +98,7 @@ class PlacedWords:
     poses: Poses
     entries: tuple[int, ...]
     undrawn: dict[str, str]
+    fonts: Fonts
 
     @cached_property
     def outlines(self) -> tuple[Outline, ...]:
@@ -102,9 +107,9 @@ class PlacedWords:
 
     @cached_property
     def layout(self) -> Layout:
-        """One item per entry."""
-        areas = np.array([word.outline.area for word in self.words]) * self.poses.scale**2
-        items = tuple(word.item for word in self.words)
+        """One item per entry, its curves followed as finely as in a print."""
+        items = tuple(shaped_word(word.word, self.fonts, "keep").item for word in self.words)
+        areas = np.array([item.outline.area for item in items]) * self.poses.scale**2
         return Layout(self.container, items, self.poses, areas)
 
 
@@ -190,7 +195,7 @@ def place_words(
         raise ValueError(NO_ROOM)
     entries = tuple(read.numbers[k] for k in found.placed)
     shown = tuple(read.shaped[number] for number in entries)
-    return PlacedWords(asked.container, shown, found.poses, entries, read.undrawn)
+    return PlacedWords(asked.container, shown, found.poses, entries, read.undrawn, asked.fonts)
 
 
 def _image_side(container: Container, count: int) -> int:
@@ -221,9 +226,12 @@ class _ReadCloud:
     def candidates(self, largest: float) -> Iterator[Candidate]:
         """All words, the first of an em of ``largest`` pixels at most."""
         step = largest / EM_PX
+        # Powers of two, as words are remembered by them.
+        most = np.maximum(np.cumprod(self._steps) * largest, 1.0)
+        ems = np.exp2(np.ceil(np.log2(most / SHOWN_PX)))
         for number in range(len(self._words)):
             step *= self._steps[number]
-            word = self._word(number)
+            word = self._word(number, float(ems[number]))
             if word is None:
                 continue
             self.numbers.append(number)
@@ -237,13 +245,14 @@ class _ReadCloud:
             return (0.0,)
         return angles[: 1 if horizontal >= 1 else 2]
 
-    def _word(self, number: int) -> ShapedWord | None:
+    def _word(self, number: int, em: float) -> ShapedWord | None:
         """The word in its font, its counters open; None if it cannot be drawn."""
         text = self._words[number]
         if number not in self.shaped and text not in self.undrawn:
             try:
                 word = Word(text.replace("|", " "), 1.0)
-                self.shaped[number] = shaped_word(word, self._asked.fonts, "keep")
+                fonts = self._asked.fonts
+                self.shaped[number] = shaped_word(word, fonts, "keep", em, COARSEST)
             except UnfitError as error:
                 self.undrawn[text] = str(error)
         return self.shaped.get(number)

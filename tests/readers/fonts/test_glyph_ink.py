@@ -30,7 +30,7 @@ def differing_share(one: Outline, other: Outline) -> float:
 def test_a_word_of_clear_glyphs_is_their_union(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     quick = item_of(text)
     monkeypatch.setattr(lettering, "clear_ink", lambda *_: None)
-    monkeypatch.setattr(lettering, "_drawn_by", lettering._drawn_by.__wrapped__)
+    monkeypatch.setattr(lettering, "_lettering_by", lettering._lettering_by.__wrapped__)
     slow = item_of(text)
     assert differing_share(quick.outline, slow.outline) < 1e-12
     assert differing_share(quick.ink, slow.ink) < 1e-12

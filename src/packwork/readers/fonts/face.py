@@ -14,12 +14,15 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, TypeAlias
+from weakref import WeakValueDictionary
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.fonts import bundled_file
 from packwork.readers.budget.crossings import Allowance
+from packwork.readers.cache import cached_by_identity
+from packwork.readers.fonts.itemise import MOST_KNOWN
 from packwork.readers.reading import TooRichError, UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.scene.item import FontFile
@@ -173,6 +176,10 @@ class Bitmap:
     bottom: float
 
 
+_files = WeakValueDictionary[tuple[Any, ...], FontFile]()
+"""Files in use: words that are remembered keep no second copy of one."""
+
+
 class Typeface:
     """One face of a font, at one weight where it is variable.
 
@@ -190,14 +197,18 @@ class Typeface:
         self._hb = hb
         self._font = hb.Font(face)
         self._known: dict[int, tuple[Segment, ...]] = {}
-        self._shaped: tuple[tuple[str, bool, str], Shaped] | None = None
         axes = {axis.tag: axis for axis in face.axis_infos}
         held = None
         if weight is not None and "wght" in axes:
             axis = axes["wght"]
             held = min(max(float(weight), axis.min_value), axis.max_value)
             self._font.set_variations({"wght": held})
-        self.file = FontFile(data, name, index, held)
+        self._own = FontFile(data, name, index, held)
+
+    @cached_property
+    def file(self) -> FontFile:
+        """The font as its file holds it; one for all faces of the same content and name."""
+        return _files.setdefault((*self.identity, self.name), self._own)
 
     @cached_property
     def identity(self) -> tuple[bytes, int, float | None]:
@@ -206,7 +217,7 @@ class Typeface:
         >>> bundled_typeface().identity == bundled_typeface().identity
         True
         """
-        file = self.file
+        file = self._own
         return hashlib.blake2b(file.data, digest_size=16).digest(), file.index, file.weight
 
     @cached_property
@@ -243,14 +254,9 @@ class Typeface:
         >>> len(found[0]), [glyph.number for glyph in found[1]]
         (6, [0])
         """
-        key = run, is_leftward, language
-        # Whether a run can be drawn is asked before it is.
-        known = self._shaped
-        if known is None or known[0] != key:
-            # Another thread may put its own there meanwhile.
-            known = self._shaped = key, self._shape(run, is_leftward, language)
-        return known[1]
+        return self._shape(run, is_leftward, language)
 
+    @cached_by_identity(MOST_KNOWN)
     def _shape(self, run: str, is_leftward: bool, language: str) -> Shaped:
         buffer = self._hb.Buffer()
         buffer.add_str(run)

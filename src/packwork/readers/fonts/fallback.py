@@ -16,7 +16,7 @@ from packwork.readers.files import exists, read_bytes
 from packwork.readers.fonts.bent import bent_lettering
 from packwork.readers.fonts.face import MAX_FONT_BYTES, UNKNOWN_LANGUAGE, Typeface, bundled_typeface
 from packwork.readers.fonts.itemise import Piece, clusters, itemised
-from packwork.readers.fonts.lettering import Lettering, TypeSetting, lettering_of
+from packwork.readers.fonts.lettering import MOST_COARSE, Lettering, TypeSetting, lettering_of
 from packwork.readers.reading import UnfitError, reading_file
 
 MOST_NAMED = 6
@@ -40,13 +40,15 @@ class Fonts:
     language: str = ""
     _installed: list[Typeface] = field(default_factory=list)
 
-    def lettering(self, lines: Sequence[str], em: float = math.inf) -> Lettering:
-        """Lines as a word of its own; ``em``: of a picture's side, as in ``lettering_of``.
+    def lettering(
+        self, lines: Sequence[str], em: float = math.inf, most_coarse: float = MOST_COARSE
+    ) -> Lettering:
+        """Lines as a word of its own, its curves followed as ``lettering_of`` says.
 
         >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
         True
         """
-        return lettering_of(self.settings(lines), self._language, em)
+        return lettering_of(self.settings(lines), self._language, em, most_coarse)
 
     def bent(self, line: str, curve: Curve, start: float, end: float) -> Lettering:
         """Line along a curve, in ems, from one arc length to another."""

@@ -30,7 +30,8 @@ class Piece:
     is_leftward: bool = False
 
 
-def itemised(line: str) -> list[Piece]:
+@lru_cache(MOST_KNOWN)
+def itemised(line: str) -> tuple[Piece, ...]:
     """Pieces of a line in the order in which they are read.
 
     >>> [piece.text for piece in itemised("Tōkyō東京")]
@@ -38,11 +39,11 @@ def itemised(line: str) -> list[Piece]:
     >>> [(piece.text, piece.is_leftward) for piece in itemised("كوفيد19")]
     [('كوفيد', True), ('19', False)]
     """
-    return [
+    return tuple(
         Piece(text, is_leftward)
         for is_leftward, run in _directed(line, _is_leftward(line))
         for text in _of_one_script(run)
-    ]
+    )
 
 
 def visual_order(pieces: Sequence[Piece]) -> list[int]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import shapely
@@ -135,13 +136,21 @@ class TypeSetting:
     face: Typeface
 
 
+MOST_COARSE = 4.0
+"""Coarseness at most. Larger lets areas of letters be off by more than is certified of them (.04 %
+at 4, .2 at 16), smaller takes memory. Tried."""
+
+
 def lettering_of(
-    lines: Sequence[Sequence[TypeSetting]], language: str = UNKNOWN_LANGUAGE, em: float = math.inf
+    lines: Sequence[Sequence[TypeSetting]],
+    language: str = UNKNOWN_LANGUAGE,
+    em: float = math.inf,
+    most_coarse: float = MOST_COARSE,
 ) -> Lettering:
     """Word of one or several centred lines, each piece drawn by its own font.
 
     Curves are followed to ``FLATTENING`` of the word's extent, or of the side of a picture in which
-    an em is ``em`` of that side.
+    an em is ``em`` of that side; coarser than for its own extent ``most_coarse`` times at most.
 
     >>> from packwork.readers.fonts.face import bundled_typeface
     >>> face = bundled_typeface()
@@ -151,53 +160,39 @@ def lettering_of(
     >>> len(word.region.geoms), word.path[:1]
     (2, 'M')
     """
+    face, *others = dict.fromkeys(one.face for line in lines for one in line)
+    if others:
+        return _lettering(lines, language, em, most_coarse)
+    pieces = tuple(tuple(one.piece for one in line) for line in lines)
+    return _lettering_by(face, face.name, pieces, language, em, most_coarse)
+
+
+@cached_by_identity(MOST_WORDS)
+def _lettering_by(
+    face: Typeface, _name: str, lines: tuple[tuple[Piece, ...], ...], *asked: Any
+) -> Lettering:
+    """Word in one font of that name: words recur as letters do."""
+    return _lettering([[TypeSetting(piece, face) for piece in line] for line in lines], *asked)
+
+
+def _lettering(
+    lines: Sequence[Sequence[TypeSetting]], language: str, em: float, most_coarse: float
+) -> Lettering:
     units = lines[0][0].face.units
     shaped = [line_of_runs(line, k, units, language) for k, line in enumerate(lines)]
     runs = [run for line in shaped for run in line]
     pictures = tuple(picture for run in runs for picture in run.pictures())
-    faces = list(dict.fromkeys(run.face for run in runs))
-    boxes = [box for run in runs for box in run.boxes()]
-    coarseness = _coarseness(boxes, em / units)
-    if pictures or len(faces) > 1:
-        drawn = _drawn(runs, pictures, coarseness)
-    else:
-        [face] = faces
-        drawn = _drawn_by(face, tuple((run.glyphs, run.x, run.y) for run in runs), coarseness)
-    texts = tuple(run.text for run in runs)
-    return Lettering(drawn.covered, drawn.curves, units, texts, pictures, coarseness)
-
-
-@dataclass(frozen=True, eq=False)
-class _DrawnWord:
-    """Region of a word's letters, in ems, and its curves, as a lettering has them."""
-
-    covered: ClearInk | Region
-    curves: Curves
-
-
-@cached_by_identity(MOST_WORDS)
-def _drawn_by(
-    face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...], coarseness: float
-) -> _DrawnWord:
-    """Glyphs of one font, each run with the place where it begins: words recur as letters do."""
-    return _drawn([GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], (), coarseness)
-
-
-def _drawn(
-    runs: Sequence[GlyphRun], pictures: Sequence[GlyphPicture], coarseness: float
-) -> _DrawnWord:
     boxes = [box for run in runs for box in run.boxes()]
     if not boxes and not pictures:
         raise UnfitError("has no outlines to draw it with")
-    # The first run is in its font's own units.
-    size = 1 / runs[0].face.units
-    covered = _covered(runs, pictures, coarseness * tolerance_of(boxes), size)
-    curves = [(*one, run.scale) for run in runs for one in run.curves()]
-    return _DrawnWord(covered, Curves(tuple(curves)))
+    coarseness = _coarseness(boxes, em / units, most_coarse)
+    covered = _covered(runs, pictures, coarseness * tolerance_of(boxes), 1 / units)
+    curves = Curves(tuple((*one, run.scale) for run in runs for one in run.curves()))
+    return Lettering(covered, curves, units, tuple(run.text for run in runs), pictures, coarseness)
 
 
 def _covered(
-    runs: Sequence[GlyphRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
+    runs: Sequence[FontRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
 ) -> ClearInk | Region:
     """Region of glyphs and pictures ``size`` times as large; curves followed to ``tolerance``."""
     glyphs = [glyph for run in runs for glyph in run.inks(tolerance)]
@@ -215,14 +210,16 @@ def _covered(
 
 
 @dataclass(frozen=True)
-class GlyphRun:
-    """Glyphs of one font at their place, in the word's units."""
+class FontRun:
+    """Glyphs of one font at their place, in the word's units, with the text that they are."""
 
     face: Typeface
     glyphs: tuple[Glyph, ...]
     x: float
     y: float
     scale: float
+    piece: Piece
+    advance: float
 
     def boxes(self) -> list[FloatArray]:
         """``(2, 2)`` least and largest x, y of the curves of each glyph that has some."""
@@ -259,14 +256,6 @@ class GlyphRun:
     def _place(self, glyph: Glyph) -> tuple[float, float]:
         return self.x + glyph.x * self.scale, self.y + glyph.y * self.scale
 
-
-@dataclass(frozen=True)
-class FontRun(GlyphRun):
-    """A run of glyphs with the text that it is."""
-
-    piece: Piece
-    advance: float
-
     @property
     def text(self) -> TextRun:
         """The run as text, upright."""
@@ -300,15 +289,10 @@ def line_of_runs(
     return [replace(runs[k], x=runs[k].x - middle) for k in range(len(line))]
 
 
-MOST_COARSE = 4.0
-"""Coarseness at most. Larger lets areas of letters be off by more than is certified of them (.04 %
-at 4, .2 at 16), smaller takes memory. Tried."""
-
-
-def _coarseness(boxes: Sequence[FloatArray], shown: float) -> float:
+def _coarseness(boxes: Sequence[FloatArray], shown: float, most: float) -> float:
     """Side of a picture over a word's extent in it, a power of two; ``shown``: of it, of a unit."""
     extent = float(np.ptp(np.concatenate(boxes), axis=0).max()) if boxes else 1.0
-    return 2.0 ** math.floor(math.log2(min(max(1.0 / (extent * shown), 1.0), MOST_COARSE)))
+    return 2.0 ** math.floor(math.log2(min(max(1.0 / (extent * shown), 1.0), most)))
 
 
 def tolerance_of(boxes: Sequence[FloatArray]) -> float:

@@ -20,7 +20,7 @@ from packwork.geometry.distance import CLEFT
 from packwork.geometry.outline import Outline, centre_of_area
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
-from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering
+from packwork.readers.fonts.lettering import MOST_COARSE, MOST_WORDS, GlyphPicture, Lettering
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
@@ -201,9 +201,13 @@ class ShapedWord:
 
 
 def shaped_word(
-    word: Word, fonts: Fonts, holes: Holes = "fill", em: float = math.inf
+    word: Word,
+    fonts: Fonts,
+    holes: Holes = "fill",
+    em: float = math.inf,
+    most_coarse: float = MOST_COARSE,
 ) -> ShapedWord:
-    """One word as fonts draw it, about its outline's centroid; ``em``: of a picture's side.
+    """One word as fonts draw it, about its outline's centroid; curves as ``lettering_of`` says.
 
     Examples
     --------
@@ -216,7 +220,7 @@ def shaped_word(
     lines = lines_of(word.text)
     if not lines:
         raise UnfitError("has no letters")
-    return _shaped(word, fonts.lettering(lines, em), fonts, holes)
+    return _shaped(word, fonts.lettering(lines, em, most_coarse), fonts, holes)
 
 
 def bent_word(
@@ -272,18 +276,13 @@ def height_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightI
     return np.asarray(heights)
 
 
+@lru_cache(MOST_WORDS)
 def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
     """Outline and ink about the outline's centroid, and the map that brought them there."""
     covered = drawn.covered
-    if isinstance(covered, ClearInk) and covered.clearance > CLEFT:
-        return _placed_clear(covered, holes)
-    region = affinity.scale(drawn.region, EM_PX, EM_PX, origin=(0, 0))
-    return centred(clean_union(region), holes)
-
-
-@lru_cache(MOST_WORDS)
-def _placed_clear(covered: ClearInk, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
-    """Word whose letters stand clear of each other."""
+    if not isinstance(covered, ClearInk) or covered.clearance <= CLEFT:
+        region = affinity.scale(drawn.region, EM_PX, EM_PX, origin=(0, 0))
+        return centred(clean_union(region), holes)
     outline = covered.silhouette if holes == "fill" else covered.ink
     x, y = centre_of_area(outline) * EM_PX
     place = affine.similarity(-x, -y, 0.0, 1.0)
