@@ -617,3 +617,9 @@ def test_a_line_that_crosses_itself_is_filled_and_a_hole_may_reach_outside(
         session.draw_container(ring.tolist(), is_hole=True)
     with pytest.raises(RecipeError, match="nowhere near"):
         session.draw_container([(0, 0), (1, 0), (1e9, 1)])
+
+
+def test_what_is_moved_and_then_removed_leaves_no_mark(session: pw.Session) -> None:
+    move = {"kind": "move", "item": 3, "x": 300.0, "y": 300.0}
+    session.do("together", commands=[move, {"kind": "remove", "items": [3]}])
+    assert 3 not in session.marks.placed_by_user

@@ -211,7 +211,7 @@ class Session:
         self._solver.keep_angles(one for step in command.steps for one in step.keeps_angles)
         for document in documents:
             self._solver.take(document)
-        self._solver.place(placed)
+        self._solver.place(placed & set(self.document.ids.tolist()))
         if isinstance(command, Grab):
             self._before_grab = before, self.marks.copy(), self.requests.copy()
             self._solver.grab(command.items)
