@@ -244,6 +244,18 @@ def test_a_layer_of_any_name_may_be_engraved(tmp_path: Path) -> None:
     assert (len(item.art.cut), len(item.art.engraved)) == (1, 1)
 
 
+@pytest.mark.parametrize("name", ["Inner", "engrave", "Blue"])
+@pytest.mark.parametrize("body", ['fill="black"', HAIRLINE])
+def test_lines_and_areas_on_a_layer_to_engrave_lie_on_parts_of_either_kind(
+    tmp_path: Path, name: str, body: str
+) -> None:
+    marks = f'<path {HAIRLINE} d="M5 5h9"/><rect x="20" y="5" width="5" height="5"/>'
+    drawn = f'<rect width="30" height="20" {body}/><g id="{name}">{marks}</g>'
+    (item,) = parts(tmp_path, drawn, engrave=[name])
+    assert isinstance(item.art, LineArt)
+    assert (len(item.art.cut), len(item.art.engraved)) == (1, 2)
+
+
 def test_what_is_traced_has_no_colours_to_engrave_and_that_is_told(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:

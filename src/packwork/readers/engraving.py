@@ -8,8 +8,6 @@ from dataclasses import dataclass, field
 from packwork.errors import RecipeError
 from packwork.scene.colour import css_colour
 
-BLACK, WHITE = (0, 0, 0), (255, 255, 255)
-
 MOST_TOLD = 12
 """Colours and layers that a message names, together. Chosen."""
 
@@ -26,38 +24,37 @@ class Engraving:
     """
 
     asked: Iterable[str] = ()
-    colours: dict[tuple[int, ...], str] = field(default_factory=dict)
-    layers: dict[str, str] = field(default_factory=dict)
-    met: set[str] = field(default_factory=set)
+    wanted: dict[str, set[object]] = field(default_factory=dict)
+    met: set[object] = field(default_factory=set)
     others: dict[str, None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for text in self.asked:
-            colour = rgb_of(text)
-            if colour is None:
-                self.layers[text.strip().casefold()] = text
-            else:
-                self.colours[colour] = text
+            # Layers are often named after their colour.
+            self.wanted[text] = _keys(text, text.strip())
 
     def holds(self, colour: str, layer: str = "") -> bool:
         """Whether what is drawn in a colour, on a layer, is engraved; both may be empty."""
-        rgb = rgb_of(colour)
-        found = self.layers.get(layer.casefold()) or (rgb and self.colours.get(rgb))
-        if found:
-            self.met.add(found)
-        else:
+        found = _keys(colour, layer).intersection(set[object]().union(*self.wanted.values()))
+        self.met.update(found)
+        if not found:
             self.others.update(dict.fromkeys(one[:40] for one in (colour, layer) if one))
         return bool(found)
 
     def check_met(self) -> None:
         """Raise RecipeError for a colour or layer that no part has."""
-        for text in (*self.colours.values(), *self.layers.values()):
-            if text not in self.met:
+        for text, keys in self.wanted.items():
+            if not keys & self.met:
                 there = ", ".join(list(self.others)[:MOST_TOLD]) or "no lines of their own"
                 raise RecipeError(
                     "engrave", f"no part has lines in the colour or on the layer {text[:40]!r}; "
                     f"others have {there}",
                 )  # fmt: skip
+
+
+def _keys(colour: str, layer: str) -> set[object]:
+    """What a colour and a layer are compared by."""
+    return {key for key in (rgb_of(colour), layer.casefold()) if key}
 
 
 def rgb_of(text: str) -> tuple[int, ...] | None:

@@ -66,6 +66,9 @@ _UP = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 ENGRAVED = "engrave"
 """Layer of what is not cut through."""
 
+_MARK = 0.734375
+"""Dash, px, by which what lies on a layer to engrave is told. Chosen, as one that nobody draws."""
+
 _PX_MM = convert(1.0, "px", "mm")
 
 
@@ -87,31 +90,34 @@ def read_line_drawing(path: str | Path, holes: Holes, engraving: Engraving) -> l
         if is_plain and sum(map(_curves, drawing.shapes)) > MOST_CURVES:
             notice(f"has more than {MOST_CURVES:,} curves; what its paint covers is cut")
             is_plain = False
-        engraved = [shape for shape in drawing.shapes if engraving.holds(_paint_of(shape))]
+        engraved = [
+            shape for shape in drawing.shapes
+            if engraving.holds(_paint_of(shape)) or _MARK in shape.painting.pen.dashes
+        ]  # fmt: skip
         if is_plain and (lines := _lines_to_cut(drawing, engraved)) is not None:
             return items_of(cad_parts(lines), name, str(path), holes)
-        if engraved and not is_plain:
-            notice("what is to be engraved cannot be told apart; make curves of text, and release "
-                   "clips and masks")  # fmt: skip
         marks = [line for shape in engraved for line in _cad_lines(shape, drawing, ENGRAVED, _UP)]
         if is_plain and (filled := _without_lines(drawing, engraved)) is not None:
             drawing = read_drawing(filled, is_on_paper=True)
             data = filled
     item = item_of_svg(data, name, str(path), holes, is_compared=True)
-    if is_plain and isinstance(item.art, VectorArt) and not item.art.is_traced:
-        with reading_file(str(path)):
+    with reading_file(str(path)):
+        if is_plain and isinstance(item.art, VectorArt) and not item.art.is_traced:
             item = _with_true_curves(item, item.art, drawing, marks, holes)
+        elif engraved:
+            notice("what is to be engraved cannot be told apart; make curves of text, and release "
+                   "clips and masks")  # fmt: skip
     return [Read(item, str(path))]
 
 
 def _with_engraved_layers(data: bytes, engraving: Engraving) -> bytes:
-    """Document whose layers to engrave, by their names, have dashed lines, as what is scored.
+    """Document all of whose layers to engrave, by their names, has ``_MARK`` for a dash.
 
     Names of layers do not come through the gate.
     """
     plain = unpacked(data)
     # Other encodings and references to characters might hide a name.
-    may_hide = b"\0" in plain or b"&" in plain or bool(engraving.layers)
+    may_hide = b"\0" in plain or b"&" in plain or bool(engraving.wanted)
     if not may_hide and not ENGRAVED_LAYER.search(plain.decode("utf-8", "replace")):
         return data
     root = parse_xml(plain)
@@ -121,7 +127,8 @@ def _with_engraved_layers(data: bytes, engraving: Engraving) -> bytes:
     ]  # fmt: skip
     for element in chain.from_iterable(group.iter() for group in groups):
         # A style that is important outdoes sheets and what is inherited.
-        element.set("style", f"{element.get('style', '')};stroke-dasharray:1!important".lstrip(";"))
+        style = f"{element.get('style', '')};stroke-dasharray:{_MARK}!important"
+        element.set("style", style.lstrip(";"))
     return ET.tostring(root) if groups else data
 
 

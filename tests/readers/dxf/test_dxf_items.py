@@ -24,6 +24,7 @@ from packwork.readers.container import read_container
 from packwork.readers.dxf import entities
 from packwork.readers.dxf.entities import read_drawing
 from packwork.readers.dxf.item import CadPart, cad_parts, read_dxf
+from packwork.readers.engraving import Engraving
 from packwork.readers.items import read_items
 from packwork.readers.reading import UnfitError
 from packwork.scene.item import LineArt
@@ -285,6 +286,26 @@ def test_layers_and_open_lines_are_engraved(caplog: pytest.LogCaptureFixture) ->
     for said in ("1 open line inside parts", "1 TEXT", "1 engraved beyond an edge",
                  "1 to engrave beside all parts", "1 hidden or construction"):  # fmt: skip
         assert said in caplog.text
+
+
+def test_colours_of_layer_0_of_blocks_and_of_layers_so_called_are_engraved(tmp_path: Path) -> None:
+    drawing = ezdxf.new(units=4)
+    drawing.layers.get("0").color = 1
+    drawing.layers.add("Plate", color=7)
+    drawing.layers.add("Marks", color=1)
+    drawing.layers.add("Red", color=7)
+    space = drawing.modelspace()
+    outline = [(0, 0), (60, 0), (60, 40), (0, 40)]
+    space.add_lwpolyline(outline, close=True, dxfattribs={"layer": "Plate"})
+    space.add_circle((10, 10), 2)
+    space.add_circle((20, 10), 2, dxfattribs={"layer": "Red"})
+    drawing.blocks.new("mark").add_circle((0, 0), 2, dxfattribs={"layer": "Plate", "color": 0})
+    space.add_blockref("mark", (30, 10), dxfattribs={"layer": "Marks"})
+    drawing.saveas(tmp_path / "plate.dxf")
+    engraving = Engraving(["red"])
+    (part,) = cad_parts(read_drawing((tmp_path / "plate.dxf").read_bytes()), engraving)
+    engraving.check_met()
+    assert (len(part.cut), len(part.engraved)) == (1, 3)
 
 
 def test_layers_that_are_off_are_left_out() -> None:

@@ -105,7 +105,9 @@ def read_drawing(data: bytes) -> CadDrawing:
         raise UnfitError(f"has more than {MOST_LINES:,} lines of text; export the outlines alone")
     document = _parsed(data)
     walk = _BlockReader(document)
-    pieces = tuple(walk.pieces(document.modelspace()))
+    own = walk.colour(document.layers.get("0"), "0")
+    found = walk.pieces(document.modelspace())
+    pieces = tuple(replace(one, colour=one.colour or own) for one in found)
     millimetres, is_metric = _unit(document)
     return CadDrawing(pieces, walk.left_out, millimetres, is_metric)
 
@@ -201,7 +203,7 @@ class _BlockReader:
                 style = str(held.dxf.get("linetype", ""))
         return not _HIDDEN.match(style)
 
-    def _colour(self, entity: Any, layer: str) -> str:
+    def colour(self, entity: Any, layer: str) -> str:
         """Colour as ``#rrggbb``; empty if it is that of the block, or of layer 0."""
         from ezdxf.colors import BYBLOCK, BYLAYER, RGB, aci2rgb
 
@@ -224,7 +226,7 @@ class _BlockReader:
         if line is None or plane is None:
             self.left_out[kind if line is None else f"{kind} out of the sheet's plane"] += 1
             return
-        yield CadLine(line.mapped(plane, math.inf), layer, kind, self._colour(entity, layer))
+        yield CadLine(line.mapped(plane, math.inf), layer, kind, self.colour(entity, layer))
 
     def _inserted(self, insert: Any, layer: str) -> Iterator[CadLine]:
         name = str(insert.dxf.name)
@@ -242,7 +244,7 @@ class _BlockReader:
             for piece in own:
                 line = piece.line.mapped(matrix, _tolerance(piece.line, matrix))
                 shown = layer if piece.layer == "0" else piece.layer
-                colour = piece.colour or self._colour(insert, shown)
+                colour = piece.colour or self.colour(insert, layer)
                 yield replace(piece, line=line, layer=shown, colour=colour)
 
     def _block(self, name: str) -> list[CadLine]:
