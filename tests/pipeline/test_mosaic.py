@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import gzip
 from dataclasses import replace
 from pathlib import Path
@@ -12,11 +13,14 @@ from PIL import Image
 
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
+from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container
 from packwork.readers.options import ReadOptions
 from packwork.readers.target import read_target
 from packwork.recipe import make_recipe
+from packwork.scene import swatch
 from packwork.scene.contrast import channels_of
+from packwork.scene.item import FlatArt, Item
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
 from packwork.steps.mosaic import LEAST, best_ground, correlation_with
@@ -42,6 +46,25 @@ def tiles(tmp_path: Path) -> str:
         colour = (190, 40, 40) if k % 2 else (40, 40, 190)
         Image.new("RGB", (30, 30), colour).save(tmp_path / "tiles" / f"tile-{k}.png")
     return str(tmp_path / "tiles")
+
+
+def test_light_of_an_art_is_known_though_an_equal_one_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    square = Outline.box(-1, -1, 1, 1)
+    gone, red, blue = (
+        Item(colour, "", square, square, FlatArt(colour)) for colour in ("red", "red", "blue")
+    )
+    mean_lights([gone])
+    held = [gone]
+    del gone
+
+    def mean_light(item: Item) -> np.ndarray:
+        held.clear()
+        gc.collect()
+        return swatch_light(item)
+
+    swatch_light = swatch.mean_light
+    monkeypatch.setattr(swatch, "mean_light", mean_light)
+    assert mean_lights([red, blue]).tolist() == [[1, 0, 0], [0, 0, 1]]
 
 
 def _sides(layout: pw.Layout) -> tuple[np.ndarray, np.ndarray]:

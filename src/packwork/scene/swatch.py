@@ -92,10 +92,14 @@ def mean_light(item: Item) -> FloatArray:
 
 def mean_lights(items: Sequence[Item]) -> FloatArray:
     """``(n, 3)`` :func:`mean_light` of items, once of each drawing."""
+    found = list[FloatArray]()
     for item in items:
-        if item.art not in _LIGHTS:
-            _LIGHTS[item.art] = mean_light(item)
-    return np.array([_LIGHTS[item.art] for item in items])
+        # Looked up once: what an equal art that is gone was known by may go at any time.
+        light = _LIGHTS.get(item.art)
+        if light is None:
+            light = _LIGHTS[item.art] = mean_light(item)
+        found.append(light)
+    return np.array(found)
 
 
 def patch_of(item: Item, grid: int) -> FloatArray:
