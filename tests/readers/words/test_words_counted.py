@@ -198,6 +198,7 @@ def test_sources_without_words_are_one_clear_line(source, problem: str) -> None:
     ("data", "kind"),
     [
         (b"\xef\xbb\xbf <svg xmlns='http://www.w3.org/2000/svg'/>", "a drawing"),
+        (b"<!-- by hand -->\n<!-- of 2026 --><svg/>", "a drawing"),
         (b"<!DOCTYPE html><html><p>honey bear</p></html>", "a web page"),
         (b"%PDF-1.4\nhoney bear", "a PDF"),
         (b"PK\x03\x04" + bytes(40), "archive"),
@@ -215,6 +216,13 @@ def test_files_that_are_no_text_are_named_as_what_they_are(
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("comment", ["<!-- made of README.Rmd -->\n", f"<!--{' note' * 2_000} -->"])
+def test_a_text_may_begin_with_a_comment(tmp_path: Path, comment: str) -> None:
+    (tmp_path / "README.md").write_text(f"{comment}# Honey\nA bear likes honey.", encoding="utf-8")
+    assert counted(str(tmp_path / "README.md"))["honey"] == 2
+    assert counted(f"{comment} Bears like honey")["honey"] == 1
+
+
 def told(source: object, **options: object) -> str:
     asked = WordOptions(source=source, **options)
     return "; ".join(str(error) for error in ranked_words(asked).told)
@@ -224,6 +232,7 @@ def told(source: object, **options: object) -> str:
 def test_a_table_that_is_read_as_a_text_is_told(tmp_path: Path, text: str) -> None:
     (tmp_path / "a.txt").write_text(text, encoding="utf-8")
     assert "looks like a table" in told(str(tmp_path / "a.txt"))
+    assert "looks" not in told("Anna Bear\nHoney Street, 12\nForest, 1984")
     assert "looks" not in told("In the year, 1984\nthe bears, and the bees\ncame, 12 of them")
 
 

@@ -40,12 +40,15 @@ ALPHABETS = {
 
 DOCUMENTS = {
     b"<?xml": "XML or a drawing", b"<svg": "a drawing", b"<!doctype": "a web page",
-    b"<html": "a web page", b"<!--": "a web page or a drawing", b"%pdf-": "a PDF",
+    b"<html": "a web page", b"%pdf-": "a PDF",
     b"pk\3\4": "a .docx, .xlsx or other archive", b"\xd0\xcf\x11\xe0": "a .doc or .xls",
     b"{\\rtf": "RTF", b"\x89png": "a picture", b"\xff\xd8\xff": "a picture",
     b"gif89a": "a picture",
 }  # fmt: skip
 """First bytes of files whose bytes are not what they say, in lower case."""
+
+_COMMENTS = re.compile(rb"\A\s*(?:<!--.*?-->\s*)*", re.DOTALL)
+"""What may stand before a document, and before any text of Markdown."""
 
 OF_OTHER_SCRIPTS = frozenset({"cp1251", "cp1253"})
 """Encodings whose words hold no Latin letters."""
@@ -114,7 +117,7 @@ def check_no_document(data: bytes, file: str) -> None:
     Traceback (most recent call last):
     packwork.errors.ReadError: bear.svg: is a drawing, not text; save its text as .txt or .csv
     """
-    head = data[:200].removeprefix(codecs.BOM_UTF8).lstrip().lower()
+    head = _COMMENTS.sub(b"", data[:4_000].removeprefix(codecs.BOM_UTF8)).lower()
     kind = next((kind for mark, kind in DOCUMENTS.items() if head.startswith(mark)), None)
     if kind is not None:
         raise ReadError(file, f"is {kind}, not text; save its text as .txt or .csv")

@@ -236,7 +236,7 @@ _OF_TEXTS = (
     "language", "min_count", "min_word_length", "include_numbers", "regexp", "phrases", "plurals",
 )  # fmt: skip
 
-_ROWS = re.compile(r"[^\n]*(\n[^,;\t\n]+[,;\t] *\d[\d.,]*\s*)+")
+_ROWS = re.compile(r"[^,;\t\n]*[,;\t][^\n]*(\n[^,;\t\n]+[,;\t] *\d[\d.,]*\s*)+")
 _LIKE_A_TABLE = "looks like a table, and its numbers are no weights in a text; name it .csv"
 
 
@@ -319,7 +319,7 @@ def _text(source: str, asked: TableFormat) -> Decoded:
             source[:80],
             "there is no such file; give a text, a table of word,weight, or - for stdin",
         )
-    check_no_document(source[:200].encode("utf-8", "replace"), source[:20])
+    check_no_document(source[:4_000].encode("utf-8", "replace"), source[:20])
     return Decoded(source)
 
 
