@@ -10,8 +10,15 @@ import shapely
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.geometry.curves import Curve
+from packwork.metrics.violations import Violation
+from packwork.progress import never
+from packwork.readers.container import read_container
 from packwork.readers.layouts.svg import layout_of_svg
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.items import EM_PX, word_fonts
+from packwork.readers.words.options import Word, WordOptions
+from packwork.start.lanes import WordOnLine
+from packwork.uses.words import along
 
 LICENCE = Path(pw.__file__).with_name("bundled") / "fonts" / "LICENCE-Inter.txt"
 SPIRAL = Path(pw.__file__).with_name("bundled") / "icons" / "spiral.svg"
@@ -69,6 +76,19 @@ def test_along_a_limb_no_word_is_larger_than_a_heavier_one(seed: int) -> None:
     assert layout.certified
     assert (size[:, None] / size[None])[heavier].min() > 0.94
     assert not layout.manifest.get("advice")
+
+
+def test_small_copies_of_a_word_hold_no_others_down(monkeypatch: pytest.MonkeyPatch) -> None:
+    fonts, axis = word_fonts(WordOptions(source=FEW)), Curve.through(np.array([[0.0, 0], [999, 0]]))
+    line = along._LineOfWords([Word("bear", 2.0), Word("bee", 1.0)], (), fonts, "fill")
+    found = [
+        WordOnLine(word, axis, at, at + 3 * size, size)
+        for word, at, size in [(0, 100.0, 40.0), (1, 300.0, 36.0), (0, 600.0, 9.0)]
+    ]
+    wrong = iter([[Violation(2, None, 1.0, 0.0)], []])
+    monkeypatch.setattr(along, "violations", lambda *_: next(wrong))
+    bent = line.bent(found, read_container("circle"), 0.0, never, np.array([2.0, 1.0]))
+    assert (bent.poses.scale * EM_PX).tolist() == pytest.approx([40, 36, 9 * along.SHRUNK])
 
 
 def test_few_words_are_set_again_and_read_back(tmp_path: Path) -> None:

@@ -346,11 +346,31 @@ def in_order(found: Sequence[WordOnLine], wanted: FloatArray) -> list[WordOnLine
     """
     by_size = sorted(found, key=lambda one: (one.word, -one.size))
     firsts = list({one.word: one for one in reversed(by_size)}.values())[::-1]
-    once, sizes = set(firsts), np.full(len(wanted), np.inf)
-    sizes[[one.word for one in firsts]] = [one.size for one in firsts]
-    most = np.minimum(sizes, LARGER * least_above(sizes, wanted))
+    once, sizes = set(firsts), np.array([one.size for one in found])
+    largest = largest_of([one.word for one in found], sizes, len(wanted))
+    most = np.minimum(largest, LARGER * least_above(largest, wanted))
     again = [one for one in by_size if one not in once]
     return [one.at_most(float(most[one.word])) for one in (*firsts, *again)]
+
+
+def held_down(words: Sequence[int], sizes: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Sizes ``(m,)`` of settings, at most ``LARGER`` times the largest of each that wants more."""
+    most = LARGER * least_above(largest_of(words, sizes, len(wanted)), wanted)
+    return np.asarray(np.minimum(sizes, most[np.asarray(words, dtype=int)]))
+
+
+def largest_of(words: Sequence[int], sizes: FloatArray, count: int) -> FloatArray:
+    """``(count,)`` size of each word where it is largest; infinite of those that are not set.
+
+    Examples
+    --------
+    >>> largest_of([0, 2, 0], np.array([4.0, 3.0, 1.0]), 3).tolist()
+    [4.0, inf, 3.0]
+    """
+    found, rows = np.full(count, np.inf), np.asarray(words, dtype=int)
+    found[rows] = 0.0
+    np.maximum.at(found, rows, sizes)
+    return found
 
 
 def least_above(sizes: FloatArray, wanted: FloatArray) -> FloatArray:

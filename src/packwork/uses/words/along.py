@@ -33,7 +33,7 @@ from packwork.readers.words.options import Along, Word, lines_of, sound
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.start.lanes import FILLED, LARGER, Lanes, WordOnLine, WordShape, in_order, least_above
+from packwork.start.lanes import FILLED, Lanes, WordOnLine, WordShape, held_down, in_order
 from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
 from packwork.uses.words.copies import words_of
 from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way, unheeded
@@ -115,8 +115,7 @@ class SetAlong(RunStep):
             line = _LineOfWords.of([read.words[k] for k in rest], words_of(job), job.plan.holes)
             lanes = line.set_along(limbs, heights[rest], least / SLACK, gap, self._letters.largest)
             settings = in_order(lanes.found, heights[rest])
-            wanted = heights[rest[[one.word for one in settings]]]
-            bent = line.bent(settings, job.container, gap, context.stop, wanted)
+            bent = line.bent(settings, job.container, gap, context.stop, heights[rest])
         large = np.flatnonzero(bent.poses.scale * EM_PX >= least)
         rows += [int(rest[settings[k].word]) for k in large]
         poses.append(bent.poses.subset(large))
@@ -367,7 +366,7 @@ class _LineOfWords:
         stop: Stop,
         wanted: FloatArray | None = None,
     ) -> _Bent:
-        """Words on their lines, smaller where they come too near to others; in order if wanted."""
+        """Words on their lines, smaller where they come too near; sizes in order if wanted."""
         pairs = [self._bent(one) for one in found]
         items = tuple(item for item, _ in pairs)
         poses = Poses(*np.array([row for _, row in pairs]).reshape(-1, 4).T)
@@ -379,7 +378,7 @@ class _LineOfWords:
             scale = poses.scale.copy()
             scale[[k for one in wrong for k in (one.item, one.other) if k is not None]] *= SHRUNK
             if wanted is not None:
-                scale = np.minimum(scale, LARGER * least_above(scale, wanted))
+                scale = held_down([one.word for one in found], scale, wanted)
             poses = replace(poses, scale=scale)
         return _Bent(items, poses)
 
