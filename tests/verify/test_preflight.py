@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import logging
 import resource
@@ -18,7 +19,9 @@ from made_profiles import press_profile
 from packwork import fill
 from packwork.errors import ReadError
 from packwork.readers.items import read_items
+from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Layout, sheet
+from packwork.verify.pdf_objects import check_size
 from packwork.verify.preflight import MAX_CONTENT, Check, preflight, preflight_of
 from packwork.writers import encoded, write_options
 from scenes import flat_item, poses, square
@@ -190,6 +193,27 @@ def test_content_is_refused_before_it_is_unpacked() -> None:
         preflight_of(data, "a.pdf")
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     assert grown * 1024 < 5e8
+
+
+@pytest.mark.parametrize(
+    ("data", "filters"),
+    [
+        (zlib.compress(bytes(90_000)), [Name.Fl]),
+        (
+            zlib.compress(bytes(90_000)).hex().encode() + b">",
+            [Name.ASCIIHexDecode, Name.FlateDecode],
+        ),
+        (base64.a85encode(zlib.compress(bytes(90_000))) + b"~>", [Name.A85, Name.FlateDecode]),
+        (b"\x80\x0b\x60" * 900, [Name.LZWDecode]),
+    ],
+)
+def test_streams_packed_in_any_way_are_bounded(data: bytes, filters: list[Name]) -> None:
+    pdf = pikepdf.new()
+    stream = pdf.make_stream(data, Filter=Array(filters))
+    with pytest.raises(UnfitError, match="more than can be looked at"):
+        check_size(stream, 50_000)
+    if data[0] != 0x80:
+        check_size(stream, 200_000)
 
 
 def made(content: bytes, encryption: pikepdf.Encryption | None = None) -> bytes:
