@@ -83,6 +83,17 @@ def test_numbers_of_a_text_file_are_numbers(tmp_path: Path) -> None:
     assert frame["code"].tolist() == ["01", "2"]
 
 
+def test_numbers_as_other_languages_write_them_are_numbers(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("land;t\nPeru;1.250,5\nKenya;2,5\nFiji;3\n", encoding="utf-8-sig")
+    frame = pw.chart("circle", str(file), size_by="t", **QUICK).to_dataframe()
+    assert dict(zip(frame["land"], frame["t"], strict=True)) == {
+        "Peru": 1250.5,
+        "Kenya": 2.5,
+        "Fiji": 3,
+    }
+
+
 def test_a_layout_that_is_no_chart_has_poses_alone() -> None:
     layout = pw.fill("circle", ["star", "heart"], count=3, **QUICK)
     frame = layout.to_dataframe()

@@ -172,7 +172,10 @@ def test_colours_that_may_mean_something_are_told(
     drawn = '<rect width="30" height="20"/><rect x="5" y="5" width="9" height="9" stroke="blue"/>'
     with caplog.at_level(logging.WARNING):
         parts(tmp_path, f"<g {HAIRLINE}>{drawn}</g>")
-    assert "lines in several colours, all of which are cut: #f00 (1), blue (1)" in caplog.text
+    assert (
+        "lines in several colours: #f00 (1), blue (1); none is engraved for its colour"
+        in caplog.text
+    )
 
 
 def test_an_open_outline_is_named(tmp_path: Path) -> None:

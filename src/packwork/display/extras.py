@@ -141,7 +141,7 @@ def _number(text: str) -> float:
     try:
         return int(text)
     except ValueError:
-        return float(text)
+        return as_number(text)
 
 
 def _ours(layout: Layout) -> dict[str, Any]:
