@@ -117,7 +117,7 @@ class Desk:
         page.on("console", self._hear)
         # Questions for files are the test's from the start: a key is faster than asking for them.
         page.on("filechooser", lambda _: None)
-        page.goto(address)
+        page.goto(address, timeout=1000 * PATIENCE_SECONDS)
 
     def _hear(self, message: Any) -> None:
         # That a server is gone while it is started anew is what is tested.

@@ -188,7 +188,7 @@ def test_exports_are_files(open_desk: Callable[..., Desk]) -> None:
         desk.page.keyboard.press("Control+e")
         desk.until("document.querySelector('dialog.export').open")
         if not desk.look("document.querySelector('dialog.export summary').parentElement.open"):
-            desk.page.locator("dialog.export summary").click()
+            desk.page.locator("dialog.export summary >> nth=0").click()
         desk.page.locator(f"dialog.export input[value={kind}]").check()
         desk.picture("export")
         with desk.page.expect_download() as waiting:

@@ -48,7 +48,7 @@ def test_a_table_is_asked_about_and_a_font_sets_its_words(
     desk = open_desk()
     (tmp_path / "river.csv").write_text(TABLE, encoding="utf-8")
     give(desk, tmp_path / "river.csv")
-    asked = desk.page.locator("dialog.asking")
+    asked = desk.page.locator("dialog.asking[open]")
     asked.wait_for()
     assert asked.locator("tr").count() == 5
     desk.picture("table")

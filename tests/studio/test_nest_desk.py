@@ -57,7 +57,7 @@ def test_parts_are_moved_turned_and_cut_in_true_size(
     desk.picture("nest-moved")
     with desk.page.expect_download() as waiting:
         desk.page.keyboard.press("Control+e")
-        desk.page.locator("dialog.export summary").click()
+        desk.page.locator("dialog.export summary >> nth=0").click()
         desk.page.locator("dialog.export input[value=dxf]").check()
         desk.page.locator("dialog.export button[type=submit]").click()
     file = tmp_path / "sheet.dxf"

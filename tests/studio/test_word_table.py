@@ -28,7 +28,7 @@ def with_words(
     ids = "studio.collage.items.map(item => item.id).join()"
     before = desk.look(ids)
     desk.page.locator("input[type=file]").first.set_input_files(folder / "river.csv")
-    desk.page.locator("dialog.asking").get_by_role("button", name="Words").click()
+    desk.page.locator("dialog.asking[open]").get_by_role("button", name="Words").click()
     desk.until(f"studio.collage.items.length === 12 && {ids} !== '{before}'")
     desk.settled()
     if not desk.page.locator(".words").count():

@@ -141,14 +141,22 @@ class Settling:
             tell(self.arrangement.places)
             is_slow = self._farthest() < WORTHWHILE * trust * self._spacing
             rest = REST if self.centre is None else ROUND_REST
-            is_last = trust <= trusts[1] and len(items) == len(self.all_items)
-            if is_slow and is_last and gained < rest * self._side:
+            # What a round of some gains says nothing of those that wait.
+            is_of_all = len(items) == len(self.all_items)
+            if is_slow and is_of_all and trust <= trusts[1] and gained < rest * self._side:
                 return rounds + 1
-            if is_slow:
+            if is_slow and is_of_all:
                 trust = max(trust * NARROWING, trusts[1])
             is_anew = is_slow or (rounds + 1) % SWAY == 0
             items = self.all_items if is_anew else self._stirred(trust)
         return MOST_ROUNDS
+
+    def is_at_rest(self, trust: float = LAST_TRUST) -> bool:
+        """Whether no item would go far in a round of such a bound; nothing moves."""
+        before = self.arrangement.places.copy()
+        self._round(trust, 0, self.all_items)
+        self.arrangement.put(self.all_items, before)
+        return bool(self._drops.max() < WORTHWHILE * trust * self._spacing)
 
     def _stirred(self, trust: float) -> IntArray:
         """Items that went down in the last round, and those that they might touch."""

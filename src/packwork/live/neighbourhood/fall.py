@@ -90,6 +90,10 @@ def _fallen(
         arrangement, document.forces(movable), document.areas[movable], turns, gap, hair, side
     )
 
+    if settling.is_at_rest():
+        # Another way down may lead to another rest: a gesture elsewhere would move a heap.
+        return document
+
     def at(places: FloatArray) -> Document:
         x, y, turn, _ = places.T.copy()
         made = replace(poses, x=x, y=y, angle=poses.angle + turn)
