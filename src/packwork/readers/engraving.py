@@ -53,7 +53,7 @@ class Engraving:
 
 
 def _keys(colour: str, layer: str) -> set[object]:
-    """What a colour and a layer are compared by."""
+    """Texts by which a colour and a layer are compared."""
     return {key for key in (rgb_of(colour), layer.casefold()) if key}
 
 
