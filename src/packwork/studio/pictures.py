@@ -13,7 +13,7 @@ from packwork.live.commands.look import Background, SetMosaic
 from packwork.live.face.offers import colours_called, colours_of, picture_of, words_to_mix
 from packwork.live.macros import mixed
 from packwork.live.session import Session
-from packwork.scene.item import Item, PhotoArt
+from packwork.scene.item import PhotoArt
 from packwork.studio.documents import Font, Name, PageRequest
 
 if TYPE_CHECKING:
@@ -72,12 +72,9 @@ class Picture(PageRequest):
             asset = named_item(session.library, picture)
             return [made(Background if is_behind else SetMosaic, asset=asset)]
 
-        shown = workspace.shown
-        if not is_behind and shown and all(_is_photo(item) for item in shown.view.items):
+        items = workspace.shown.view.items if workspace.shown else ()
+        is_album = bool(items) and all(isinstance(item.art, PhotoArt) for item in items)
+        if is_album and not is_behind:
             workspace.pour(0, make)
         else:
             workspace.change(lambda session: session.do_together(make(session)), COLOURING)
-
-
-def _is_photo(item: Item) -> bool:
-    return isinstance(item.art, PhotoArt)
