@@ -1,18 +1,23 @@
 """Strip packing instances of a folder, beside spyrrow where it is installed.
 
     packwork bench nest FOLDER [seconds=60] [seeds=3] [only=swim,shirts] [workers=2] [page=yes]
+                               [kept=FILE.json]
     packwork bench nest wild [seconds=30] [seeds=3] [workers=2] [page=yes]
 
 Both get the same seconds and cores. Density is the parts' true area over the used strip; what
 either gives is held against the exact polygons by Shapely. ``wild`` are thin, hooked and holed
-parts that are made here. ``page=yes`` writes the page of figures and its manifest.
+parts that are made here. ``page=yes`` writes the page of figures and its manifest. Twelve
+instances with three seeds take more than an hour: what is found goes to ``kept`` at once, and a
+run that was broken off goes on from there.
 """
 
 from __future__ import annotations
 
+import json
 import math
 import statistics
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -199,7 +204,7 @@ def wild(seconds: float, seeds: int, workers: int) -> str:
 def main(arguments: list[str]) -> None:
     """Print a line for each instance."""
     folder, *rest = arguments
-    asked = {"seconds": "60", "seeds": "3", "only": "", "workers": "2", "page": ""}
+    asked = {"seconds": "60", "seeds": "3", "only": "", "workers": "2", "page": "", "kept": ""}
     asked |= dict(one.split("=", 1) for one in rest)
     seconds, workers = float(asked["seconds"]), int(asked["workers"])
     if folder == "wild":
@@ -216,15 +221,16 @@ def main(arguments: list[str]) -> None:
     ]
     print("\n".join(lines))
     aheads = list[float]()
+    found = Found(Path(asked["kept"]) if asked["kept"] else None)
     for path in sorted(Path(folder).glob("*.json")):
         if asked["only"] and path.stem not in asked["only"].split(","):
             continue
         instance = read_instance(path)
         own, other = list[float](), list[float]()
         for seed in range(int(asked["seeds"])):
-            own.append(100 * ours(instance, seconds, seed, workers))
+            own.append(found.of("packwork", ours, instance, seconds, seed, workers))
             if peer:
-                other.append(100 * theirs(instance, seconds, seed, workers))
+                other.append(found.of(f"spyrrow {peer}", theirs, instance, seconds, seed, workers))
         ahead = "-"
         if other:
             aheads.append(statistics.median(own) - statistics.median(other))
@@ -240,6 +246,28 @@ def main(arguments: list[str]) -> None:
         )
         kept = text_of(read_manifest("nesting")["parts"]["wild"])
         write_page("nesting.md", PAGE, table="\n".join(lines), said=said, wild=kept)
+
+
+class Found:
+    """Densities in per cent, kept in a file where one is given."""
+
+    def __init__(self, path: Path | None) -> None:
+        self.path = path
+        self.densities: dict[str, float] = {}
+        if path is not None and path.exists():
+            self.densities = json.loads(path.read_text())
+
+    def of(
+        self, program: str, search: Callable[[Instance, float, int, int], float],
+        instance: Instance, seconds: float, seed: int, workers: int,
+    ) -> float:  # fmt: skip
+        """Density that a program's search finds, or has found in a run before."""
+        key = f"{program}, {instance.name}, {seconds:g} s, {workers} threads, seed {seed}"
+        if key not in self.densities:
+            self.densities[key] = 100.0 * search(instance, seconds, seed, workers)
+            if self.path:
+                self.path.write_text(json.dumps(self.densities, indent=1) + "\n")
+        return self.densities[key]
 
 
 def _cell(found: list[float]) -> str:

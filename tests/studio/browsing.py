@@ -137,6 +137,15 @@ class Desk:
             )
             self.page.wait_for_timeout(10)
 
+    def resize(self, size: dict[str, int]) -> None:
+        """Have a window of another size, and what lies in it drawn anew."""
+        self.page.set_viewport_size(size)
+        self.until(
+            f"innerWidth === {size['width']} && innerHeight === {size['height']} && (box => "
+            "studio.view.size.width === box.width && studio.view.size.height === box.height)"
+            "(studio.canvas.getBoundingClientRect())"
+        )
+
     def settled(self) -> None:
         """Wait until all lies, certified."""
         self.until(

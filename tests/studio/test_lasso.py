@@ -77,7 +77,7 @@ def test_escape_leaves_off_and_a_press_alone_draws_nothing(desk: Desk) -> None:
 
 
 def test_a_finger_draws_it_from_the_menu_of_a_long_press(desk: Desk) -> None:
-    desk.page.set_viewport_size(PHONE)
+    desk.resize(PHONE)
     desk.settled()
     places = np.array(desk.look(WINDOW))
     (start, upper, lower), inside = wedge(places)

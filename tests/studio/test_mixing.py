@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from studio.browsing import PHONE, Desk, in_browser, own_desk
+from studio.browsing import PHONE, WIDE, Desk, in_browser, own_desk
 
 pytestmark = in_browser
 
@@ -40,10 +40,9 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
     desk.until(f"Math.abs({SHARE} - 0.6) < 1e-3")
     desk.settled()
     desk.picture("mixing-more")
-    page.set_viewport_size(PHONE)
-    page.wait_for_timeout(100)
+    desk.resize(PHONE)
     desk.picture("mixing-phone")
-    page.set_viewport_size({"width": 1440, "height": 900})
+    desk.resize(WIDE)
     for _ in range(2):
         page.locator("#bar [data-do=undo]").click()
     desk.until("studio.collage.items.length === 16")

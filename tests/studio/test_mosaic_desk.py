@@ -133,7 +133,7 @@ def corners_of_export(desk: Desk) -> list[tuple[int, ...]]:
 
 
 def test_the_mosaic_fits_on_a_phone(desk: Desk, halves: Path) -> None:
-    desk.page.set_viewport_size(PHONE)
+    desk.resize(PHONE)
     drop(desk, halves, "The picture of a mosaic")
     desk.until("studio.collage.scene.likeness === 1")
     desk.page.locator("#tab-look").click()
