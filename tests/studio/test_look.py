@@ -67,6 +67,33 @@ def test_the_background_on_the_page_is_that_of_the_file(desk: Desk) -> None:
         assert picture.convert("RGB").getpixel((1, 1)) == (0x17, 0x17, 0x17)
 
 
+CONTRAST = """(() => {
+  const light = (colour) => colour.match(/[\\d.]+/g).slice(0, 3).map(Number)
+    .map((one) => (one / 255 <= 0.04045 ? one / 255 / 12.92 : ((one / 255 + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, one, k) => sum + one * [0.2126, 0.7152, 0.0722][k], 0);
+  const panel = light(getComputedStyle(document.querySelector("dialog.export")).backgroundColor);
+  return [...document.querySelectorAll("#panel button.ground")].map((one) => {
+    const edge = light(getComputedStyle(one).borderTopColor);
+    return (Math.max(edge, panel) + 0.05) / (Math.min(edge, panel) + 0.05);
+  });
+})()"""
+
+
+def test_backgrounds_are_told_from_the_page_in_light_and_dark(desk: Desk) -> None:
+    desk.page.locator("#tab-look").click()
+    desk.page.locator("#badge").click()
+    for scheme in ("light", "dark"):
+        desk.page.emulate_media(color_scheme=scheme)
+        desk.until(f"getComputedStyle(document.documentElement).colorScheme === '{scheme}'")
+        # As WCAG asks of what is no text.
+        assert min(desk.look(CONTRAST)) > 3
+        desk.picture(f"look-{scheme}")
+    # What tells how things stand is closed by Escape, as a menu is.
+    assert desk.page.locator("#why").is_visible()
+    desk.page.keyboard.press("Escape")
+    assert desk.page.locator("#why").is_hidden()
+
+
 def test_a_pipette_is_there_where_the_browser_has_one(desk: Desk) -> None:
     taken = "class { open() { return Promise.resolve({ sRGBHex: '#123456' }); } }"
     for pipette, count in ((taken, 1), ("undefined", 0)):

@@ -75,8 +75,8 @@ function isFree(event) {
 /** Whether a key means something to what has the focus. @param {KeyboardEvent} event */
 function isTaken(event) {
   const target = event.target instanceof HTMLElement ? event.target : null;
-  // A menu's own way to close is Escape: what is chosen stays chosen.
-  if (target?.closest("[role=menu]") && event.key === "Escape") return true;
+  // A menu's own way to close is Escape, and a popover's: what is chosen stays chosen.
+  if (event.key === "Escape" && (target?.closest("[role=menu]") || document.querySelector("[popover=auto]:popover-open"))) return true;
   if (event.key === "Enter" && target?.closest("button, a, summary, input")) return true;
   return Boolean(target?.closest("[role=listbox], [role=menu], input[type=range]")) && event.key.startsWith("Arrow");
 }

@@ -13,7 +13,7 @@ export class Mixing {
   constructor(studio) {
     this.studio = studio;
     this.where = h("select", { "aria-label": "Where the words come", onchange: () => this.refresh() },
-      h("option", { value: "" }, "in place of what is there"), h("option", { value: "beside" }, "beside what is there"));
+      h("option", { value: "" }, "in place of these"), h("option", { value: "beside" }, "beside these"));
     this.share = h("input", { type: "number", id: "words-share", min: "5", max: "95", step: "5", value: FIRST });
     this.asked = h("label", { class: "row" }, "Share of words, %", this.share);
     this.choice = h("div", {}, h("label", { class: "row" }, "They come", this.where), this.asked);
