@@ -255,7 +255,7 @@ class Found:
         self.path = path
         self.densities: dict[str, float] = {}
         if path is not None and path.exists():
-            self.densities = json.loads(path.read_text())
+            self.densities = json.loads(path.read_text(encoding="utf-8"))
 
     def of(
         self, program: str, search: Callable[[Instance, float, int, int], float],
@@ -266,7 +266,7 @@ class Found:
         if key not in self.densities:
             self.densities[key] = 100.0 * search(instance, seconds, seed, workers)
             if self.path:
-                self.path.write_text(json.dumps(self.densities, indent=1) + "\n")
+                self.path.write_text(json.dumps(self.densities, indent=1) + "\n", encoding="utf-8")
         return self.densities[key]
 
 
