@@ -63,7 +63,7 @@ def test_circles_stay_circles_to_a_millionth_of_a_millimetre(shop: Path, packwor
     centres = circles[:, :2]
     pairs = zip(centres[::2], centres[1::2], strict=True)
     assert max(float(np.hypot(*(one - other))) for one, other in pairs) < 1e-6
-    marks = bent(shop / "a.dxf", "engrave")
+    marks = bent(shop / "a.dxf", "ETCH")
     assert len(marks) == 5
     for mark, centre in zip(marks, centres[::2], strict=True):
         assert np.hypot(*(mark[:, :2] - centre).T) == pytest.approx([8] * 3, abs=1e-6)
@@ -178,13 +178,45 @@ def test_parts_that_lie_on_a_sheet_are_written_again_as_they_were(
     result = packwork("nest a.dxf hook.dxf --passes 900 -o b.dxf -o b.svg")
     assert result.exit_code == 0, result.output
     before, after = (lines_of(tags_of((shop / f"{k}.dxf").read_text("cp1252"))) for k in "ab")
-    assert {one.layer for one in before} == {"container", "cut", "engrave"}
+    assert {one.layer for one in before} == {"container", "cut", "ETCH"}
     for old, new in zip(before[1:], after[1:], strict=False):
         assert (old.layer, old.line.is_closed) == (new.layer, new.line.is_closed)
         assert new.line.points == pytest.approx(old.line.points, abs=1e-6)
         assert new.line.bulges == pytest.approx(old.line.bulges, abs=1e-12)
     assert len(after) == len(before) + 1
     assert (shop / "b.svg").read_text(encoding="utf-8").count('stroke="#20302a"') == 2
+
+
+def test_engraved_lines_keep_colours_and_layers_of_their_own(
+    folder: Path, packwork: Command
+) -> None:
+    drawing = ezdxf.new(units=4)
+    for name, colour in (("Score", 3), ("ENGRAVE", 1), ("etch", 7), ("Etch 2", 30)):
+        drawing.layers.add(name, color=colour)
+    space = drawing.modelspace()
+    space.add_lwpolyline([(0, 0), (60, 0), (60, 40), (0, 40)], close=True)
+    for k, layer in enumerate(("Score", "ENGRAVE", "etch", "Etch 2", "Etch 2"), start=1):
+        more = {"true_color": 0x2A6F97} if k == 5 else {}
+        space.add_circle((10 * k, 10), k / 2, dxfattribs={"layer": layer, **more})
+    drawing.saveas(folder / "plate.dxf")
+    assert packwork("nest 90x90mm plate.dxf --passes 3 -o a.dxf").exit_code == 0
+    # Red is for what is cut, and black is how all is drawn.
+    wanted = {0.5: ("Score", (0, 255, 0)), 1: ("engrave", None), 1.5: ("etch", None),
+              2: ("Etch 2", (255, 127, 0)), 2.5: ("Etch 2", (42, 111, 151))}  # fmt: skip
+    for earlier, name in (("90x90mm", "a.dxf"), ("a.dxf", "b.dxf")):
+        if name == "b.dxf":
+            assert packwork(f"nest {earlier} plate.dxf --passes 900 -o {name}").exit_code == 0
+        document = ezdxf.readfile(folder / name)
+        assert {"cut", "engrave"} <= {layer.dxf.name for layer in document.layers}
+        for one in document.modelspace().query('CIRCLE[layer!="cut"]'):
+            layer, colour = wanted[round(one.dxf.radius, 6)]
+            assert one.dxf.layer == layer
+            assert document.layers.get(layer).dxf.color == 5
+            assert one.dxf.color != 1
+            assert (one.dxf.color == 256) is (colour is None)
+            if colour is not None:
+                assert (one.rgb or ezdxf.colors.aci2rgb(one.dxf.color)) == colour
+    assert packwork("measure a.dxf").exit_code == 0
 
 
 def test_colours_and_layers_that_are_named_are_engraved(folder: Path, packwork: Command) -> None:
@@ -213,10 +245,11 @@ def test_colours_and_layers_that_are_named_are_engraved(folder: Path, packwork: 
                 for one in ezdxf.readfile(folder / "a.dxf").modelspace().query("CIRCLE")
                 if one.dxf.layer == layer
             )
-            for layer in ("cut", "engrave")
+            for layer in ("cut", "other" if asked == "OTHER" else "engrave")
         }
-        assert of_layer["engrave"] == pytest.approx(engraved)
-        assert sorted(of_layer["cut"] + of_layer["engrave"]) == pytest.approx([2, 3, 4, 5, 6])
+        cut, others = of_layer.values()
+        assert others == pytest.approx(engraved)
+        assert sorted(cut + others) == pytest.approx([2, 3, 4, 5, 6])
     result = packwork("nest 90x60mm plate.dxf --passes 3 --engrave green -o b.dxf")
     assert result.exit_code == 2
     assert "no part has lines in the colour or on the layer 'green'; others have" in result.output

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, replace
+from typing import Self, TypeAlias
 
 import numpy as np
 
@@ -63,7 +63,7 @@ class ArcLine:
         """Number of sides."""
         return len(self.points) - (0 if self.is_closed else 1)
 
-    def mapped(self, matrix: FloatArray, tolerance: float) -> ArcLine:
+    def mapped(self, matrix: FloatArray, tolerance: float) -> Self:
         """Image under an affine map (2 x 3) to any unit, which may mirror.
 
         Where it stretches, arcs become parts of ellipses, which are met within ``tolerance``, in
@@ -81,7 +81,7 @@ class ArcLine:
         points = affine.apply(matrix, self.points)
         if (is_even and abs(float(first @ second)) <= 1e-12 * wide * high) or not self.bulges.any():
             turned = -1.0 if np.linalg.det(matrix[:, :2]) < 0 else 1.0
-            return ArcLine(points, turned * self.bulges, self.is_closed)
+            return replace(self, points=points, bulges=turned * self.bulges)
         found = []
         sides = zip(self.points, self.ends, self.bulges.tolist(), strict=False)
         for k, (start, end, bulge) in enumerate(sides):
@@ -89,7 +89,8 @@ class ArcLine:
                 found.append(ArcLine(points[[k, (k + 1) % len(points)]], np.zeros(2)))
             else:
                 found.append(_stretched(start, end, bulge, matrix, tolerance))
-        return joined_lines(found, is_closed=self.is_closed)
+        whole = joined_lines(found, is_closed=self.is_closed)
+        return replace(self, points=whole.points, bulges=whole.bulges)
 
     def reversed(self) -> ArcLine:
         """The same line the other way."""

@@ -161,9 +161,9 @@ def _cad_lines(
     shape: Painted, drawing: PaintedDrawing, layer: str, matrix: FloatArray
 ) -> list[CadLine]:
     """Lines of a shape on a layer, mapped from px."""
-    kind = str(shape.element.tag)
+    kind, colour = str(shape.element.tag), _paint_of(shape)
     return [
-        CadLine(line.mapped(matrix, 0.0), layer, kind)
+        CadLine(line.mapped(matrix, 0.0), layer, kind, colour)
         for line in _arc_lines(shape, _extent(drawing))
     ]
 

@@ -16,6 +16,7 @@ from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline, OutlineLike
+from packwork.scene.engraved import EngravedLine
 from packwork.scene.pose import Poses
 
 
@@ -181,12 +182,12 @@ class VectorArt:
 class LineArt(VectorArt):
     """A drawing of lines for a machine, whose arcs are kept beside the markup that shows them.
 
-    ``cut``: closed lines round the item and its holes, in the units of the markup.
-    ``engraved``: lines that go with it.
+    ``cut``: closed lines round the item and its holes; ``engraved``: lines that go with it. Both in
+    the units of the markup.
     """
 
     cut: tuple[ArcLine, ...] = ()
-    engraved: tuple[ArcLine, ...] = ()
+    engraved: tuple[EngravedLine, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,9 +283,8 @@ class Item:
     source
         Where it came from, as the user gave it.
     outline
-        The region that must not overlap: the silhouette, or with its holes where they
-        are kept. In the item's own units, y down, centroid at the origin (where it was, if its
-        lines have become thinner).
+        The region that must not overlap: the silhouette, or with its holes where they are kept. In
+        the item's own units, y down, centroid at the origin (where it was, if lines got thinner).
     ink
         What is really drawn, holes and gaps taken off; same units and origin. Unless given,
         the outline.

@@ -10,10 +10,11 @@ the run promised, stands in extended data that other programs pass over.
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Iterable, Iterator, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +23,8 @@ from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import oriented_rings, polygon_parts
+from packwork.scene.colour import css_colour
+from packwork.scene.engraved import CUT, ENGRAVE, EngravedLine
 from packwork.scene.item import Item, LineArt
 from packwork.scene.layout import Layout
 from packwork.scene.notation import decimals, sound_text
@@ -36,13 +39,15 @@ if TYPE_CHECKING:
     from ezdxf.entities import DXFGraphic
     from ezdxf.layouts import Modelspace
 
-VERSION = "R2000"
-"""The oldest form with closed light polylines: the one that most tools read."""
+VERSION, TRUE_COLOURS = "R2000", "R2004"
+"""The oldest form with closed light polylines: the one that most tools read. And with colours that
+have no number."""
 
-LAYERS = {"cut": 1, "engrave": 5, "container": 8}
+LAYERS = {CUT: 1, ENGRAVE: 5, "container": 8}
 """Names and colour numbers (red, blue, grey). ``cut`` holds the outlines of the items,
 ``engrave`` lines that go with them, and the edges of what is left bare inside them, as the hole of
-a ring that was packed as a disc. Where other lines are to be cut, outlines are on ``items``."""
+a ring that was packed as a disc; lines with a colour or layer of their own keep it. Where other
+lines are to be cut, outlines are on ``items``."""
 
 ITEMS = {"items": 9}
 """Name and colour number (light grey) of the layer of outlines that are not cut."""
@@ -81,11 +86,13 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
     ]
     points = np.concatenate([line.points for _, line in lines])
     with _without_dates():
-        drawing = _empty_drawing(layout, {lot.layer for lot, _ in lines})
+        colours = {lot.colour: _colour_tags(lot.colour) for lot, _ in lines}
+        version = TRUE_COLOURS if any(len(one) > 1 for one in colours.values()) else VERSION
+        drawing = _empty_drawing(layout, {lot.layer for lot, _ in lines}, version)
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
         for lot, line in lines:
-            drawn = _drawn(space, line, lot.layer)
+            drawn = _drawn(space, line, {"layer": lot.layer, **colours[lot.colour]})
             if lot.said:
                 drawn.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
         stream = io.StringIO()
@@ -93,9 +100,25 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
     return drawing.encode(stream.getvalue())
 
 
-def _drawn(space: Modelspace, line: ArcLine, layer: str) -> DXFGraphic:
+def _colour_tags(colour: str) -> dict[str, int]:
+    """Colour of an entity: its number, or the next one and its red, green and blue, if it has one.
+
+    >>> _colour_tags(""), _colour_tags("#00ff00"), _colour_tags("#2a6f97")
+    ({}, {'color': 3}, {'color': 145, 'true_color': 2781079})
+    """
+    from ezdxf.colors import aci2rgb
+
+    if not colour:
+        return {}
+    wanted = css_colour(colour)[:3]
+    # Not 1, the red of what is cut; 7 is black or white.
+    number = min((2, 3, 4, 5, 6, *range(8, 256)), key=lambda k: math.dist(aci2rgb(k), wanted))
+    true = {} if aci2rgb(number) == wanted else {"true_color": int(colour[1:7], 16)}
+    return {"color": number, **true}
+
+
+def _drawn(space: Modelspace, line: ArcLine, attributes: dict[str, Any]) -> DXFGraphic:
     """A line as an entity: a circle of two halves as that, all else as a light polyline."""
-    attributes = {"layer": layer}
     if line.is_closed and len(line.points) == 2 and abs(line.bulges.sum()) == 2.0:
         centre = line.points.mean(axis=0)
         radius = float(np.hypot(*(line.points[0] - centre)))
@@ -110,18 +133,21 @@ def paper_unit(unit: str) -> str:
     return unit if unit in _INSERT_UNITS else "mm"
 
 
-def _empty_drawing(layout: Layout, used: Set[str]) -> Drawing:
+def _empty_drawing(layout: Layout, used: Set[str], version: str) -> Drawing:
     import ezdxf
 
     container = layout.container
     unit = paper_unit(container.unit)
     width, height = (convert(v, container.unit, unit) for v in (container.width, container.height))
-    drawing = ezdxf.new(VERSION, units=_INSERT_UNITS[unit])
+    drawing = ezdxf.new(version, units=_INSERT_UNITS[unit])
     more = {name: colour for name, colour in {**ITEMS, **ROOM}.items() if name in used}
-    for name, colour in {**LAYERS, **more}.items():
-        layer = drawing.layers.add(name, color=colour)
-        if name in ROOM:
-            layer.off()
+    own = dict.fromkeys(sorted(used - LAYERS.keys()), LAYERS[ENGRAVE])
+    for name, colour in {**LAYERS, **own, **more}.items():
+        # Names of layers are the same in capitals.
+        if name not in drawing.layers:
+            drawing.layers.add(name, color=colour)
+    if ROOM.keys() & used:
+        drawing.layers.get("room").off()
     drawing.appids.add(APPLICATION)
     drawing.modelspace().reset_limits((0.0, 0.0), (width, height))
     drawing.set_modelspace_vport(height, center=(width / 2, height / 2))
@@ -137,8 +163,9 @@ class _Lot:
     """
 
     layer: str
-    lines: list[ArcLine]
+    lines: Sequence[ArcLine]
     said: tuple[str, ...] = ()
+    colour: str = ""
 
 
 def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
@@ -158,11 +185,12 @@ def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
             [line.mapped(matrix, curves) for line in own.cut]
             if own.cut else _straight(layout.outlines[k].rings)
         )  # fmt: skip
-        layer = "items" if is_other else "cut"
+        layer = "items" if is_other else CUT
         yield _Lot(layer, outline, (str(k + 1), name, weights[k] or "1"))
-        yield _Lot("engrave", [line.mapped(matrix, curves) for line in own.engraved])
+        for line in own.engraved:
+            yield _Lot(line.own_layer, [line.mapped(matrix, curves)], colour=line.own_colour)
     if is_other:
-        yield _Lot("cut", _straight(cut_rings(layout, cut)))
+        yield _Lot(CUT, _straight(cut_rings(layout, cut)))
 
 
 def _straight(rings: Iterable[FloatArray], *, is_closed: bool = True) -> list[ArcLine]:
@@ -177,14 +205,15 @@ class _ItemLines:
     """
 
     cut: Sequence[ArcLine]
-    engraved: Sequence[ArcLine]
+    engraved: Sequence[EngravedLine]
     matrix: FloatArray
 
 
 def _lines_of(item: Item) -> _ItemLines:
     if isinstance(item.art, LineArt):
         return _ItemLines(item.art.cut, item.art.engraved, item.art.matrix)
-    return _ItemLines((), _straight(_bare_rings(item)), affine.identity())
+    bare = [EngravedLine(ring, np.zeros(len(ring)), is_closed=True) for ring in _bare_rings(item)]
+    return _ItemLines((), bare, affine.identity())
 
 
 @dataclass(frozen=True, eq=False)

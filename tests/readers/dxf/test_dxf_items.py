@@ -308,6 +308,25 @@ def test_colours_of_layer_0_of_blocks_and_of_layers_so_called_are_engraved(tmp_p
     assert (len(part.cut), len(part.engraved)) == (1, 3)
 
 
+def test_what_is_by_layer_on_layer_0_of_a_block_takes_the_layer_of_its_insert() -> None:
+    """As the DXF reference has it: by block is the insert's own colour, by layer its layer's."""
+    document = ezdxf.new(units=4)
+    document.layers.get("0").color = 6
+    document.layers.add("Blue", color=5)
+    inner = document.blocks.new("inner")
+    for k, own in enumerate(({}, {"color": 0}, {"color": 3}, {"layer": "Blue"})):
+        inner.add_line((k, 0), (k, 1), {"layer": "0", **own})
+    document.blocks.new("outer").add_blockref("inner", (0, 0), {"layer": "0", "color": 0})
+    for k, name in enumerate(("inner", "outer")):
+        document.modelspace().add_blockref(name, (0, 9 * k), {"layer": "Blue", "color": 1})
+        document.modelspace().add_blockref(name, (90, 9 * k), {"layer": "0"})
+    stream = io.StringIO()
+    document.write(stream)
+    found = [one.colour for one in read_drawing(stream.getvalue().encode()).pieces]
+    red, green, blue, magenta = "#ff0000", "#00ff00", "#0000ff", "#ff00ff"
+    assert found == 2 * [blue, red, green, blue, magenta, magenta, green, blue]
+
+
 def test_layers_that_are_off_are_left_out() -> None:
     document = drawing(plate)
     document.layers.add("NOTES").off()

@@ -112,12 +112,19 @@ class ArcLineRecord(Options):
     is_closed: bool
 
 
+class EngravedRecord(ArcLineRecord):
+    """A line that is not cut through, with the colour and layer that it has of its own."""
+
+    colour: Text = ""
+    layer: Text = ""
+
+
 class LineRecord(VectorRecord):
     """A drawing of lines for a machine, with arcs."""
 
     kind: Literal["lines"] = "lines"  # type: ignore[assignment]
     cut: Annotated[tuple[ArcLineRecord, ...], Field(max_length=MOST_LINES)]
-    engraved: Annotated[tuple[ArcLineRecord, ...], Field(max_length=MOST_LINES)]
+    engraved: Annotated[tuple[EngravedRecord, ...], Field(max_length=MOST_LINES)]
 
 
 class PictureRecord(Options):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import binascii
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import shapely
@@ -22,6 +23,7 @@ from packwork.live.file.records import (
     FARTHEST,
     ArcLineRecord,
     ArtRecord,
+    EngravedRecord,
     FlatRecord,
     LineRecord,
     Matrix,
@@ -29,6 +31,7 @@ from packwork.live.file.records import (
     PhotoRecord,
     PictureRecord,
     VectorRecord,
+    kept_text,
 )
 from packwork.readers.budget.crossings import Allowance, check_nesting
 from packwork.readers.gate.door import MAX_BYTES
@@ -37,6 +40,7 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.scene.colour import css_colour
+from packwork.scene.engraved import EngravedLine
 from packwork.scene.item import Art, FlatArt, LineArt, PhotoArt, PictureArt, VectorArt
 from packwork.uses.cutting import cropped
 
@@ -123,8 +127,12 @@ def art_record(art: Art, extent: float) -> ArtRecord:
     if isinstance(art, LineArt):
         drawn = _vector_record(art).model_dump(exclude={"kind"})
         return LineRecord(
-            **drawn, cut=tuple(map(_arcs_record, art.cut)),
-            engraved=tuple(map(_arcs_record, art.engraved)),
+            **drawn, cut=tuple(ArcLineRecord(**_arcs_fields(line)) for line in art.cut),
+            engraved=tuple(
+                EngravedRecord(**_arcs_fields(line), colour=line.colour,
+                               layer=kept_text(line.layer))
+                for line in art.engraved
+            ),
         )  # fmt: skip
     if isinstance(art, VectorArt):
         return _vector_record(art)
@@ -159,7 +167,11 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
         return FlatArt(colour_of(record.fill))
     if isinstance(record, LineRecord):
         art = _vector_of(record)
-        cut, engraved = (tuple(map(_arcs_of, many)) for many in (record.cut, record.engraved))
+        cut = tuple(ArcLine(*_arcs_of(one)) for one in record.cut)
+        engraved = tuple(
+            EngravedLine(*_arcs_of(one), one.colour and colour_of(one.colour), one.layer)
+            for one in record.engraved
+        )
         _check_inside((*cut, *engraved), art.matrix, outline)
         return LineArt(art.markup, art.matrix, art.is_traced, cut, engraved)
     if isinstance(record, VectorRecord):
@@ -175,17 +187,16 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
     return PictureArt(png, record.width, record.height, matrix, record.is_traced)
 
 
-def _arcs_record(line: ArcLine) -> ArcLineRecord:
-    return ArcLineRecord(
-        points=text_of(line.points), bulges=tuple(line.bulges.tolist()), is_closed=line.is_closed
-    )
+def _arcs_fields(line: ArcLine) -> dict[str, Any]:
+    bulges = tuple(line.bulges.tolist())
+    return {"points": text_of(line.points), "bulges": bulges, "is_closed": line.is_closed}
 
 
-def _arcs_of(record: ArcLineRecord) -> ArcLine:
+def _arcs_of(record: ArcLineRecord) -> tuple[FloatArray, FloatArray, bool]:
     points, bulges = points_of(record.points), np.array(record.bulges, dtype=np.float64)
     if len(points) != len(bulges) or len(points) < 2:
         raise UnfitError("holds a line whose arcs do not fit its points")
-    return ArcLine(points, bulges, record.is_closed)
+    return points, bulges, record.is_closed
 
 
 def _check_inside(lines: Sequence[ArcLine], matrix: FloatArray, outline: Outline) -> None:

@@ -61,6 +61,8 @@ MILLIMETRES = {
 _HIDDEN = re.compile(r"center|centre|hidden|phantom|dashdot", re.IGNORECASE)
 """Line types of what is not there: axes, edges behind."""
 
+BY_BLOCK = "by block"
+
 _BINARY = b"AutoCAD Binary DXF"
 _DWG = re.compile(rb"AC10\d\d")
 
@@ -69,7 +71,8 @@ _DWG = re.compile(rb"AC10\d\d")
 class CadLine:
     """A line of a drawing, in its units, y up.
 
-    ``kind`` is the entity that it was; ``colour`` is empty where it is not told or its block's.
+    ``kind`` is the entity that it was; ``colour`` is empty of layer 0, whose place in a block that
+    of the insert takes, and ``BY_BLOCK`` where it is that of the insert itself.
     """
 
     line: ArcLine
@@ -105,9 +108,9 @@ def read_drawing(data: bytes) -> CadDrawing:
         raise UnfitError(f"has more than {MOST_LINES:,} lines of text; export the outlines alone")
     document = _parsed(data)
     walk = _BlockReader(document)
-    own = walk.colour(document.layers.get("0"), "0")
+    own = {"": walk.colour(document.layers.get("0"), "0"), BY_BLOCK: ""}
     found = walk.pieces(document.modelspace())
-    pieces = tuple(replace(one, colour=one.colour or own) for one in found)
+    pieces = tuple(replace(one, colour=own.get(one.colour, one.colour)) for one in found)
     millimetres, is_metric = _unit(document)
     return CadDrawing(pieces, walk.left_out, millimetres, is_metric)
 
@@ -204,14 +207,14 @@ class _BlockReader:
         return not _HIDDEN.match(style)
 
     def colour(self, entity: Any, layer: str) -> str:
-        """Colour as ``#rrggbb``; empty if it is that of the block, or of layer 0."""
+        """Colour as ``#rrggbb``; empty if it is that of layer 0, or ``BY_BLOCK``."""
         from ezdxf.colors import BYBLOCK, BYLAYER, RGB, aci2rgb
 
         layers = self.document.layers
         for one in (entity, *([layers.get(layer)] if layer in layers and layer != "0" else [])):
             number = abs(int(one.dxf.get("color", BYLAYER)))
             if one.rgb is not None or number == BYBLOCK:
-                return "" if one.rgb is None else RGB(*one.rgb).to_hex()
+                return BY_BLOCK if one.rgb is None else RGB(*one.rgb).to_hex()
             if number < BYLAYER:
                 # Number 7 stands out from the ground.
                 return (RGB(0, 0, 0) if number == 7 else aci2rgb(number)).to_hex()
@@ -235,6 +238,9 @@ class _BlockReader:
         if self.inserts > MOST_INSERTS:
             raise UnfitError(f"inserts blocks more than {MOST_INSERTS:,} times; export fewer parts")
         own = self._block(name)
+        layers = self.document.layers
+        of_layer = self.colour(layers.get(layer), layer) if layer in layers and layer != "0" else ""
+        colours = {"": of_layer, BY_BLOCK: self.colour(insert, layer)}
         self._bounded(own, copies)
         for one in insert.multi_insert() if copies > 1 else [insert]:
             matrix = _flat_map(one.matrix44())
@@ -244,7 +250,7 @@ class _BlockReader:
             for piece in own:
                 line = piece.line.mapped(matrix, _tolerance(piece.line, matrix))
                 shown = layer if piece.layer == "0" else piece.layer
-                colour = piece.colour or self.colour(insert, layer)
+                colour = colours.get(piece.colour, piece.colour)
                 yield replace(piece, line=line, layer=shown, colour=colour)
 
     def _block(self, name: str) -> list[CadLine]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -38,6 +38,7 @@ from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred
 from packwork.scene.container import Container, placed_container
+from packwork.scene.engraved import EngravedLine
 from packwork.scene.item import Item, LineArt
 from packwork.scene.notation import arc_path_data, decimals
 from packwork.units import convert
@@ -99,7 +100,7 @@ class CadPart:
     """Lines to cut, the outer first, and to engrave: in px, y down, positive area but for holes."""
 
     cut: tuple[ArcLine, ...]
-    engraved: tuple[ArcLine, ...]
+    engraved: tuple[EngravedLine, ...]
     region: Region
 
 
@@ -143,7 +144,11 @@ def cad_parts(
         raise UnfitError(_why_none(cut, loose, engraved, left_out))
     if len(parts) > MOST_ITEMS:
         raise UnfitError(f"holds {len(parts):,} parts, {MOST_ITEMS:,} are the most")
-    marked = engraved_in(parts, engraved, loose, left_out)
+    marks = [
+        one if ENGRAVED.search(one.layer) or engraving.holds("", one.layer)
+        else replace(one, layer="") for one in engraved
+    ]  # fmt: skip
+    marked = engraved_in(parts, marks, loose, left_out)
     if doubled:
         notice(f"{number_of(doubled, 'outline')} that lay on another was taken once")
     tell_left_out(left_out)
@@ -211,7 +216,7 @@ def engraved_in(
     engraved: Sequence[CadLine],
     loose: Sequence[CadLine],
     left_out: Counter[str],
-) -> list[list[ArcLine]]:
+) -> list[list[EngravedLine]]:
     """Lines that go with each part; what lies beyond its edges is cut off."""
     slack = FLATTENING * size_of([*engraved, *loose])
     regions = [
@@ -219,25 +224,30 @@ def engraved_in(
         for part in parts
     ]
     tree = shapely.STRtree(regions)
-    found: list[list[ArcLine]] = [[] for _ in parts]
-    for piece in (*engraved, *loose):
+    found: list[list[EngravedLine]] = [[] for _ in parts]
+    every = (*engraved, *(replace(one, layer="") for one in loose))
+    for number, piece in enumerate(every, start=-len(engraved)):
         points = piece.line.flattened(slack or 1e-9)
         line = LineString(np.vstack([points, points[:1]]) if piece.line.is_closed else points)
         near = [int(k) for k in tree.query(line, predicate="dwithin", distance=slack)]
         inside = [k for k in near if buffered(regions[k], 2 * slack).covers(line)]
         if inside:
-            found[inside[0]].append(piece.line)
-        elif any(piece is one for one in loose):
-            raise UnfitError(_open_at(loose, piece))
+            found[inside[0]].append(_mark(piece.line, piece))
+        elif number >= 0:
+            raise UnfitError(_open_at(loose, loose[number]))
         elif not near:
             left_out["to engrave beside all parts"] += 1
         else:
             left_out["engraved beyond an edge"] += 1
             for k in near:
-                found[k] += _inside(line, regions[k])
+                found[k] += [_mark(part, piece) for part in _inside(line, regions[k])]
     if loose:
         notice(f"{number_of(len(loose), 'open line')} inside parts will be engraved")
     return found
+
+
+def _mark(line: ArcLine, piece: CadLine) -> EngravedLine:
+    return EngravedLine(line.points, line.bulges, line.is_closed, piece.colour, piece.layer)
 
 
 def _inside(line: LineString, region: Polygon) -> Iterator[ArcLine]:
@@ -248,7 +258,7 @@ def _inside(line: LineString, region: Polygon) -> Iterator[ArcLine]:
 
 
 def cad_part(
-    part: RingPart, engraved: Iterable[ArcLine], flip: FloatArray, *, within: bool
+    part: RingPart, engraved: Iterable[EngravedLine], flip: FloatArray, *, within: bool
 ) -> CadPart:
     """Lines in px; a map that mirrors makes an outer ring run the other way."""
     outer = part.outer.line.mapped(flip, math.inf).reversed()
@@ -275,15 +285,14 @@ def cad_part(
 
 def _item(part: CadPart, name: str, source: str, holes: Holes) -> Item:
     outline, ink, move = centred(part.region, holes)
-    cut, engraved = (
-        tuple(line.mapped(move, math.inf) for line in lines) for lines in (part.cut, part.engraved)
-    )
+    cut = tuple(line.mapped(move, math.inf) for line in part.cut)
+    engraved = tuple(line.mapped(move, math.inf) for line in part.engraved)
     return Item(name, source, outline, ink, line_art(cut, engraved, outline.extent, ink.region))
 
 
 def line_art(
     cut: tuple[ArcLine, ...],
-    engraved: tuple[ArcLine, ...],
+    engraved: tuple[EngravedLine, ...],
     size: float,
     region: Region,
     pixel: float = 1.0,
@@ -293,23 +302,26 @@ def line_art(
     path = "".join(arc_path_data(line, digits) for line in cut)
     markup = f'<path fill="{FILL}" fill-rule="evenodd" d="{path}"/>'
     width = min(ENGRAVED_PX * pixel, _THINNEST * size)
-    shown = "".join(_shown(engraved, region, width, digits))
-    if shown:
-        markup += (
-            f'<path fill="none" stroke="{INK}" stroke-width="{width:.6g}" '
-            f'stroke-linejoin="round" d="{shown}"/>'
-        )
+    # Away from all edges by its width, so that it adds nothing to what is measured.
+    room = buffered(region, -width)
+    shown = defaultdict[str, str](str)
+    for line in engraved:
+        shown[line.own_colour or INK] += "".join(_shown(line, room, width, digits))
+    for colour, path in shown.items():
+        if path:
+            markup += (
+                f'<path fill="none" stroke="{colour}" stroke-width="{width:.6g}" '
+                f'stroke-linejoin="round" d="{path}"/>'
+            )
     return LineArt(markup, affine.identity(), cut=cut, engraved=engraved)
 
 
-def _shown(engraved: Iterable[ArcLine], region: Region, width: float, digits: int) -> Iterator[str]:
-    """Paths of engraved lines, away from all edges by their width."""
-    room = buffered(region, -width)
-    for line in engraved:
-        points = line.flattened(width / 10)
-        whole = LineString(np.vstack([points, points[:1]]) if line.is_closed else points)
-        if room.contains(whole):
-            yield arc_path_data(line, digits)
-        else:
-            for part in _inside(whole, room):
-                yield arc_path_data(part, digits)
+def _shown(line: ArcLine, room: Region, width: float, digits: int) -> Iterator[str]:
+    """Paths of an engraved line where it lies in a region."""
+    points = line.flattened(width / 10)
+    whole = LineString(np.vstack([points, points[:1]]) if line.is_closed else points)
+    if room.contains(whole):
+        yield arc_path_data(line, digits)
+    else:
+        for part in _inside(whole, room):
+            yield arc_path_data(part, digits)

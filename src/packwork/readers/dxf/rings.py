@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -94,7 +94,7 @@ def _cleaned(piece: CadLine, least: float) -> CadLine | None:
     least_points = 2 if not line.is_closed or bulges.any() else 3
     if len(points) < least_points:
         return None
-    return CadLine(ArcLine(points, bulges, line.is_closed), piece.layer, piece.kind)
+    return replace(piece, line=replace(line, points=points, bulges=bulges))
 
 
 def _ring(piece: CadLine) -> Ring | None:

@@ -6,8 +6,9 @@ not lean on the program that wrote what is measured.
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -28,6 +29,7 @@ from packwork.readers.layouts.assembly import (
 )
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
+from packwork.scene.engraved import CUT, EngravedLine
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert
@@ -35,11 +37,9 @@ from packwork.units import Unit, convert
 APPLICATION = "PACKWORK"
 """Name under which our files say what a line belongs to."""
 
-ENGRAVE = "engrave"
-"""Layer of lines that go with an item, after those of its edge."""
-
-OPEN_LAYERS = ("container", ENGRAVE)
-"""Where lines may be open: walls of a container that has openings, and what is not cut."""
+CLOSED_LAYERS = frozenset({CUT, "items", "room"})
+"""Where lines are closed. On ``container`` are walls, too, which may have openings, and on all
+others what goes with the item before it and is not cut."""
 
 MEASURED_FLATTENING = 2.5e-7
 """Largest distance of arcs from the chords that are measured, as a share of the sheet's longer
@@ -64,6 +64,12 @@ class DxfLine:
     layer: str
     line: ArcLine
     said: tuple[str, ...]
+    colour: str = ""
+
+    @property
+    def is_engraved(self) -> bool:
+        """Whether it is neither a sheet's nor an item's edge."""
+        return self.layer not in CLOSED_LAYERS | {"container"}
 
 
 def tags_of(text: str) -> list[Tag]:
@@ -139,7 +145,7 @@ def _line(tags: Sequence[Tag]) -> DxfLine:
     layer = next((value for code, value in plain if code == 8), "")
     flags = next((_number(value) for code, value in plain if code == 70), 0.0)
     is_closed = flags == flags and bool(int(flags) & _CLOSED)
-    if not (is_closed or layer in OPEN_LAYERS):
+    if not is_closed and layer in CLOSED_LAYERS:
         raise UnfitError(f"holds a line on layer {layer[:20]!r} that is open")
     x, y = ([_number(value) for code, value in plain if code == axis] for axis in (10, 20))
     bulges = _bulges(plain)
@@ -150,7 +156,7 @@ def _line(tags: Sequence[Tag]) -> DxfLine:
     if not len(x) == len(y) == len(bulges) or len(x) < least or not is_sane:
         raise UnfitError(f"holds a line on layer {layer[:20]!r} whose points are none")
     line = ArcLine(np.column_stack([x, y]), np.array(bulges), is_closed)
-    return DxfLine(layer, line, tuple(_said(tags)))
+    return DxfLine(layer, line, tuple(_said(tags)), _colour(dict(plain)))
 
 
 def _circle(tags: Sequence[Tag]) -> DxfLine:
@@ -159,7 +165,22 @@ def _circle(tags: Sequence[Tag]) -> DxfLine:
     layer = found.get(8, "")
     if not (max(abs(x), abs(y), radius) <= MAX_COORDINATE and radius > 0.0):
         raise UnfitError(f"holds a circle on layer {layer[:20]!r} that is none")
-    return DxfLine(layer, circle((x, y), radius), tuple(_said(tags)))
+    return DxfLine(layer, circle((x, y), radius), tuple(_said(tags)), _colour(found))
+
+
+def _colour(tags: Mapping[int, str]) -> str:
+    """Colour of an entity, ``#rrggbb``; empty if it is its layer's."""
+    true, number = tags.get(420, ""), tags.get(62, "")
+    if true.isdecimal():
+        return f"#{int(true[:9]) & 0xFFFFFF:06x}"
+    if not (number.isdecimal() and 0 < int(number[:9]) < 256):
+        return ""
+    # Measuring, which needs no colours, goes without that package.
+    with contextlib.suppress(ImportError):
+        from ezdxf.colors import aci2rgb
+
+        return aci2rgb(int(number)).to_hex()
+    return ""
 
 
 _READ: dict[str, Callable[[Sequence[Tag]], DxfLine]] = {"LWPOLYLINE": _line, "CIRCLE": _circle}
@@ -223,8 +244,11 @@ def layout_of_dxf(text: str, name: str, *, outlines_only: bool = False) -> Layou
     # Lines of items have a layer of their own where others are cut.
     layer = "items" if any(line.layer == "items" for line in lines) else "cut"
     paper = _Paper(height, MEASURED_FLATTENING * max(width, height), convert(1.0, "px", unit))
-    kept = {layer} if outlines_only else {layer, ENGRAVE}
-    items = _items([line for line in lines if line.layer in kept], paper, plain=outlines_only)
+    kept = [
+        line for line in lines
+        if line.layer == layer or (line.is_engraved and not outlines_only)
+    ]  # fmt: skip
+    items = _items(kept, paper, plain=outlines_only)
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -288,7 +312,7 @@ def _items(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> list[Foun
     together: dict[str, list[DxfLine]] = {}
     number = ""
     for line in lines:
-        if line.layer != ENGRAVE:
+        if not line.is_engraved:
             if len(line.said) != 3:
                 raise UnfitError(f"has lines on the layer cut that name no item, {_NOT_OURS}")
             number = line.said[0]
@@ -298,13 +322,16 @@ def _items(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> list[Foun
 
 def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> FoundItem:
     number, name, weight = lines[0].said
-    around = [line for line in lines if line.layer != ENGRAVE]
+    around = [line for line in lines if not line.is_engraved]
     shape = paper.region(around)
     if plain or not (len(around) < len(lines) or any(one.line.bulges.any() for one in around)):
         return FoundItem(name, shape, sound_weight(weight))
     outline = sound_outline(shape, f"item {number} ({name})")
     cut = tuple(paper.turned(one.line) for one in around)
-    engraved = tuple(paper.turned(one.line) for one in lines if one.layer == ENGRAVE)
+    engraved = tuple(
+        EngravedLine(drawn.points, drawn.bulges, drawn.is_closed, one.colour, one.layer)
+        for one in lines if one.is_engraved and (drawn := paper.turned(one.line))
+    )  # fmt: skip
     art = line_art(cut, engraved, outline.extent, outline.region, paper.pixel)
     x, y = outline.centroid.tolist()
     back = affine.similarity(-x, -y, 0.0, 1.0)

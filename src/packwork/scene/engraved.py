@@ -1,0 +1,62 @@
+"""Lines that a machine engraves, and the colours by which it tells them from those that it cuts."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from packwork.geometry.arcs import ArcLine
+from packwork.scene.colour import css_colour, hex_colour
+
+CUT, ENGRAVE = "cut", "engrave"
+"""Layers of what is cut through, and of what is not unless its own layer has another name."""
+
+CUT_COLOUR, ENGRAVED_COLOUR = "#ff0000", "#0000ff"
+"""Colours of both, red and blue: what drivers of lasers take for them."""
+
+_NEAR_RED = 64
+"""Parts of 255 up to which a colour may differ from red and a driver take it for that. Chosen."""
+
+_OTHERS = re.compile(r"0|cut|engrave|items|room|container|artwork|defpoints", re.IGNORECASE)
+_NOT_IN_NAMES = re.compile(r"[<>/\\\":;?*|=`,\x00-\x1f\x7f]")
+
+
+@dataclass(frozen=True, eq=False)
+class EngravedLine(ArcLine):
+    """A line that a machine does not cut through.
+
+    ``colour``: any CSS colour, ``layer``: a name; each empty where the drawing gives it none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> line = EngravedLine(np.eye(2), np.zeros(2), False, "lime", "Score")
+    >>> line.own_colour, line.own_layer
+    ('#00ff00', 'Score')
+    >>> line = EngravedLine(np.eye(2), np.zeros(2), False, "#f01010", "cut")
+    >>> line.own_colour, line.own_layer
+    ('', 'engrave')
+    """
+
+    colour: str = ""
+    layer: str = ""
+
+    @property
+    def own_colour(self) -> str:
+        """``#rrggbb`` by which it is told apart; empty: of black and white, and of the red of cuts.
+
+        Black is how all lines are drawn, and a red one would be cut.
+        """
+        try:
+            *rgb, opacity = css_colour(self.colour)
+        except ValueError:
+            return ""
+        is_red = max(255 - rgb[0], *rgb[1:]) <= _NEAR_RED
+        is_plain = is_red or not opacity or set(rgb) in ({0}, {255})
+        return "" if is_plain else hex_colour((*rgb, 255))
+
+    @property
+    def own_layer(self) -> str:
+        """Name of its layer in files: its own, if that is none of those that say something else."""
+        name = _NOT_IN_NAMES.sub("_", self.layer).strip()[:60]
+        return ENGRAVE if not name or _OTHERS.fullmatch(name) else name
