@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 66_800,
-    "lines of docstrings": 18_410,
-    "files": 588,
+    "lines of code": 67_030,
+    "lines of docstrings": 18_480,
+    "files": 590,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 744,
+    "constants chosen by hand": 746,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

@@ -645,8 +645,8 @@ class SaveKeywords(TypedDict, total=False):
     """In SVG, repeat each drawing in place, for tools that choke on <use>. Default: False."""
 
     text: Literal["outlines", "live"]
-    """Words in SVG: outlines, or live text that can be selected and found, in parts of their fonts
-    that the file carries. Default: 'outlines'."""
+    """Words in SVG and PDF: outlines, or live text that can be selected and found (in SVG in parts
+    of their fonts that the file carries, in PDF unseen over the outlines). Default: 'outlines'."""
 
     cut: Literal["outlines", "silhouette"] | None
     """Lines for a cutter in SVG and PDF (there in the spot colour CutContour) too: outlines, or

@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 
@@ -27,6 +27,7 @@ from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert
+from packwork.verify.graphics_state import NOWHERE, Graphics, corners, matrix_of, scale_of
 from packwork.verify.pdf_objects import TOO_MUCH, check_size, listed, space_name
 
 MAX_BYTES = 500_000_000
@@ -65,9 +66,6 @@ _DEVICE = {"rg": "RGB", "g": "grey", "k": "CMYK"}
 _MALFORMED = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of content that is not as the standard has it."""
 
-_NOWHERE = np.zeros((2, 2))
-_EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
-
 
 @dataclass(frozen=True)
 class Check:
@@ -76,16 +74,6 @@ class Check:
     about: str
     found: str
     is_well: bool
-
-
-@dataclass(frozen=True)
-class _Graphics:
-    matrix: FloatArray
-    window: FloatArray = field(default_factory=lambda: _EVERYWHERE)
-    width: float = 1.0
-    spaces: tuple[str, str] = ("grey", "grey")
-    em: float = 0.0
-    letters: float = 1.0
 
 
 def preflight(path: str | Path) -> list[Check]:
@@ -141,15 +129,11 @@ def _ems(layout: Layout | None) -> list[float]:
         return []
     scales, pt = layout.poses.scale.tolist(), convert(1.0, layout.container.unit, "pt")
     return [
-        run.size * _scale_of(item.art.matrix) * scale * pt
+        run.size * scale_of(item.art.matrix) * scale * pt
         for item, scale in zip(layout.items, scales, strict=True)
         if item.text is not None and hasattr(item.art, "matrix")
         for run in item.text.runs
     ]
-
-
-def _scale_of(matrix: FloatArray) -> float:
-    return float(np.sqrt(abs(np.linalg.det(matrix[:, :2]))))
 
 
 @final
@@ -180,7 +164,7 @@ class _Content:
                 check_size(part, self._left)
             page.contents_coalesce()
             resources: Any = page.obj.get("/Resources", {})
-            state = _Graphics(affine.similarity(0.0, 0.0, 0.0, unit))
+            state = Graphics(affine.similarity(0.0, 0.0, 0.0, unit))
             self._follow(page.obj.Contents, resources, state, 0)
 
     def checks(self, ems: Sequence[float]) -> list[Check]:
@@ -263,12 +247,12 @@ class _Content:
         told = " ".join([*self._intents, self._standard]).strip()
         return Check("output intent", told or "none", bool(told))
 
-    def _follow(self, stream: Any, resources: Any, state: _Graphics, depth: int) -> None:
+    def _follow(self, stream: Any, resources: Any, state: Graphics, depth: int) -> None:
         check_size(stream, self._left)
         self._left -= len(stream.read_bytes()) + _FORM_BYTES
         if self._left < 0 or depth > _DEEPEST:
             raise UnfitError(TOO_MUCH)
-        kept: list[_Graphics] = []
+        kept: list[Graphics] = []
         points: list[FloatArray] = []
         clips = False
         for one in pikepdf.parse_content_stream(stream):
@@ -277,11 +261,11 @@ class _Content:
                 points.append(np.reshape([float(v) for v in operands], (-1, 2)))
             elif name == "re":
                 x, y, wide, high = (float(v) for v in operands)
-                points.append(_corners(x, y, x + wide, y + high))
+                points.append(corners(x, y, x + wide, y + high))
             elif name in {"W", "W*"}:
                 clips = True
             elif name in _PAINTING or name == "n":
-                box = _bounds(points, state) if points else None
+                box = state.bounds(points) if points else None
                 if box is not None and name != "n":
                     self._painted(box, name in _STROKES, name not in {"S", "s"}, state)
                 if clips and box is not None:
@@ -296,17 +280,23 @@ class _Content:
             elif name == "INLINE IMAGE":
                 self._picture(operands[0].obj, resources, state)
             elif name in {"Tj", "TJ", "'", '"'}:
-                self._ems.append(state.em * state.letters * _scale_of(state.matrix))
-                self._count(state.spaces[0])
+                self._lettered(state)
             else:
                 state = self._changed(state, name, operands, resources, depth)
 
-    def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: _Graphics) -> None:
+    def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: Graphics) -> None:
         if strokes:
-            self._lines.append(state.width * _scale_of(state.matrix))
+            self._lines.append(state.line_pt)
         for space in (state.spaces[:1] if fills else ()) + (state.spaces[1:] if strokes else ()):
             self._count(space)
         self._painted_boxes.append(box)
+
+    def _lettered(self, state: Graphics) -> None:
+        """Count letters that are shown; those of a mode that paints nothing are not."""
+        for space in state.text_spaces:
+            self._count(space)
+        if state.text_spaces:
+            self._ems.append(state.em_pt)
 
     def _count(self, space: str) -> None:
         if space.startswith("ink "):
@@ -314,19 +304,19 @@ class _Content:
         elif space:
             self._spaces[space] += 1
 
-    def _drawn(self, drawn: Any, resources: Any, state: _Graphics, depth: int) -> None:
+    def _drawn(self, drawn: Any, resources: Any, state: Graphics, depth: int) -> None:
         if drawn.Subtype == "/Image":
             self._picture(drawn, resources, state)
             return
-        own = affine.compose(state.matrix, _matrix(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
+        own = affine.compose(state.matrix, matrix_of(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
         state = replace(state, matrix=own)
         if "/BBox" in drawn:
-            corners = _corners(*(float(v) for v in drawn.BBox))
-            state = replace(state, window=_bounds([corners], state))
+            box = corners(*(float(v) for v in drawn.BBox))
+            state = replace(state, window=state.bounds([box]))
         self._follow(drawn, drawn.get("/Resources", resources), state, depth + 1)
 
-    def _picture(self, drawn: Any, resources: Any, state: _Graphics) -> None:
-        box = _bounds([_corners(0.0, 0.0, 1.0, 1.0)], state)
+    def _picture(self, drawn: Any, resources: Any, state: Graphics) -> None:
+        box = state.bounds([corners(0.0, 0.0, 1.0, 1.0)])
         self._painted_boxes.append(box)
         if (box[1] > self._trim[0] + _SEEN_PT).all() and (box[0] < self._trim[1] - _SEEN_PT).all():
             inches = np.hypot(*state.matrix[:, :2]) / 72
@@ -338,20 +328,10 @@ class _Content:
             self._clear["soft edge|soft edges"] += 1
 
     def _changed(
-        self, state: _Graphics, name: str, operands: Any, resources: Any, depth: int
-    ) -> _Graphics:
-        if name == "cm":
-            return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
-        if name == "w":
-            return replace(state, width=float(operands[0]))
+        self, state: Graphics, name: str, operands: Any, resources: Any, depth: int
+    ) -> Graphics:
         if name == "gs":
             self._transparent(resources["/ExtGState"][operands[0]])
-        elif name == "Tf":
-            return replace(state, em=float(operands[1]))
-        elif name == "BT":
-            return replace(state, letters=1.0)
-        elif name == "Tm":
-            return replace(state, letters=_scale_of(_matrix(operands)))
         elif name == "sh":
             shading = resources["/Shading"][operands[0]]
             self._count(space_name(shading.ColorSpace, resources))
@@ -367,9 +347,9 @@ class _Content:
                 self._count(space_name(pattern.Shading.ColorSpace, resources))
             elif pattern.PatternType == 1:
                 # The shape that it fills ends on the page, not its tiles.
-                unseen = _Graphics(affine.identity(), window=_NOWHERE)
+                unseen = Graphics(affine.identity(), window=NOWHERE)
                 self._follow(pattern, pattern.get("/Resources", {}), unseen, depth + 1)
-        return state
+        return state.after(name, operands)
 
     def _transparent(self, settings: Any) -> None:
         if min(float(settings.get("/ca", 1)), float(settings.get("/CA", 1))) < 1:
@@ -380,21 +360,5 @@ class _Content:
             self._clear["mask|masks"] += 1
 
 
-def _bounds(points: Sequence[FloatArray], state: _Graphics) -> FloatArray:
-    """Corners of the box of points on the page, as far as the clip lets it through."""
-    placed = affine.apply(state.matrix, np.concatenate(points))
-    low = np.maximum(placed.min(axis=0), state.window[0])
-    return np.array([low, np.maximum(np.minimum(placed.max(axis=0), state.window[1]), low)])
-
-
-def _corners(left: float, low: float, right: float, high: float) -> FloatArray:
-    return np.array([[left, low], [right, high], [left, high], [right, low]])
-
-
 def _box(box: Any) -> FloatArray:
     return np.sort(np.reshape([float(v) for v in box], (2, 2)), axis=0)
-
-
-def _matrix(numbers: Any) -> FloatArray:
-    a, b, c, d, e, f = (float(v) for v in numbers)
-    return np.array([[a, c, e], [b, d, f]])

@@ -60,8 +60,8 @@ class DrawingOptions(Options):
     """In SVG, repeat each drawing in place, for tools that choke on <use>."""
 
     text: Annotated[TextChoice, Offer(verbs=Verbs.WORDS)] = "outlines"
-    """Words in SVG: outlines, or live text that can be selected and found, in parts of their fonts
-    that the file carries."""
+    """Words in SVG and PDF: outlines, or live text that can be selected and found (in SVG in parts
+    of their fonts that the file carries, in PDF unseen over the outlines)."""
 
     cut: CutLine | None = None
     """Lines for a cutter in SVG and PDF (there in the spot colour CutContour) too: outlines, or

@@ -85,6 +85,8 @@ def pdf_bytes(
         if rim is not None:
             bare = PrintSheet(width=sheet.width, height=sheet.height)
             put_rim(pdf, _set_page(rim, SvgOptions(), bare), sheet)
+        if options.text == "live":
+            _put_text(pdf, layout, sheet)
         if rings:
             scale = convert(1.0, layout.container.unit, "pt")
             _put_lines(pdf, [scale * ring for ring in rings], sheet)
@@ -95,6 +97,13 @@ def pdf_bytes(
         version = "" if printing.press is None else X4_VERSION
         pdf.save(written, deterministic_id=True, force_version=version)
         return written.getvalue()
+
+
+def _put_text(pdf: pikepdf.Pdf, layout: Layout, sheet: PrintSheet) -> None:
+    # Load what only text needs.
+    from packwork.writers.pdf_unseen_text import put_unseen_text
+
+    put_unseen_text(pdf, layout, sheet)
 
 
 def _put_inks(pdf: pikepdf.Pdf, printing: PrintOptions, title: str) -> None:

@@ -14,7 +14,7 @@ const FILMED = /** @type {const} */ (["seconds", "film_ratio", "film_pixels", "l
 /** Formats: ending, name, what it is for, which options it has. */
 const FORMATS = /** @type {const} */ ([
   ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "margin", "show_container", "text", "flatten", "print"]],
-  ["pdf", "PDF", "for printing", ["background", "margin", "show_container", "bleed", "print"]],
+  ["pdf", "PDF", "for printing", ["background", "margin", "show_container", "text", "bleed", "print"]],
   ["png", "PNG", "a picture", ["pixels", "background", "margin", "show_container", "print"]],
   ["packwork", "Session", "all of it, with all that undo leads to", []],
   ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "margin", "show_container"]],
