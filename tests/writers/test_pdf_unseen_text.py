@@ -17,6 +17,7 @@ import pypdfium2 as pdfium
 import pytest
 from fontTools.ttLib import TTFont
 
+import packwork as pw
 from made_profiles import press_profile
 from packwork.geometry.curves import Curve
 from packwork.readers.fonts.face import Typeface
@@ -27,6 +28,7 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.verify.preflight import preflight_of
+from packwork.verify.text import faults_in_file
 from packwork.writers import encoded, write_options
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.svg import SvgOptions
@@ -186,6 +188,22 @@ def test_unseen_letters_are_no_matter_of_a_press(placed: MakeLayout) -> None:
     layout = placed(word("office"))
     checks = [preflight_of(pdf_bytes(layout, how), "a.pdf") for how in (LIVE, SvgOptions())]
     assert checks[0] == checks[1]
+
+
+def test_what_is_written_is_held_against_the_layout() -> None:
+    layout = pw.words("circle", {"honey": 3, "bear": 2}, ring=("TOP",), effort="draft")
+    options = write_options(text="live")
+    pdf = encoded(layout, "a.pdf", options)
+    assert by_pdfium(pdf)[-1] == "TOP"
+    assert faults_in_file(pdf, "a.pdf", layout, options) == ()
+    with pikepdf.open(io.BytesIO(pdf)) as changed:
+        changed.pages[0].contents_coalesce()
+        content = changed.pages[0].Contents
+        content.write(content.read_bytes().replace(b" 3 Tr", b" 0 Tr"))
+        written = io.BytesIO()
+        changed.save(written)
+    (fault,) = faults_in_file(written.getvalue(), "a.pdf", layout, options)
+    assert "paints by TJ" in fault
 
 
 def test_a_word_without_extent_is_left_out(placed: MakeLayout) -> None:

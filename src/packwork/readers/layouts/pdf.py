@@ -44,6 +44,8 @@ _STROKES = frozenset({"S", "s", "B", "B*", "b", "b*"})
 _CLOSING = frozenset({"s", "b", "b*"})
 _PAINTING = _FILLS.keys() | _STROKES | {"n"}
 _TEXT = frozenset({"Tj", "TJ", "'", '"'})
+_UNSEEN = 3
+"""Mode of text in which nothing is painted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,6 +87,7 @@ class _State:
     matrix: FloatArray
     pen: StrokeStyle = field(default_factory=lambda: StrokeStyle(miter_limit=10.0))
     clips: tuple[Clip, ...] = ()
+    text_mode: int = 0
 
 
 @final
@@ -127,6 +130,8 @@ class _Reading:
                 state = kept.pop()
             elif name == "Do":
                 self._draw(resources["/XObject"][operands[0]], resources, state, depth)
+            elif name in _TEXT and state.text_mode == _UNSEEN:
+                continue
             elif name in {"sh", "INLINE IMAGE", *_TEXT}:
                 raise UnfitError(f"paints by {name}, which no PDF of ours does")
             else:
@@ -145,6 +150,8 @@ class _Reading:
 
     def _changed(self, state: _State, name: str, operands: Sequence[Any], found: Any) -> _State:
         pen = state.pen
+        if name == "Tr":
+            return replace(state, text_mode=int(operands[0]))
         if name == "cm":
             return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
         if name == "w":
