@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_030,
-    "lines of docstrings": 18_480,
+    "lines of code": 67_054,
+    "lines of docstrings": 18_481,
     "files": 590,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,

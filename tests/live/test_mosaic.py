@@ -21,6 +21,7 @@ from packwork.live.session import Session
 from packwork.readers.container import read_container
 from packwork.readers.target import picture_colours
 from packwork.scene.item import PhotoArt
+from packwork.scene.recolour import one_colour
 from packwork.scene.swatch import mean_lights
 
 
@@ -208,3 +209,27 @@ def test_held_items_take_on_the_colours_of_a_container_that_is_moved(
     session.finish()
     assert session.document.poses.x[number] == layout.poses.x[number]
     assert lights(session)[number] < before - 0.1
+
+
+def test_words_that_come_into_a_mosaic_keep_none_of_its_colours(ramp: str) -> None:
+    options = {"effort": "draft", "levels": "50,100", "palette": "black"}
+    session = pw.words("circle", {"hope": 5, "joy": 3, "sea": 2}, **options).edit()
+    own = {one_colour(item.art) for item in session.document.items}
+    session.picture(ramp)
+    session.words({"hope": 5, "joy": 3, "sea": 2, "moon": 4}, font_weight=300)
+    session.finish()
+    assert len(session.find("moon")) == 1
+    assert {one_colour(item.art) for item in session.document.items} != own
+    session.palette(None)
+    assert {one_colour(item.art) for item in session.document.items} == own
+
+
+def test_how_many_items_would_show_a_picture_is_told(layout: pw.Layout, tmp_path: Path) -> None:
+    session = layout.edit()
+    assert session.advice == ()
+    stripes = np.arange(240)[:, None, None] // 30 % 2 * np.full((240, 240, 3), 255)
+    Image.fromarray(stripes.astype(np.uint8)).save(tmp_path / "stripes.png")
+    session.picture(tmp_path / "stripes.png")
+    assert any("hard to recognise with 24 items; -n" in line for line in session.advice)
+    session.palette(None)
+    assert session.advice == ()

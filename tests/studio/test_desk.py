@@ -17,9 +17,10 @@ from packwork.errors import PackworkError
 from packwork.live import edits
 from packwork.live.face import exporting
 from packwork.live.face.opening import Opening, opening_of
+from packwork.live.session import Session
 from packwork.studio import wire
 from packwork.studio.files import Exporter
-from packwork.studio.view import View
+from packwork.studio.view import Scenes, View
 from packwork.studio.workspace import Workspace
 
 
@@ -380,6 +381,17 @@ def test_a_view_is_like_another_but_for_poses(opening: Opening) -> None:
     assert one.is_like(other)
     data = wire.frame_bytes(7, 1, 3, True, one.numbers)
     assert wire.HEAD.unpack(data[:16]) == (7, 1, 3, wire.MOVING)
+
+
+def test_drawings_of_long_ago_are_forgotten(opening: Opening) -> None:
+    session, scenes = Session(opening.document), Scenes()
+    for k in range(20):
+        session.do("recolour", items=tuple(session.document.ids.tolist()), colour=f"#0000{k:02x}")
+        scene = scenes.of(View.of_document(session.document))
+        assert set(scene.shapes) <= set(scenes.shapes)
+    assert len(scenes.shapes) <= 2 * len(session.document)
+    session.undo()
+    assert set(scenes.of(View.of_document(session.document)).shapes) <= set(scenes.shapes)
 
 
 def test_nothing_is_called_certified_that_the_page_does_not_show(play) -> None:

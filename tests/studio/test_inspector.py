@@ -27,6 +27,32 @@ def shown(desk: Desk, name: str) -> float:
     return float(desk.page.locator(f"[data-number={name}]").input_value())
 
 
+def test_undo_in_a_field_is_of_what_is_typed_then_of_the_document(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    chosen(desk, 0)
+    before = shown(desk, "x")
+    keys = desk.page.keyboard
+    desk.page.locator("[data-number=x]").fill("310")
+    keys.press("Enter")
+    desk.until("Math.abs(studio.collage.pose(0).x - 310) < 0.01")
+    desk.settled()
+    keys.press("End")
+    keys.type("77")
+    keys.press("Control+z")
+    assert shown(desk, "x") == 310
+    assert desk.look("studio.collage.state.can_undo")
+    keys.press("Control+z")
+    desk.until(f"Math.abs(studio.collage.pose(0).x - {before}) < 0.1")
+    desk.until(f"Number(document.activeElement.value) === {before}")
+    keys.press("Control+Shift+z")
+    desk.until("Number(document.activeElement.value) === 310")
+    keys.press("Control+z")
+    desk.until(f"Number(document.activeElement.value) === {before}")
+    desk.settled()
+
+
 def test_numbers_are_typed_each_one_step_back(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     before = desk.rested()

@@ -76,6 +76,70 @@ def test_escape_leaves_off_and_a_press_alone_draws_nothing(desk: Desk) -> None:
     assert not desk.look("studio.lasso.isDrawing")
 
 
+def test_escape_in_a_drag_chooses_what_was_chosen_before(desk: Desk) -> None:
+    page, ids = desk.page, desk.look("studio.collage.items.map((item) => item.id)")
+    (start, upper, lower), _ = wedge(np.array(desk.look(WINDOW)))
+    desk.look(f"studio.choice.set([{ids[0]}])")
+    # Another tool that was taken before is put back.
+    page.keyboard.press("k")
+    page.keyboard.press("q")
+    assert not desk.look("studio.sketch.isDrawing")
+    assert desk.look("studio.canvas.dataset.over") == "draw"
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(*upper, steps=3)
+    page.mouse.move(*lower, steps=3)
+    assert len(desk.look(CHOSEN)) > 1
+    page.keyboard.press("Escape")
+    assert desk.look(CHOSEN) == ids[:1]
+    assert desk.look("[studio.canvas.dataset.over, studio.choice.isBusy]") == ["", False]
+    page.mouse.up()
+    assert desk.look(CHOSEN) == ids[:1]
+    # So it is with a frame that is drawn.
+    left, top = desk.look("(r => [r.left, r.top])(studio.canvas.getBoundingClientRect())")
+    page.mouse.move(left + 420, top + 80)
+    page.mouse.down()
+    page.mouse.move(*start, steps=3)
+    assert desk.look("studio.stage.marquee") is not None
+    page.keyboard.press("Escape")
+    page.mouse.move(*lower, steps=3)
+    assert desk.look("studio.stage.marquee") is None
+    assert desk.look(CHOSEN) == []
+    page.mouse.up()
+
+
+def test_a_second_finger_zooms_and_the_line_begins_anew(desk: Desk) -> None:
+    (start, upper, lower), inside = wedge(np.array(desk.look(WINDOW)))
+    touch = desk.page.context.new_cdp_session(desk.page)
+
+    def fingers(kind: str, *places: np.ndarray) -> None:
+        points = [{"x": float(x), "y": float(y), "id": k} for k, (x, y) in enumerate(places)]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    desk.page.keyboard.press("q")
+    fingers("touchStart", start)
+    for corner in (upper, lower):
+        fingers("touchMove", corner)
+    desk.until("studio.choice.ids.size > 0")
+    fingers("touchStart", lower, start)
+    desk.until("studio.choice.ids.size === 0")
+    zoom = desk.look("studio.view.zoom")
+    fingers("touchMove", lower + 20, start)
+    desk.until(f"studio.view.zoom !== {zoom}")
+    fingers("touchEnd")
+    assert desk.look("[studio.lasso.isDrawing, studio.lasso.line.length]") == [True, 0]
+    desk.page.keyboard.press("0")
+    desk.until(f"studio.view.zoom === {zoom}")
+    fingers("touchStart", start)
+    for corner in (upper, lower):
+        fingers("touchMove", corner)
+    fingers("touchEnd")
+    ids = desk.look("studio.collage.items.map((item) => item.id)")
+    desk.until("!studio.lasso.isDrawing")
+    assert desk.look(CHOSEN) == sorted(ids[k] for k in inside)
+    desk.page.keyboard.press("Escape")
+
+
 def test_a_finger_draws_it_from_the_menu_of_a_long_press(desk: Desk) -> None:
     desk.resize(PHONE)
     desk.settled()

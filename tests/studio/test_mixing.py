@@ -40,6 +40,13 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
     desk.until(f"Math.abs({SHARE} - 0.6) < 1e-3")
     desk.settled()
     desk.picture("mixing-more")
+    # What is refused is not shown as if it were there.
+    desk.look("(studio.connection.send = () => undefined) && null")
+    page.keyboard.press("ArrowRight")
+    assert slider.input_value() == "65"
+    desk.look("studio.said({ type: 'line', text: 'there is no room', is_error: true })")
+    assert slider.input_value() == "60"
+    desk.look("delete studio.connection.send")
     desk.resize(PHONE)
     desk.picture("mixing-phone")
     desk.resize(WIDE)

@@ -113,18 +113,20 @@ def test_a_gradient_is_behind_all_on_the_page_and_in_files(desk: Desk) -> None:
     desk.until("studio.collage.scene.under.length === 1")
     desk.settled()
     desk.picture("gradient")
-    left, right = corners_of_export(desk)
-    assert left[0] > 240 > 20 > left[2]
-    assert right[2] > 240 > 20 > right[0]
+    for edge in ("none", "as of a print"):
+        left, right = corners_of_export(desk, edge)
+        assert left[0] > 240 > 20 > left[2]
+        assert right[2] > 240 > 20 > right[0]
     for _ in range(3):
         desk.page.locator("#bar [data-do=undo]").click()
     desk.until("studio.collage.scene.under.length === 0")
 
 
-def corners_of_export(desk: Desk) -> list[tuple[int, ...]]:
-    """Colours at the upper corners of the PNG that the dialogue makes."""
+def corners_of_export(desk: Desk, edge: str = "none") -> list[tuple[int, ...]]:
+    """Colours at the upper corners of the PNG that the dialogue makes with a free edge."""
     desk.page.locator("#export").click()
     desk.page.locator("dialog.export input[value=png]").check()
+    desk.page.locator("dialog.export [name=margin]").select_option(label=edge)
     with desk.page.expect_download() as waited:
         desk.page.locator("dialog.export button.primary").click()
     with Image.open(BytesIO(Path(waited.value.path()).read_bytes())) as picture:

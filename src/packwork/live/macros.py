@@ -20,7 +20,7 @@ from packwork.phrasing import enumerated
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.scene.colour import hex_colour
 from packwork.scene.item import Item
-from packwork.scene.recolour import one_colour, recoloured
+from packwork.scene.recolour import in_own_colours, one_colour, recoloured
 from packwork.uses.words.recipe import words_recipe
 
 if TYPE_CHECKING:
@@ -145,7 +145,7 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
     replaced = set[str]()
     for name, k in rows.items():
         if name in letters and _is_set_otherwise(document.items[k], letters[name]):
-            item, colour = letters[name], one_colour(document.items[k].art)
+            item, colour = letters[name], one_colour(_drawn(document, document.items[k]).art)
             item = item if colour is None else recoloured(item, hex_colour(colour))
             asset = named_item(session.library, item)
             replaced.add(name)
@@ -161,7 +161,8 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
         weight = unit * now[name]
         if abs(weight - document.weights[k]) > SAME * weight:
             yield made(Weigh, items=(int(document.ids[k]),), weight=weight)
-    colours = list(dict.fromkeys(c for item in document.items if (c := one_colour(item.art))))
+    drawn = (one_colour(_drawn(document, item).art) for item in document.items)
+    colours = list(dict.fromkeys(colour for colour in drawn if colour))
     new = [item for item in read.items if item.name not in rows]
     weights = [unit * now[item.name] for item in new]
     if colours:
@@ -172,6 +173,11 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
     left_out = _left_out(document, gone, set(now))
     if left_out != document.left_out:
         yield made(LeaveOut, words=left_out)
+
+
+def _drawn(document: Document, item: Item) -> Item:
+    """An item without the colours of a mosaic, which it has only where it lies."""
+    return item if document.mosaic is None else in_own_colours(item)
 
 
 def mixed(

@@ -16,7 +16,7 @@ from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout, ground_in
 from packwork.scene.recolour import in_own_colours
 from packwork.scene.target import TargetPicture
-from packwork.steps.mosaic import SQUARE, in_picture
+from packwork.steps.mosaic import LEAST, SQUARE, correlation_with, in_picture, too_fine
 
 if TYPE_CHECKING:
     from packwork.live.document import Document
@@ -82,6 +82,17 @@ def coloured(document: Document, rows: IntArray) -> Document:
     for k, item in zip(near.tolist(), shown.items, strict=True):
         items[k] = item
     return replace(document, items=tuple(items))
+
+
+def advice_on_picture(document: Document) -> tuple[str, ...]:
+    """Advice on a mosaic whose picture few items hardly show: how many would do."""
+    mosaic, container = document.mosaic, document.container
+    if mosaic is None or not mosaic.is_seen_on(container):
+        return ()
+    target = mosaic.target(container)
+    found = too_fine(target, container, len(document), "item")
+    is_poor = found is not None and correlation_with(document.layout, target) < LEAST
+    return (str(found),) if is_poor else ()
 
 
 def _around(document: Document, rows: IntArray) -> tuple[IntArray, FloatArray]:

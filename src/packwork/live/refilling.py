@@ -12,6 +12,7 @@ from packwork.live.certificate import Certificate, promise_of
 from packwork.live.commands.command import Library
 from packwork.live.document import Document
 from packwork.live.macros import word_rows
+from packwork.live.mosaic import advice_on_picture
 from packwork.live.relayout import gives_way, job_again, poured_again
 from packwork.metrics.pixel import shape_metrics
 from packwork.progress import Stop
@@ -132,6 +133,10 @@ def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled |
 
 def advice_of(document: Document) -> tuple[str, ...]:
     """Advice on a layout as it stands: what is poor and what would do, as after a run."""
+    return (*_advice_on_shape(document), *advice_on_picture(document))
+
+
+def _advice_on_shape(document: Document) -> tuple[str, ...]:
     if len(document) == 0 or not document.kind.shows_shape:
         return ()
     layout = document.layout

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from packwork import threads, uses
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, valid
@@ -195,19 +195,14 @@ def _vectors_by_text(document: Document, asked: Mapping[str, Any]) -> ItemVector
     given = {key: value for key, value in known.items() if value is not None and key != "source"}
     words = uses.words_recipe("page", known.get("source"), **given, **asked)
     found = uses.read(words, None, document.container)
-    by_word = {item.name: row for item, row in zip(found.items, _rows(found), strict=True)}
+    assert found.vectors is not None  # noqa: S101
+    vectors = found.vectors.of(found.items)
+    by_word = {item.name: row for item, row in zip(found.items, vectors, strict=True)}
     items = document.items
     nothing = np.zeros_like(next(iter(by_word.values())))
     rows = np.array([by_word.get(item.name, nothing) for item in items])
     is_known = np.array([item.name in by_word for item in items])
-    anchors = found.vectors.anchors if found.vectors is not None else ()
-    return ItemVectors.of_rows(items, rows, is_known, anchors=anchors)
-
-
-def _rows(job: Job) -> FloatArray:
-    if job.vectors is None:
-        raise AssertionError("a run by embeddings has vectors")
-    return job.vectors.of(job.items)
+    return ItemVectors.of_rows(items, rows, is_known, anchors=found.vectors.anchors)
 
 
 def canvas_of(document: Document) -> str:

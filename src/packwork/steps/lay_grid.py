@@ -16,7 +16,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
 from packwork.phrasing import number_of
-from packwork.pipeline.findings import Finding, Sentence
+from packwork.pipeline.findings import Finding
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -26,7 +26,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import patch_of
 from packwork.scene.target import TargetPicture, blurred
-from packwork.steps.mosaic import COUNTS, structure_in_squares, unrecognised
+from packwork.steps.mosaic import too_fine, unrecognised
 
 TILES = 1_500
 """Tiles where no number is asked for: at so many a face is recognised. Measured: decision 0053."""
@@ -49,10 +49,6 @@ APART = 3
 SPARE = 2
 """Times as often as it takes that a photo may repeat, where nothing is asked. Larger shows more of
 the picture and the same photos. Chosen."""
-
-SHOWN = 0.84
-"""Structural similarity of a picture and the means in its cells from which it is recognised. Larger
-asks for more tiles than it takes, smaller passes faces that nobody knows. By eye: decision 0053."""
 
 _CLEARANCE = 2 * HAIR
 _WIDTHS = np.linspace(0.8, 1.25, 91)
@@ -180,17 +176,8 @@ class LayGrid(RunStep):
 
 def hardly_shown(job: Job, target: TargetPicture, layout: Layout) -> Finding | None:
     """Finding of a picture that is finer than the tiles, or that these photos do not show."""
-    area = layout.container.outline.area
-
-    def shows(count: int) -> bool:
-        return structure_in_squares(target, float(np.sqrt(area / count))) >= SHOWN
-
-    count = len(layout.items)
-    if not count or shows(count):
-        return unrecognised(job, target, layout)
-    more = (f"-n {n}" for n in COUNTS if n > count and shows(n))
-    values = {"tiles": number_of(count, "tile"), "remedy": next(more, "a plainer picture")}
-    return Finding(Sentence.FEW_TILES, values)
+    found = too_fine(target, layout.container, len(layout.items), "tile")
+    return found or unrecognised(job, target, layout)
 
 
 def _features(colours: FloatArray) -> FloatArray:

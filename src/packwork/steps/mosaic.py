@@ -10,12 +10,14 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.filters import structural_similarity
+from packwork.phrasing import number_of
 from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.raster.coverage import coverage
 from packwork.scene.colour import css_colour, hex_colour
+from packwork.scene.container import Container
 from packwork.scene.contrast import between, channels_of, light_of, oklabs_of_light, readable
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import Layout
@@ -210,6 +212,10 @@ LEAST = 0.7
 """Correlation from which a picture is recognised. Larger blames a face of 300 icons (0.77), smaller
 passes 300 photographs of any colours (0.58) and 60 icons (0.43). By eye."""
 
+SHOWN = 0.84
+"""Structural similarity of a picture and the means in its cells from which it is recognised. Larger
+asks for more tiles than it takes, smaller passes faces that nobody knows. By eye: decision 0053."""
+
 COUNTS = (100, 200, 300, 500, 700, 1_000, 1_500, 2_000, 3_000, 5_000, 7_000, 10_000)
 """Numbers of items that are named. Chosen."""
 
@@ -233,6 +239,20 @@ def unrecognised(job: Job, target: TargetPicture, layout: Layout) -> Finding | N
     remedy = " or ".join(more) or "a plainer picture"
     percent = max(100 * found, 0)
     return Finding(Sentence.PICTURE_HIDDEN, {"percent": percent, "remedy": remedy})
+
+
+def too_fine(target: TargetPicture, container: Container, count: int, what: str) -> Finding | None:
+    """Finding of a picture that is finer than so many items show, ``what`` they are called."""
+    area = container.outline.area
+
+    def shows(count: int) -> bool:
+        return structure_in_squares(target, float(np.sqrt(area / count))) >= SHOWN
+
+    if not count or shows(count):
+        return None
+    more = (f"-n {n}" for n in COUNTS if n > count and shows(n))
+    values = {"tiles": number_of(count, what), "remedy": next(more, "a plainer picture")}
+    return Finding(Sentence.FEW_TILES, values)
 
 
 def correlation_with(layout: Layout, target: TargetPicture) -> float:

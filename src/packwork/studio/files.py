@@ -156,10 +156,12 @@ class Exporter:
             document = await asyncio.wrap_future(owner.call(lambda session: session.document))
             made = await asyncio.to_thread(recipe_zip, document, document.container.name)
             return made, "application/zip"
-        layout = await asyncio.wrap_future(owner.call(lambda session: session.layout))
+        layout, behind = await asyncio.wrap_future(
+            owner.call(lambda session: (session.layout, session.document.behind))
+        )
         if kind in FILM_FORMATS:
             return await asyncio.to_thread(film_of, layout, kind, options), FILM_FORMATS[kind]
-        data = await asyncio.to_thread(layout_bytes, layout, kind, options)
+        data = await asyncio.to_thread(layout_bytes, layout, kind, options, behind)
         return data, FORMATS[kind]
 
     async def _at_rest(self) -> None:

@@ -194,6 +194,11 @@ class Scenes:
             likeness=view.likeness,
             under=self._underlays(view),
         )
+        # The scene before may still be on its way; of what was wanted longer ago little is kept.
+        keys = {*scene.shapes, *([] if self._last is None else self._last[1].shapes)}
+        self._drawings = dict(list(self._drawings.items())[-2 * len(scene.items) :])
+        keys.update(one.key for one in self._drawings.values())
+        self.shapes = {key: self.shapes[key] for key in keys}
         self._last = (view, scene)
         return scene
 
@@ -214,12 +219,13 @@ class Scenes:
         )
 
     def _drawing(self, item: Item) -> Drawing:
-        if item not in self._drawings:
+        drawing = self._drawings.pop(item, None)
+        if drawing is None:
             drawing = drawing_of(item)
-            self._drawings[item] = drawing
             fields = {name: getattr(drawing, name) for name in Shape.model_fields}
             self.shapes[drawing.key] = Shape(**fields)
-        return self._drawings[item]
+        self._drawings[item] = drawing
+        return drawing
 
     def _underlays(self, view: View) -> tuple[Underlay, ...]:
         """Pictures under the items, drawn anew where they or the container are others."""

@@ -149,7 +149,7 @@ class Rename(Command):
         k = index_of(document, self.item, "rename")
         item = document.items[k]
         label = Label(self.name, item.label.link, item.label.title)
-        return _with_item(document, k, _changed(item, name=self.name, label=label))
+        return _with_item(document, k, replace(item, name=self.name, label=label))
 
 
 class Recolour(Command):
@@ -250,8 +250,3 @@ def _ranged(document: Document, rows: IntArray) -> Document:
 def _with_item(document: Document, k: int, item: Item) -> Document:
     items: Sequence[Item] = document.items
     return replace(document, items=(*items[:k], item, *items[k + 1 :]))
-
-
-def _changed(item: Item, **values: object) -> Item:
-    """A copy of an item with some fields replaced; its geometry is the same object."""
-    return replace(item, **values)  # type: ignore[arg-type]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Mapping
+from dataclasses import replace
 from io import BytesIO
 from typing import Any
 
@@ -15,9 +16,11 @@ from packwork.live.file.disk import ENDING
 from packwork.live.file.recipe import write_recipe
 from packwork.live.file.session_file import session_bytes
 from packwork.live.file.things import Things
+from packwork.live.ground import covering, sheet_box
 from packwork.live.history import SessionState
 from packwork.live.session import Session
 from packwork.recipe.verbs import film_options
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout, framed
 from packwork.temporary import TemporaryFolder
 from packwork.units import parse_share
@@ -63,7 +66,9 @@ LINES = (
 """How a recipe is run."""
 
 
-def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
+def layout_bytes(
+    layout: Layout, kind: str, options: Mapping[str, Any], behind: Item | None = None
+) -> bytes:
     """A layout in a format.
 
     Parameters
@@ -73,12 +78,17 @@ def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes
     options
         Of drawings, as on the command line, and ``margin``: a free edge all round, as a share of
         the canvas' longer side.
+    behind
+        Picture or gradient that covers the canvas, with its free edge.
     """
     if kind not in FORMATS:
         raise WriteError(kind[:20], f"is no format; use one of {', '.join(FORMATS)}")
     drawing, margin = _drawing(options), _margin(options)
     if margin:
         layout = framed(layout, (margin * layout.container.side,) * 4)
+    if margin and behind is not None:
+        cover = covering(behind, sheet_box(layout.container))
+        layout = replace(layout, container=replace(layout.container, backdrop=cover))
     return encoded(layout, f"layout.{kind}", drawing)
 
 

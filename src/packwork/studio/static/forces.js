@@ -53,8 +53,8 @@ export class Forces {
 
   /** Have the next drag draw one. */
   begin() {
+    this.studio.gestures.draw();
     this.isDrawing = true;
-    this.studio.canvas.focus();
   }
 
   /** @param {Point} to @param {Point} from in the window */
@@ -81,10 +81,15 @@ export class Forces {
     this.set([...this.texts, text]);
   }
 
+  /** Draw it anew. */
+  clear() {
+    this.arrow = null;
+  }
+
   cancel() {
     const was = this.isDrawing;
     this.isDrawing = false;
-    this.arrow = null;
+    this.clear();
     return was;
   }
 

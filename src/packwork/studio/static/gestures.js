@@ -252,11 +252,19 @@ export class Gestures {
     this.hears.changed();
   }
 
+  /** Have the next drag draw something, and nothing else. */
+  draw() {
+    this.cancel();
+    this.stage.canvas.focus();
+    this.stage.canvas.dataset.over = "draw";
+  }
+
   /** Leave off what the pointer does; whether it did anything. */
   cancel() {
-    if (this.drawer?.cancel()) {
+    if (this.drawer?.cancel() || this.leaveMarquee()) {
       this.choice.isBusy = false;
       this.doing = null;
+      this.stage.canvas.dataset.over = "";
       this.hears.changed();
       return true;
     }
@@ -276,8 +284,19 @@ export class Gestures {
   pinch() {
     clearTimeout(this.timer);
     if (this.hand.isFull) this.end();
-    this.stage.marquee = null;
+    this.drawer?.clear();
+    this.leaveMarquee();
+    this.choice.isBusy = false;
     this.doing = null;
+  }
+
+  /** Leave off a frame that is drawn; whether one was. */
+  leaveMarquee() {
+    const { doing, stage } = this;
+    const was = stage.marquee !== null;
+    if (was) this.choice.set(doing?.base ?? []);
+    stage.marquee = null;
+    return was;
   }
 
   /** @param {number} id @param {Point} before */

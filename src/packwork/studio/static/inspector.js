@@ -4,6 +4,7 @@
 import { LINES } from "./actions.js";
 import { h } from "./dom.js";
 import { together } from "./hand.js";
+import { isTypedIn } from "./keys.js";
 import { kindOf } from "./kinds.js";
 
 /** @typedef {import("./wire.js").Thing} Thing */
@@ -79,7 +80,8 @@ export class Inspector {
     for (const field of [this.field("width"), this.field("height")]) field.disabled = !sizes;
     /** @type {HTMLElement} */ (this.weight.parentElement).hidden = !sizes;
     for (const [field, value] of /** @type {const} */ ([[this.name, same(items.map((one) => one.name)) ?? ""], [this.weight, shown(first.weight)], [this.colour, colour]])) {
-      if (document.activeElement !== field) field.value = value;
+      const isInUse = field === this.weight ? isTypedIn(field) : document.activeElement === field;
+      if (!isInUse) field.value = value;
     }
     this.follow();
   }

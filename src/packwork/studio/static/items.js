@@ -4,6 +4,7 @@
 import { button, h, icon } from "./dom.js";
 import { Inspector } from "./inspector.js";
 import { kindOf } from "./kinds.js";
+import { isTypedIn } from "./keys.js";
 import { thumbOf } from "./thumbs.js";
 
 /** @typedef {import("./studio.js").Studio} Studio */
@@ -92,7 +93,7 @@ export class ItemList {
     const key = JSON.stringify([[...this.unfolded], kindOf(collage), groups.map((group) => [group[0].shape, group[0].name, group.map((one) => [one.id, one.held])])]);
     if (key !== this.listed) this.rewrite(groups);
     this.listed = key;
-    if (document.activeElement !== this.counter) this.counter.value = String(collage.items.length);
+    if (!isTypedIn(this.counter)) this.counter.value = String(collage.items.length);
     for (const row of this.list.querySelectorAll("button.item")) row.setAttribute("aria-pressed", String(idsOf(row).some((id) => choice.has(id))));
     this.showChosen();
   }

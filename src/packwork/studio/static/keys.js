@@ -4,6 +4,8 @@
 /** @typedef {import("./actions.js").Action} Action */
 
 const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
+/** Keys of undo and redo. */
+const LEAPS = new Set(["Mod+Z", "Mod+Shift+Z", "Mod+Y"]);
 /** @type {Record<string, string>} */
 const SHOWN = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", Escape: "Esc", Delete: "Del" };
 
@@ -37,9 +39,10 @@ export function shownKey(key) {
  * @param {{pans: (isHeld: boolean) => void}} hears
  */
 export function listenToKeys(actions, hears) {
+  listenToTyping();
   const known = new Map(actions.flatMap((action) => action.keys.map((key) => [key, action])));
   addEventListener("keydown", (event) => {
-    if (isTyping(event) || document.querySelector("dialog[open]")) return;
+    if ((isTyping(event) && !leaps(event)) || document.querySelector("dialog[open]")) return;
     if (event.key === " " && isFree(event)) {
       event.preventDefault();
       return hears.pans(true);
@@ -54,6 +57,38 @@ export function listenToKeys(actions, hears) {
     if (event.key === " ") hears.pans(false);
   });
   addEventListener("blur", () => hears.pans(false));
+}
+
+/** What number fields held before that is being typed in them. @type {WeakMap<EventTarget, string>} */
+const before = new WeakMap();
+
+/** Note what is being typed in number fields, until it is asked for or left. */
+function listenToTyping() {
+  const isNumber = (/** @type {EventTarget | null} */ one) => one instanceof HTMLInputElement && one.type === "number";
+  addEventListener("beforeinput", ({ target }) => {
+    if (target && isNumber(target) && !before.has(target)) before.set(target, /** @type {HTMLInputElement} */ (target).value);
+  }, true);
+  for (const kind of ["change", "focusout"]) addEventListener(kind, ({ target }) => target && before.delete(target), true);
+}
+
+/** Whether something is being typed in a field, and not asked for yet. @param {HTMLInputElement} field */
+export function isTypedIn(field) {
+  return before.has(field);
+}
+
+/**
+ * Whether a key in a number field is for the document: it undoes what is typed there first.
+ * @param {KeyboardEvent} event
+ */
+function leaps(event) {
+  const field = event.target;
+  if (!(field instanceof HTMLInputElement) || field.type !== "number" || !LEAPS.has(keyOf(event))) return false;
+  const typed = before.get(field);
+  if (typed === undefined) return true;
+  event.preventDefault();
+  field.value = typed;
+  before.delete(field);
+  return false;
 }
 
 /** Close the menu, if it is open: a key does what it says there, and elsewhere what it always does. */

@@ -15,13 +15,16 @@ export class Lasso {
     this.line = [];
     /** What is chosen beside what the line holds. @type {number[]} */
     this.base = [];
+    /** What was chosen before. @type {number[]} */
+    this.before = [];
   }
 
   /** Have the next drag draw the line. @param {boolean} [adds] to what is chosen */
   begin(adds = false) {
+    this.studio.gestures.draw();
     this.isDrawing = true;
-    this.base = adds ? [...this.studio.choice.ids] : [];
-    this.studio.canvas.focus();
+    this.before = [...this.studio.choice.ids];
+    this.base = adds ? this.before : [];
     say("Draw round the items; Escape leaves off");
   }
 
@@ -41,12 +44,19 @@ export class Lasso {
 
   /** Let go of the line. */
   drop() {
-    this.cancel();
+    [this.isDrawing, this.line] = [false, []];
+  }
+
+  /** Draw it anew: what was chosen before is chosen again. */
+  clear() {
+    if (this.line.length) this.studio.choice.set(this.before);
+    this.line = [];
   }
 
   cancel() {
     const was = this.isDrawing;
-    [this.isDrawing, this.line] = [false, []];
+    this.clear();
+    this.drop();
     return was;
   }
 

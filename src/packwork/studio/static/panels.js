@@ -56,6 +56,12 @@ export class Panels {
     this.studio.resized();
   }
 
+  /** What was asked for last is not to be had: sliders show what there is. */
+  refused() {
+    for (const slider of [this.words.mixing.slider, this.look.mosaic.likeness]) slider.refused();
+    this.refresh();
+  }
+
   async fill() {
     if (!this.current) return;
     const label = PANELS.find(([id]) => id === this.current)?.[2] ?? "";

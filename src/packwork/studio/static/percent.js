@@ -28,6 +28,11 @@ export class Percent {
     this.element = h("label", { for: id }, h("span", { class: "asked" }, h("strong", {}, label), this.shown), this.field);
   }
 
+  /** What was asked for is not to be had. */
+  refused() {
+    this.wanted = null;
+  }
+
   /** Show what there is, unless something else was asked for just now. @param {number} share */
   show(share) {
     const percent = Math.round(100 * share);

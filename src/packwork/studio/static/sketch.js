@@ -20,8 +20,8 @@ export class Sketch {
 
   /** Have the next drag draw an outline. @param {boolean} isHole */
   begin(isHole) {
+    this.studio.gestures.draw();
     [this.isDrawing, this.isHole] = [true, isHole];
-    this.studio.canvas.focus();
     this.studio.redraw();
     say(isHole ? "Draw round the hole; Escape leaves off" : "Draw the container's outline; Escape leaves off");
   }
@@ -44,10 +44,15 @@ export class Sketch {
     else connection.send({ type: "outline", line });
   }
 
+  /** Draw it anew. */
+  clear() {
+    this.line = [];
+  }
+
   cancel() {
     const was = this.isDrawing;
     this.isDrawing = false;
-    this.line = [];
+    this.clear();
     return was;
   }
 

@@ -132,7 +132,10 @@ export class Studio {
     else if (message.type === "scene") this.changed(message);
     else if (message.type === "state") this.stated(message);
     else if (message.type === "variant") this.variants.add(message);
-    else tell(message.text, { isError: message.is_error });
+    else {
+      if (message.is_error) this.panels.refused();
+      tell(message.text, { isError: message.is_error });
+    }
   }
 
   /** @param {import("./wire.js").Scene} scene */
