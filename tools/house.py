@@ -61,9 +61,9 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_054,
-    "lines of docstrings": 18_481,
-    "files": 590,
+    "lines of code": 67_350,
+    "lines of docstrings": 18_540,
+    "files": 592,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,

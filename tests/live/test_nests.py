@@ -25,7 +25,7 @@ from packwork.live.file.values import text_of
 from packwork.live.nested_again import nested_again
 from packwork.live.session import Session
 from packwork.readers.items import read_items
-from packwork.scene.item import LineArt
+from packwork.scene.line_art import LineArt
 from packwork.separation.strip import WorkBound
 
 TILE = [(0, 0), (40, 0), (40, 20), (0, 20)]

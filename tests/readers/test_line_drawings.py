@@ -22,7 +22,8 @@ from packwork.readers.engraving import Engraving
 from packwork.readers.items import read_items
 from packwork.readers.line_drawings import CURVES_PX, arc_line
 from packwork.readers.svg_syntax.path_data import parse_path
-from packwork.scene.item import Item, LineArt
+from packwork.scene.item import Item
+from packwork.scene.line_art import LineArt
 
 MM = 96 / 25.4
 """Px of a millimetre."""

@@ -25,8 +25,8 @@ from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import symmetric_difference, valid
 from packwork.geometry.polygon import polygon_parts, signed_area
 from packwork.readers.dxf.entities import CURVES, CadDrawing, CadLine
-from packwork.readers.dxf.item import ENGRAVED as ENGRAVED_LAYER
 from packwork.readers.dxf.item import (
+    ART_DIGITS,
     cad_part,
     cad_parts,
     engraved_in,
@@ -34,8 +34,9 @@ from packwork.readers.dxf.item import (
     line_art,
     tell_left_out,
 )
+from packwork.readers.dxf.item import ENGRAVED as ENGRAVED_LAYER
 from packwork.readers.dxf.rings import Ring, RingPart, rings_of
-from packwork.readers.engraving import Engraving
+from packwork.readers.engraving import Engraving, rgb_of
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES, parse_xml, serialised, unpacked
 from packwork.readers.pages import Read
@@ -47,7 +48,9 @@ from packwork.readers.svg.ink import PaintedInk
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg_syntax.painted import Painted, drawing_box
 from packwork.readers.svg_syntax.path_data import SubPath
-from packwork.scene.item import Item, LineArt, VectorArt
+from packwork.scene.item import Item, VectorArt
+from packwork.scene.line_art import LineArt
+from packwork.scene.notation import arc_path_data, cubic_path_data, decimals
 from packwork.units import convert
 
 CURVES_PX = convert(5e-4, "mm", "px")
@@ -175,6 +178,16 @@ def _paint_of(shape: Painted) -> str:
     return painting.color if paint.lower() == "currentcolor" else paint
 
 
+def _paints(shape: Painted) -> Iterator[object]:
+    painting = shape.painting
+    for is_there, paint in (
+        (painting.has_fill, painting.fill), (painting.has_stroke, painting.stroke)
+    ):  # fmt: skip
+        if is_there:
+            text = painting.color if paint.lower() == "currentcolor" else paint
+            yield rgb_of(text) or text
+
+
 def _extent(drawing: PaintedDrawing) -> float:
     """Longer side of a drawing's box in px."""
     left, top, right, bottom = drawing_box(drawing.shapes) or (0.0, 0.0, 0.0, 0.0)
@@ -271,13 +284,13 @@ def _with_true_curves(
 ) -> Item:
     """Item whose edges are the paths that lie on them, with straight sides where none does."""
     extent, drawn = _extent(drawing), clean_union(drawing.ink.body)
-    known = [
-        ring for one in drawing.shapes if one.painting.has_fill for ring in _rings(one, extent)
-    ]
+    known = dict(
+        pair for one in drawing.shapes if one.painting.has_fill for pair in _rings(one, extent)
+    )
     slack, left_out = 3.0 * FLATTENING * extent, Counter[str]()
     rings = [
-        RingPart(_ring_at(polygon.exterior, known, slack),
-                 tuple(_ring_at(ring, known, slack) for ring in polygon.interiors))
+        RingPart(_ring_at(polygon.exterior, [*known], slack),
+                 tuple(_ring_at(ring, [*known], slack) for ring in polygon.interiors))
         for polygon in polygon_parts(drawn)
     ]  # fmt: skip
     parts = [
@@ -293,20 +306,30 @@ def _with_true_curves(
         tuple(line.mapped(back, CURVES_PX) for part in parts for line in getattr(part, name))
         for name in ("cut", "engraved")
     )
-    lines = LineArt(art.markup, affine.compose(move, to_px), cut=cut)
+    digits = decimals(ART_DIGITS * extent * float(np.linalg.norm(back[:, :2], 2)))
+    path = "".join(
+        cubic_path_data(known[ring].placed(back).segments, digits) if ring in known
+        else arc_path_data(ring.line.mapped(affine.compose(back, _UP), 0.0), digits)
+        for part in rings for ring in (part.outer, *part.holes)
+    )  # fmt: skip
+    colours = {colour for one in drawing.shapes for colour in _paints(one)}
+    lines = LineArt(art.markup, affine.compose(move, to_px), cut=cut, path=path,
+                    is_painted=len(colours) > 1 and not engraved)  # fmt: skip
     if engraved:
         region = shapely.transform(drawn, lambda points: affine.apply(back, points))
         pixel = float(np.linalg.norm(back[:, :2], 2))
         shown = line_art(cut, engraved, pixel * extent, region, pixel)
-        lines = replace(shown, matrix=lines.matrix)
+        lines = replace(shown, matrix=lines.matrix, path=path)
     return Item(item.name, item.source, outline, ink, lines)
 
 
-def _rings(shape: Painted, extent: float) -> Iterator[Ring]:
-    """Rings of a filled shape that cross neither themselves nor one another, px, y up."""
-    for line in _arc_lines(shape, extent):
+def _rings(shape: Painted, extent: float) -> Iterator[tuple[Ring, SubPath]]:
+    """Rings of a filled shape that do not cross themselves, px, y up, and their paths, y down."""
+    pieces = (piece for piece in shape.pieces if len(piece.segments))
+    for line, piece in zip(_arc_lines(shape, extent), pieces, strict=True):
         with contextlib.suppress(UnfitError):
-            yield from rings_of([CadLine(line.mapped(_UP, 0.0), "", str(shape.element.tag))])[0]
+            found = rings_of([CadLine(line.mapped(_UP, 0.0), "", str(shape.element.tag))])[0]
+            yield from ((ring, piece.placed(shape.matrix)) for ring in found)
 
 
 def _ring_at(edge: LinearRing, known: Sequence[Ring], slack: float) -> Ring:

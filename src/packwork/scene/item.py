@@ -13,10 +13,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
-from packwork.geometry.arcs import ArcLine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline, OutlineLike
-from packwork.scene.engraved import EngravedLine
 from packwork.scene.pose import Poses
 
 
@@ -176,18 +174,6 @@ class VectorArt:
     markup: str
     matrix: FloatArray
     is_traced: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class LineArt(VectorArt):
-    """A drawing of lines for a machine, whose arcs are kept beside the markup that shows them.
-
-    ``cut``: closed lines round the item and its holes; ``engraved``: lines that go with it. Both in
-    the units of the markup.
-    """
-
-    cut: tuple[ArcLine, ...] = ()
-    engraved: tuple[EngravedLine, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

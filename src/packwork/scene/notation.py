@@ -6,6 +6,8 @@ import math
 import re
 from collections.abc import Mapping
 
+import numpy as np
+
 from packwork.arrays import FloatArray
 from packwork.geometry.arcs import STRAIGHT, ArcLine, divided, radius_of
 from packwork.geometry.outline import Outline
@@ -29,6 +31,16 @@ def decimals(step: float) -> int:
     (2, 2, 0)
     """
     return min(max(math.ceil(-math.log10(step) - 1e-9), 0), MAX_DECIMALS)
+
+
+def finer_decimals(matrix: FloatArray) -> int:
+    """Digits more that are wanted in units of which a map (2 x 3) makes larger ones.
+
+    >>> import numpy as np
+    >>> finer_decimals(20.0 * np.eye(2, 3)), finer_decimals(0.5 * np.eye(2, 3))
+    (2, 0)
+    """
+    return max(0, math.ceil(math.log10(np.linalg.norm(matrix[:, :2], 2))))
 
 
 def number(value: float, digits: int) -> str:
@@ -98,6 +110,23 @@ def arc_path_data(line: ArcLine, digits: int) -> str:
             for point in divided(start, end, bulge, SHORT_ARC)
         ]
     return "".join(made) + ("Z" if line.is_closed else "")
+
+
+def cubic_path_data(cubics: FloatArray, digits: int) -> str:
+    """SVG path of closed cubics end to end, ``(k, 4, 2)``.
+
+    >>> import numpy as np
+    >>> cubic_path_data(np.array([[[0, 0], [0, 2], [1, 3], [3, 3]]]), 2)
+    'M0 0C0 2 1 3 3 3Z'
+    """
+    # The handles of a straight line lie at its thirds but for rounding.
+    bends = np.abs(np.diff(cubics, n=2, axis=1)).max(axis=(1, 2))
+    drawn = "".join(
+        f"C{points_text(one[1:], digits)}" if bend > 10.0**-digits
+        else f"L{points_text(one[3:], digits)}"
+        for one, bend in zip(cubics, bends.tolist(), strict=True)
+    )  # fmt: skip
+    return f"M{points_text(cubics[0, :1], digits)}{drawn}Z"
 
 
 def points_text(points: FloatArray, digits: int) -> str:

@@ -23,7 +23,8 @@ from packwork.readers.items import read_items
 from packwork.readers.layouts.read import SESSION, holds_layout, read_written
 from packwork.readers.svg.container import stated_unit
 from packwork.recipe.rules import Rotation
-from packwork.scene.item import Item, VectorArt
+from packwork.scene.item import Item
+from packwork.scene.line_art import LineArt
 from packwork.units import Unit, canvas_size, convert, parse_length
 from packwork.uses.nested import Sheet, SheetPart
 
@@ -76,8 +77,8 @@ SMOOTH = 0.3
 
 def _has_lines_to_lose(item: Item) -> bool:
     """Whether a part has curves, or lines on it, that its outline does not hold."""
-    if isinstance(item.art, VectorArt) and "stroke=" in item.art.markup:
-        return True
+    if isinstance(item.art, LineArt):
+        return False
     for ring in item.outline.rings:
         edges = np.diff(ring, axis=0, append=ring[:1])
         turns = np.abs(np.angle(np.exp(1j * np.diff(np.arctan2(*edges.T[::-1])))))

@@ -24,14 +24,14 @@ from packwork.geometry.arcs import ArcLine
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import oriented_rings, polygon_parts
 from packwork.scene.colour import css_colour
-from packwork.scene.engraved import CUT, ENGRAVE, EngravedLine
-from packwork.scene.item import Item, LineArt
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.line_art import CUT, ENGRAVE, EngravedLine, LineArt
 from packwork.scene.notation import decimals, sound_text
 from packwork.units import convert
 from packwork.writers.cutting import CutOptions, cut_rings
 from packwork.writers.geojson import PRECISION
-from packwork.writers.promise import promised, stated_weights
+from packwork.writers.promise import is_nest, promised, stated_weights
 from packwork.writers.svg import NAME_LENGTH
 
 if TYPE_CHECKING:
@@ -176,7 +176,8 @@ def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
     yield _Lot(layer, _straight(layout.container.outline.rings), _promise(layout))
     yield _Lot("container", _straight(walls or (), is_closed=False))
     weights = stated_weights(layout)
-    drawn = {item: _lines_of(item) for item in layout.items}
+    lines_of = _lines_to_cut if is_nest(layout) else _lines_of
+    drawn = {item: lines_of(item) for item in layout.items}
     for k, item in enumerate(layout.items):
         name = " ".join(sound_text(item.label.name or item.name).split())[:NAME_LENGTH]
         own = drawn[item]
@@ -207,6 +208,13 @@ class _ItemLines:
     cut: Sequence[ArcLine]
     engraved: Sequence[EngravedLine]
     matrix: FloatArray
+
+
+def _lines_to_cut(item: Item) -> _ItemLines:
+    """Lines of a part of a nest, whose holes are cut though nothing lies in them."""
+    if isinstance(item.art, LineArt):
+        return _lines_of(item)
+    return _ItemLines(_straight(item.ink.rings), (), affine.identity())
 
 
 def _lines_of(item: Item) -> _ItemLines:

@@ -60,3 +60,8 @@ def stated_limits(layout: Layout) -> dict[str, str]:
         for key, value in found.items()
         if value not in _USUAL.get(key, ())
     }
+
+
+def is_nest(layout: Layout) -> bool:
+    """Whether a layout is of parts for a machine, as its manifest says."""
+    return isinstance(layout.manifest.get("nest"), Mapping)

@@ -32,6 +32,7 @@ from packwork.writers.pdf import drawing_text, pdf_bytes
 from packwork.writers.pictures import DPI, SPARE, with_fine_photos, with_photos_for_paper
 from packwork.writers.prepress.options import PrintOptions, spot_inks
 from packwork.writers.prepress.sheet import bleed_pt
+from packwork.writers.promise import is_nest
 from packwork.writers.svg import SvgOptions, svg_text
 
 MOST_DPI = 2_400
@@ -62,11 +63,16 @@ class WriteOptions:
             raise RecipeError("dpi", f"use 1 to {MOST_DPI}, not {self.dpi:g}")
 
     def on_ground(self, layout: Layout) -> WriteOptions:
-        """The same on the ground that a layout is to be seen on, if no background was asked for."""
+        """The same on the ground that a layout is to be seen on, if no background was asked for.
+
+        A nest is drawn as lines for a machine, unless other lines are to be cut.
+        """
+        is_cut = self.svg.cut is not None and self.svg.cut.is_asked
+        own = replace(self, svg=replace(self.svg, lines=is_nest(layout) and not is_cut))
         if not layout.ground or not self.takes_ground:
-            return self
-        svg = replace(self.svg, background=layout.ground)
-        return replace(self, svg=svg, png=replace(self.png, background=layout.ground))
+            return own
+        svg = replace(own.svg, background=layout.ground)
+        return replace(own, svg=svg, png=replace(self.png, background=layout.ground))
 
     def side_px(self, layout: Layout) -> int:
         """Longer side of a PNG or JPEG of a layout."""

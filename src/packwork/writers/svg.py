@@ -21,7 +21,7 @@ from packwork.geometry import affine
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import Item, VectorArt
-from packwork.scene.layout import Layout, Note
+from packwork.scene.layout import Layout
 from packwork.scene.notation import (
     attributes,
     decimals,
@@ -37,8 +37,9 @@ from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import PictureFrame
 from packwork.writers.options import TextChoice
 from packwork.writers.promise import promised, stated_limits, stated_weights
+from packwork.writers.svg_lines import NAMESPACE, line_layers
 from packwork.writers.svg_live_text import LiveWords
-from packwork.writers.svg_symbols import element, item_ids, labelled, paint, shape_key
+from packwork.writers.svg_symbols import element, item_ids, labelled, note_groups, paint, shape_key
 
 PRECISION = 1e-7
 """Every point drawn lies within this share of the canvas's longer side of its place in
@@ -72,7 +73,8 @@ class SvgOptions:
     the container's line, whose path is in the file either way. ``flatten`` writes every copy in
     full, for tools that do not know ``use``. ``text`` is ``live`` for words that can be selected
     and found, in fonts that the file carries, ``outlines`` for curves. Lines for a cutter (``cut``)
-    lie on top of all. Tiles are drawn ``tiles`` times each way.
+    lie on top of all. Tiles are drawn ``tiles`` times each way. With ``lines`` items are
+    lines for a machine.
     """
 
     background: str | None = None
@@ -81,6 +83,7 @@ class SvgOptions:
     text: TextChoice = "outlines"
     cut: CutOptions | None = None
     tiles: int = 1
+    lines: bool = False
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -151,20 +154,18 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
     before, after = _repeated(layout.container, sheet, options.tiles)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        _root(sheet.times(options.tiles)),
+        _root(sheet.times(options.tiles), NAMESPACE if options.lines else ""),
         f"<title>{xml_text(layout.container.name[:NAME_LENGTH])}</title>",
         *live.style(),
-        *([] if options.flatten else _definitions(shapes.values(), live)),
+        *([] if options.flatten or options.lines else _definitions(shapes.values(), live)),
         *before,
         *_background(options.background),
         *_backdrop(layout.container.backdrop),
         *_halos(layout, digits),
         *_container(layout, options.show_container, digits),
-        f'<g id="items"{attributes(_promise_attributes(layout))}>',
-        *_copies(layout, shapes, digits, live, flatten=options.flatten),
-        "</g>",
+        *(_lines if options.lines else _items)(layout, shapes, digits, live, options),
         *_images(layout, digits, flatten=options.flatten),
-        *_notes(layout),
+        *note_groups(layout),
         *([] if options.cut is None else cut_group(layout, options.cut, digits)),
         *after,
         "</svg>",
@@ -214,12 +215,12 @@ def _shape(name: str, item: Item, scale: float, side: float) -> _Shape:
     )
 
 
-def _root(sheet: SheetSize) -> str:
+def _root(sheet: SheetSize, namespace: str) -> str:
     width, height, view_width, view_height = (f"{v:.12g}" for v in (*sheet.size, *sheet.view))
     unit = "" if sheet.unit == "px" else sheet.unit
     fit = ' preserveAspectRatio="none"' if sheet.is_stretched else ""
     return (
-        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"{namespace}'
         f' width="{width}{unit}" height="{height}{unit}"'
         f' viewBox="0 0 {view_width} {view_height}"{fit}>'
     )
@@ -299,24 +300,6 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
     return [f"<g{head}>", f'<path stroke="none" d="{outline}"/>', *lines, "</g>"]
 
 
-def _notes(layout: Layout) -> list[str]:
-    """Labels on items, then letters and keys beside them."""
-    labels = [_note(note) for note in layout.notes if note.is_on_item]
-    beside = [_note(note) for note in layout.notes if not note.is_on_item]
-    return [
-        *(['<g id="labels" pointer-events="none">', *labels, "</g>"] if labels else []),
-        *(['<g id="legend">', *beside, "</g>"] if beside else []),
-    ]
-
-
-def _note(note: Note) -> str:
-    place = {"transform": matrix_text(note.matrix), "fill": note.fill}
-    path = f'<path{attributes(place)} fill-rule="evenodd" d="{note.path}"/>'
-    # What lies on an item is said by that one's own title.
-    title = f"<title>{xml_text(note.says)}</title>" if note.says and not note.is_on_item else ""
-    return f"<g>{title}{path}</g>" if title else path
-
-
 def _promise_attributes(layout: Layout) -> dict[str, str]:
     """Promises about the items that ``packwork measure`` cannot see."""
     gap, shares = promised(layout)
@@ -329,10 +312,22 @@ def _promise_attributes(layout: Layout) -> dict[str, str]:
     }
 
 
-def _copies(
-    layout: Layout, shapes: dict[Hashable, _Shape], digits: int, live: LiveWords, *, flatten: bool
+def _lines(
+    layout: Layout, shapes: dict[Hashable, _Shape], digits: int, _: LiveWords, __: SvgOptions
 ) -> list[str]:
-    copies = []
+    scales, places, names = layout.poses.axis_scales.tolist(), [], []
+    for k, item in enumerate(layout.items):
+        shape = shapes[shape_key(item)]
+        places.append((_place(layout, k, scales[k], shape, digits), shape.path_digits))
+        names.append((item.label.name or item.name)[:NAME_LENGTH])
+    return line_layers(layout, places, names, _promise_attributes(layout))
+
+
+def _items(
+    layout: Layout, shapes: dict[Hashable, _Shape], digits: int, live: LiveWords,
+    options: SvgOptions,
+) -> list[str]:  # fmt: skip
+    copies = [f'<g id="items"{attributes(_promise_attributes(layout))}>']
     scales, ids = layout.poses.axis_scales.tolist(), item_ids(layout.items)
     weights = stated_weights(layout)
     for k, item in enumerate(layout.items):
@@ -342,12 +337,12 @@ def _copies(
         place = _place(layout, k, scales[k], shape, digits)
         if live.has(item):
             drawn = live.element(item, own, place)
-        elif flatten:
+        elif options.flatten:
             drawn = _whole_copy(item, own, place, shape, k + 1)
         else:
             drawn = _use(own, place, shape)
         copies.append(labelled(drawn, item.label))
-    return copies
+    return [*copies, "</g>"]
 
 
 def _images(layout: Layout, digits: int, *, flatten: bool) -> list[str]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import base64
-import math
 import re
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 
-import numpy as np
 import shapely
 
 from packwork.geometry import affine
@@ -16,7 +14,15 @@ from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import polygon_parts, silhouette, silhouette_area
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, Label, PhotoArt, PictureArt, VectorArt
-from packwork.scene.notation import attributes, matrix_text, path_data, sound_text, xml_text
+from packwork.scene.layout import Layout, Note
+from packwork.scene.notation import (
+    attributes,
+    finer_decimals,
+    matrix_text,
+    path_data,
+    sound_text,
+    xml_text,
+)
 
 LEAST_BAY = 1e-6
 """Share of an item's area below which a bay is rounding. Larger leaves out what can be measured,
@@ -77,13 +83,12 @@ def _unseen_outline(
 ) -> dict[str, str]:
     """Part of an item's outline that its drawing does not show, in the units of its markup."""
     matrix = affine.identity() if isinstance(art, FlatArt) else art.matrix
-    finer = max(0, math.ceil(math.log10(np.linalg.norm(matrix[:, :2], 2))))
-    back = affine.inverse(matrix)
+    digits, back = digits + finer_decimals(matrix), affine.inverse(matrix)
     if not isinstance(art, FlatArt) and art.is_traced:
         # What is traced again comes out a little otherwise: the file holds what was placed.
-        return {"data-outline": path_data(item.outline.mapped(back), digits + finer)}
+        return {"data-outline": path_data(item.outline.mapped(back), digits)}
     bays = _filled_bays(item)
-    return {} if bays is None else {"data-bays": path_data(bays.mapped(back), digits + finer)}
+    return {} if bays is None else {"data-bays": path_data(bays.mapped(back), digits)}
 
 
 def _filled_bays(item: Item) -> Outline | None:
@@ -115,7 +120,7 @@ ID_LENGTH = 60
 
 _NOT_IN_IDS = re.compile(r"[^\w]+")
 _OURS = re.compile(
-    r"(item|shape)-\d+(-\d+)?|items|container|background|labels|legend|leaving(-\d+)?|p[0-9a-f]{10}-.*"
+    r"(item|shape)-\d+(-\d+)?|items|container|background|artwork|engrave-\d+|labels|legend|leaving(-\d+)?|p[0-9a-f]{10}-.*"
 )
 """Ids that a document of ours may hold anyway, those of drawings among them."""
 
@@ -164,3 +169,21 @@ def _free(base: str, taken: Iterable[str]) -> str:
         count += 1
         choice = f"{base}-{count}"
     return choice
+
+
+def note_groups(layout: Layout) -> list[str]:
+    """Labels on items, then letters and keys beside them."""
+    labels = [_note(note) for note in layout.notes if note.is_on_item]
+    beside = [_note(note) for note in layout.notes if not note.is_on_item]
+    return [
+        *(['<g id="labels" pointer-events="none">', *labels, "</g>"] if labels else []),
+        *(['<g id="legend">', *beside, "</g>"] if beside else []),
+    ]
+
+
+def _note(note: Note) -> str:
+    place = {"transform": matrix_text(note.matrix), "fill": note.fill}
+    path = f'<path{attributes(place)} fill-rule="evenodd" d="{note.path}"/>'
+    # What lies on an item is said by that one's own title.
+    title = f"<title>{xml_text(note.says)}</title>" if note.says and not note.is_on_item else ""
+    return f"<g>{title}{path}</g>" if title else path

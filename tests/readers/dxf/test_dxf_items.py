@@ -27,7 +27,7 @@ from packwork.readers.dxf.item import CadPart, cad_parts, read_dxf
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import read_items
 from packwork.readers.reading import UnfitError
-from packwork.scene.item import LineArt
+from packwork.scene.line_art import LineArt
 
 MM = 96 / 25.4
 """Px of a millimetre."""

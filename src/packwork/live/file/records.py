@@ -125,6 +125,7 @@ class LineRecord(VectorRecord):
     kind: Literal["lines"] = "lines"  # type: ignore[assignment]
     cut: Annotated[tuple[ArcLineRecord, ...], Field(max_length=MOST_LINES)]
     engraved: Annotated[tuple[EngravedRecord, ...], Field(max_length=MOST_LINES)]
+    is_painted: bool = False
 
 
 class PictureRecord(Options):

@@ -40,8 +40,8 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.scene.colour import css_colour
-from packwork.scene.engraved import EngravedLine
-from packwork.scene.item import Art, FlatArt, LineArt, PhotoArt, PictureArt, VectorArt
+from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
+from packwork.scene.line_art import EngravedLine, LineArt
 from packwork.uses.cutting import cropped
 
 LINES_OFF = 1e-4
@@ -127,7 +127,8 @@ def art_record(art: Art, extent: float) -> ArtRecord:
     if isinstance(art, LineArt):
         drawn = _vector_record(art).model_dump(exclude={"kind"})
         return LineRecord(
-            **drawn, cut=tuple(ArcLineRecord(**_arcs_fields(line)) for line in art.cut),
+            **drawn, is_painted=art.is_painted,
+            cut=tuple(ArcLineRecord(**_arcs_fields(line)) for line in art.cut),
             engraved=tuple(
                 EngravedRecord(**_arcs_fields(line), colour=line.colour,
                                layer=kept_text(line.layer))
@@ -173,7 +174,9 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
             for one in record.engraved
         )
         _check_inside((*cut, *engraved), art.matrix, outline)
-        return LineArt(art.markup, art.matrix, art.is_traced, cut, engraved)
+        return LineArt(
+            art.markup, art.matrix, art.is_traced, cut, engraved, is_painted=record.is_painted
+        )
     if isinstance(record, VectorRecord):
         return _vector_of(record)
     if isinstance(record, PhotoRecord):

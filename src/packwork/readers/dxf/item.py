@@ -38,8 +38,8 @@ from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred
 from packwork.scene.container import Container, placed_container
-from packwork.scene.engraved import EngravedLine
-from packwork.scene.item import Item, LineArt
+from packwork.scene.item import Item
+from packwork.scene.line_art import EngravedLine, LineArt
 from packwork.scene.notation import arc_path_data, decimals
 from packwork.units import convert
 
@@ -67,7 +67,7 @@ ENGRAVED_PX = 1.0
 _THINNEST = 1 / 200
 """The same as a share of the part's size, at most."""
 
-_DIGITS = 1e-8
+ART_DIGITS = 1e-8
 """Last digit of a path's coordinates, as a share of the part's size."""
 
 
@@ -298,7 +298,7 @@ def line_art(
     pixel: float = 1.0,
 ) -> LineArt:
     """Lines and the markup that shows them on their region, in units of which a px is so long."""
-    digits = decimals(_DIGITS * size)
+    digits = decimals(ART_DIGITS * size)
     path = "".join(arc_path_data(line, digits) for line in cut)
     markup = f'<path fill="{FILL}" fill-rule="evenodd" d="{path}"/>'
     width = min(ENGRAVED_PX * pixel, _THINNEST * size)

@@ -188,15 +188,19 @@ class Arts:
             self._items[key] = Item(name, name, drawing.outline, drawing.ink, art, label)
         return self._items[key]
 
+    def text(self, element: ET.Element | None) -> str:
+        """Text between the tags of an element; empty of none."""
+        return "" if element is None else self._inside.get(element, "")
+
     def fragment(self, element: ET.Element) -> VectorArt:
         """Art of what stands in a group, in the group's own units."""
-        return self._vector(element, self._text(element), affine.identity(), is_traced=False)
+        return self._vector(element, self.text(element), affine.identity(), is_traced=False)
 
     def _drawing(
         self, count: int, drawn: ET.Element, source: ET.Element, ink: Region, name: str,
         keeps_holes: bool,
     ) -> _Drawing:  # fmt: skip
-        text = self._text(source)
+        text = self.text(source)
         if source is drawn:
             text = _renamed(text, count)
         matrix = place_and_art(source, drawn)[1]
@@ -242,9 +246,6 @@ class Arts:
             is_photo = is_traced and _PHOTO.fullmatch(art.markup)
             return _Drawing(outline, seen, PhotoArt(art, KeptOriginal(art)) if is_photo else art)
         return _Drawing(outline, seen, _cleaned(_whole(drawn, source), matrix, is_traced=is_traced))
-
-    def _text(self, element: ET.Element) -> str:
-        return self._inside.get(element, "")
 
     def _vector(
         self, group: ET.Element, text: str, matrix: FloatArray, *, is_traced: bool

@@ -29,9 +29,9 @@ from packwork.readers.layouts.assembly import (
 )
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
-from packwork.scene.engraved import CUT, EngravedLine
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.line_art import CUT, EngravedLine
 from packwork.units import Unit, convert
 
 APPLICATION = "PACKWORK"

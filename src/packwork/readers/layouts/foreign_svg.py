@@ -26,6 +26,9 @@ OWN = frozenset(
 """Names of what our files hold at their top."""
 
 
+_BESIDE_CUTS = frozenset({"engrave", "artwork"})
+"""Groups of a nest that go with its parts and are not cut."""
+
 LOST_ITEMS = (
     "has no group named items any more: each drawing counts as an item, and what was promised is "
     "not in the file"
@@ -74,7 +77,8 @@ def strange(root: ET.Element, known: Set[str]) -> int:
     count = 0
     for element in root:
         name = element.get("id", "")
-        if tag(element) in PAINTED and (name not in known or name in met):
+        is_lines = tag(element) == "g" and element.get("data-lines") in _BESIDE_CUTS
+        if tag(element) in PAINTED and not is_lines and (name not in known or name in met):
             count += 1
         met.add(name)
     return count

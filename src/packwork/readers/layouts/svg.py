@@ -11,6 +11,7 @@ import base64
 import binascii
 import copy
 import math
+import operator
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
@@ -42,6 +43,7 @@ from packwork.readers.layouts.foreign_svg import (
     strange,
     tag,
 )
+from packwork.readers.layouts.lines import LineParts, is_of_lines
 from packwork.readers.layouts.sheet import (
     backdrop_of,
     drawing_of,
@@ -106,11 +108,13 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
     drawn = [_drawn(element) for element in elements]
     if not drawn and (items is None or walls is None):
         raise UnfitError(f"has no group named items at its top, {_NOT_OURS}")
-    drawings = _Drawings(root, drawn, max(width, height) / scale)
+    drawings = _Drawings(root, drawn, max(width, height) / scale, of_lines=is_of_lines(items))
     sources = [drawings.source(one) for one in drawn]
     backdrop = group_named(root, "backdrop")
-    looked_at = [] if outlines_only else [*sources, *([] if backdrop is None else [backdrop])]
-    arts = Arts(root, data, looked_at)
+    parts = LineParts(root, convert(1.0, "px", unit) / scale) if is_of_lines(items) else None
+    painted = [] if parts is None else parts.artwork
+    looked_at = [*sources, *painted, *([] if backdrop is None else [backdrop])]
+    arts = Arts(root, data, [] if outlines_only else looked_at)
     # Other programs move a whole group by a transform of its own.
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
     to_items = affine.compose(to_canvas, place)
@@ -119,7 +123,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
     found = [
         _outline_of(drawings, one, to_items, is_kept)
         if outlines_only
-        else _found(drawings, arts, one, number, to_items, is_kept)
+        else _found(drawings, arts, parts, one, number, to_items, is_kept)
         for number, one in enumerate(zip(elements, drawn, sources, strict=True), start=1)
     ]
     page = shapely.box(0, 0, width, height)
@@ -130,8 +134,8 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         if outlines_only
         else examined(root, data, drawn, sources, container, (width, height))
     )
-    is_in_full = all(source is one for source, one in zip(sources, drawn, strict=True))
-    words = number_of(arts.texts, "word that is text there is", "words that are text there are")
+    is_in_full = parts is None and all(map(operator.is_, sources, drawn))
+    ids = [one.get("id", "") for one in drawn]
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -148,12 +152,10 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         said={
             "ground": ground_of(root),
             "recipe": limits_of(said),
+            **({} if parts is None else {"nest": {"rotate": said.get("data-rotate", "none")}}),
             "drawing": drawing_of(root, is_in_full and arts.texts < len(drawn)),
-            "changed": changed,
-            "not_kept": [
-                *_not_kept(root, items),
-                *([f"{words} curves from now on"] if arts.texts else []),
-            ],
+            "changed": [*changed, *([] if parts is None else parts.lost(ids))],
+            "not_kept": _not_kept(root, items, arts.texts),
         },
     )
     known = None if walls is None else walls.get("data-name")
@@ -165,10 +167,12 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
 class _Drawings:
     """Regions of the drawings of one file, each followed once, as its largest copy needs."""
 
-    def __init__(self, root: ET.Element, drawn: Sequence[ET.Element], side: float) -> None:
+    def __init__(
+        self, root: ET.Element, drawn: Sequence[ET.Element], side: float, *, of_lines: bool
+    ) -> None:
         # Of one id the first counts, as in browsers.
         self._by_id = {e.get("id"): e for e in reversed([*root.iter()]) if e.get("id")}
-        self._side = side
+        self._side, self._of_lines = side, of_lines
         self._regions: dict[ET.Element, Region] = {}
         self._largest: dict[ET.Element, float] = {}
         self._outlines: dict[ET.Element, Outline] = {}
@@ -226,7 +230,11 @@ class _Drawings:
             # Letters of a font may overlap, so non-zero; rings of outlines turn either way.
             path = _path(source.attrib["data-outline"], "nonzero")
             return _placed(self._followed([path], size * _size(own)), own)
-        if tag(source) == "image":
+        if self._of_lines:
+            if tag(source) != "path":
+                raise UnfitError(f"has an item that is no line to cut, {_NOT_OURS}")
+            seen = self._followed([_path(source.get("d", ""))], size * _size(own))
+        elif tag(source) == "image":
             seen = _picture(source)
         else:
             bare = copy.copy(source)
@@ -257,12 +265,17 @@ class _Drawings:
 
 
 def _found(
-    drawings: _Drawings, arts: Arts, element: tuple[ET.Element, ET.Element, ET.Element],
-    number: int, to_canvas: FloatArray, keeps_holes: bool,
+    drawings: _Drawings, arts: Arts, parts: LineParts | None,
+    element: tuple[ET.Element, ET.Element, ET.Element], number: int, to_canvas: FloatArray,
+    keeps_holes: bool,
 ) -> FoundItem:  # fmt: skip
     outer, drawn, source = element
     label, ink = labelled(outer, drawn), drawings.item(drawn)
-    item = arts.item(number, drawn, source, label, ink, keeps_holes=keeps_holes)
+    item = (
+        arts.item(number, drawn, source, label, ink, keeps_holes=keeps_holes)
+        if parts is None
+        else parts.item(drawn, label, ink, arts, keeps_holes=keeps_holes)
+    )
     place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
     return FoundItem(item.name, item, sound_weight(drawn.get("data-weight", "1")), place)
 
@@ -280,14 +293,16 @@ def _outline_of(
     return FoundItem(name, Item(name, name, outline, outline, FlatArt()), weight, place)
 
 
-def _not_kept(root: ET.Element, items: ET.Element | None) -> list[str]:
+def _not_kept(root: ET.Element, items: ET.Element | None, texts: int) -> list[str]:
     """Sentences about drawings beside the items that an edit does not write again."""
+    words = number_of(texts, "word that is text there is", "words that are text there are")
+    curves = [f"{words} curves from now on"] if texts else []
     cut = group_named(root, "cut")
     if cut is not None and not {"data-line", "data-kiss"} & cut.attrib.keys():
-        return ["its cut lines are not kept"]
+        return ["its cut lines are not kept", *curves]
     others = 0 if items is None else strange(root, OWN | {"cut"})
     many = number_of(others, "drawing beside its items is", "drawings beside its items are")
-    return [f"{many} not kept"] if others else []
+    return [*([f"{many} not kept"] if others else []), *curves]
 
 
 def _walls(group: ET.Element, place: FloatArray) -> tuple[FloatArray, ...] | None:

@@ -27,6 +27,7 @@ from packwork.readers.layouts.foreign_svg import (
     tag,
     unmeasured,
 )
+from packwork.readers.layouts.lines import is_of_lines
 from packwork.readers.layouts.sheet import tile_of
 from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform, view_box
 from packwork.readers.svg_syntax.vocabulary import ATTRIBUTES, ELEMENTS, PROPERTIES, RENAMED
@@ -59,7 +60,9 @@ _HIDING = {
     "opacity": re.compile(r"-.*|[+]?[0.]+(e.*)?%?"), "fill": re.compile(r"none|transparent"),
 }  # fmt: skip
 _OWN_STYLE = re.compile(
-    r"(?:@font-face\{[^{}]*\}|#items text\{font-kerning:normal;white-space:pre\}|\s)*"
+    r"(?:@font-face\{[^{}]*\}|#items text\{font-kerning:normal;white-space:pre\}|\s"
+    r"|@supports \(vector-effect:non-scaling-stroke\)\{@media screen\{\[data-lines\] path"
+    r"\{vector-effect:non-scaling-stroke;stroke-width:1px\}\}\})*"
 )
 _OWN_MOTION = re.compile(
     r'(?:\[id="[^"]*"\]\{animation:way-[^{}]*\}|\s'
@@ -197,10 +200,11 @@ def _of_frame(root: ET.Element) -> Iterator[Met]:
     """Changes that act on the page, the groups, and the copies of items elsewhere."""
     yield from _odd(root, _OF_ROOT | _COLOURING, "the page")
     yield from _page(root)
-    for name, more in (("container", _OF_LINES | {"stroke"}), ("items", frozenset[str]())):
+    for name in ("container", "items"):
         group = group_named(root, name)
         if group is None:
             continue
+        more = frozenset() if name == "items" and not is_of_lines(group) else _OF_LINES
         hides = name == "items"
         yield from _odd(group, _COLOURING | {"transform"} | more, f"the group {name}", hides=hides)
         for line in () if hides else group:
@@ -209,7 +213,7 @@ def _of_frame(root: ET.Element) -> Iterator[Met]:
     if tile_of(root) and all(group.get("id") != "images" for group in root):
         yield "the lack of the group images", "the file"
     for group in root:
-        if tag(group) in {"defs", "style"} or group.get("id") == "items":
+        if tag(group) in {"defs", "style"} or group.get("id") in {"items", "artwork"}:
             continue
         if group.get("id") == "images" and tile_of(root):
             yield from _of_images(root, group)

@@ -1,4 +1,4 @@
-"""Lines that a machine engraves, and the colours by which it tells them from those that it cuts."""
+"""Drawings of lines for a machine, and the colours by which it tells what it cuts from the rest."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from packwork.geometry.arcs import ArcLine
 from packwork.scene.colour import css_colour, hex_colour
+from packwork.scene.item import VectorArt
 
 CUT, ENGRAVE = "cut", "engrave"
 """Layers of what is cut through, and of what is not unless its own layer has another name."""
@@ -60,3 +61,19 @@ class EngravedLine(ArcLine):
         """Name of its layer in files: its own, if that is none of those that say something else."""
         name = _NOT_IN_NAMES.sub("_", self.layer).strip()[:60]
         return ENGRAVE if not name or _OTHERS.fullmatch(name) else name
+
+
+@dataclass(frozen=True, eq=False)
+class LineArt(VectorArt):
+    """A drawing of lines for a machine, whose arcs are kept beside the markup that shows them.
+
+    ``cut``: closed lines round the item and its holes; ``engraved``: lines that go with it;
+    ``path``: SVG path data of what is cut, where its file had other curves than arcs. All in the
+    units of the markup.
+    ``is_painted``: whether the markup is a picture in colours of its own.
+    """
+
+    cut: tuple[ArcLine, ...] = ()
+    engraved: tuple[EngravedLine, ...] = ()
+    path: str = ""
+    is_painted: bool = False

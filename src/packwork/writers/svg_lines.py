@@ -1,0 +1,108 @@
+"""Nests as SVG: lines for a machine, in layers by what it does with them.
+
+Layers are groups as Inkscape marks them, and each has a colour, by which programs for lasers and
+plotters go. Every line stands in full: many of them know no ``use``, and follow what is filled and
+what is not shown like all else.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from packwork.geometry import affine
+from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.layout import Layout
+from packwork.scene.line_art import CUT, CUT_COLOUR, ENGRAVE, ENGRAVED_COLOUR, LineArt
+from packwork.scene.notation import (
+    arc_path_data,
+    attributes,
+    finer_decimals,
+    matrix_text,
+    path_data,
+    with_fresh_ids,
+    xml_text,
+)
+from packwork.units import convert
+from packwork.writers.promise import stated_weights
+from packwork.writers.svg_symbols import item_ids, labelled
+
+HAIRLINE_IN = 0.001
+"""Width of all lines, inches: up to it drivers that print cut through, and do not engrave."""
+
+NAMESPACE = ' xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
+
+SEEN = (
+    "<style>@supports (vector-effect:non-scaling-stroke){@media screen{[data-lines] path"
+    "{vector-effect:non-scaling-stroke;stroke-width:1px}}}</style>"
+)
+"""Lets browsers show lines that are too thin to be seen. Inkscape, which would print them as wide,
+knows no such conditions."""
+
+
+def line_layers(
+    layout: Layout, places: Sequence[tuple[str, int]], names: Sequence[str],
+    promise: Mapping[str, str],
+) -> list[str]:  # fmt: skip
+    """Groups of what parts are painted with, of what is engraved, and on top of what is cut.
+
+    Parameters
+    ----------
+    places
+        Of each item its ``transform``, and digits after the point in its units.
+    names
+        What each is called.
+    promise
+        Attributes that say what was promised of all items.
+    """
+    ids, weights = item_ids(layout.items), stated_weights(layout)
+    hair = convert(HAIRLINE_IN, "in", layout.container.unit)
+    artwork, cut, engraved = list[str](), list[str](), defaultdict[str, list[str]](list)
+    for k, (item, (place, digits)) in enumerate(zip(layout.items, places, strict=True)):
+        art = item.art if isinstance(item.art, LineArt) else None
+        matrix = affine.identity() if art is None else art.matrix
+        digits += finer_decimals(matrix)
+        scale = float(layout.poses.scale[k]) * abs(np.linalg.det(matrix[:, :2])) ** 0.5
+        head = {"transform": place + ("" if art is None else matrix_text(matrix)),
+                "stroke-width": f"{hair / scale:.4g}"}  # fmt: skip
+        artwork += _painted(item, k + 1, ids[k], place)
+        own = {"id": ids[k], "data-name": names[k], "data-weight": weights[k], **head}
+        path = path_data(item.ink, digits) if art is None else cut_path(art, digits)
+        drawn = f'<path{attributes(own)} fill-rule="evenodd" d="{path}"/>'
+        cut.append(labelled(drawn, item.label))
+        marks = defaultdict[tuple[str, str], str](str)
+        for line in () if art is None else art.engraved:
+            marks[line.own_layer, line.own_colour] += arc_path_data(line, digits)
+        for (layer, colour), path in marks.items():
+            one = attributes({"data-item": ids[k], **head, "stroke": colour, "d": path})
+            engraved[layer].append(f"<path{one}/>")
+    layers = [_layer("artwork", "artwork", {}, artwork)] if artwork else []
+    for number, (layer, drawn_lines) in enumerate(sorted(engraved.items()), start=1):
+        stroke = {"fill": "none", "stroke": ENGRAVED_COLOUR}
+        layers.append(_layer(f"{ENGRAVE}-{number}", layer, stroke, drawn_lines))
+    stroke = {"fill": "none", "stroke": CUT_COLOUR, **promise}
+    layers.append(_layer("items", CUT, stroke, cut))
+    return [SEEN, *(line for one in layers for line in one)]
+
+
+def cut_path(art: LineArt, digits: int) -> str:
+    """SVG path data of what is cut of a drawing, in its units."""
+    return art.path or "".join(arc_path_data(line, digits) for line in art.cut)
+
+
+def _layer(name: str, label: str, more: Mapping[str, str], drawn: list[str]) -> list[str]:
+    kind = {"artwork": "artwork", "items": CUT}.get(name, ENGRAVE)
+    head = attributes({"id": name, "data-lines": kind, **more})
+    shown = f' inkscape:groupmode="layer" inkscape:label="{xml_text(label)}"'
+    return [f"<g{head}{shown}>", *drawn, "</g>"]
+
+
+def _painted(item: Item, number: int, name: str, place: str) -> list[str]:
+    """Drawing painted on a part, beside its lines."""
+    art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
+    if isinstance(art, FlatArt) or (isinstance(art, LineArt) and not art.is_painted):
+        return []
+    head = attributes({"data-item": name, "transform": place + matrix_text(art.matrix)})
+    return [f"<g{head}>{with_fresh_ids(art.markup, f'-{number}')}</g>"]

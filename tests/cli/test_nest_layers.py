@@ -1,0 +1,174 @@
+"""Nests as SVG and PDF for a machine: what is cut and engraved, by layer and colour."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pikepdf
+import pytest
+import shapely
+from typer.testing import Result
+
+import packwork as pw
+from packwork.readers.gate.door import parse_xml
+from packwork.readers.layouts.lines import arc_lines_of
+from packwork.scene.line_art import LineArt
+
+Command = Callable[..., Result]
+
+LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+MODE = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
+
+CURVED = """<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30">
+<path fill="#333" fill-rule="evenodd"
+d="M2 2h20c9 3 9 16 0 20H2zM8 8a3 3 0 1 0 6 0 3 3 0 1 0-6 0z"/>
+</svg>"""
+
+BADGE = """<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30">
+<rect width="40" height="30" fill="#123456"/><circle cx="20" cy="15" r="8" fill="gold"/></svg>"""
+
+
+@pytest.fixture
+def shop(folder: Path) -> Path:
+    """A plate with a hole, scored and etched in colours; a filled shape of curves; a badge."""
+    document = ezdxf.new(units=4)
+    document.layers.add("Score", color=3)
+    document.layers.add("engrave", color=7)
+    space = document.modelspace()
+    space.add_lwpolyline([(0, 0, 0), (60, 0, 0.4), (60, 40, 0), (0, 40, 0)], "xyb", close=True)
+    space.add_circle((15, 20), 6)
+    space.add_circle((40, 20), 5, dxfattribs={"layer": "Score"})
+    space.add_line((2, 5), (58, 5), dxfattribs={"layer": "engrave"})
+    document.saveas(folder / "plate.dxf")
+    (folder / "curved.svg").write_text(CURVED, encoding="utf-8")
+    (folder / "badge.svg").write_text(BADGE, encoding="utf-8")
+    return folder
+
+
+def layers(path: Path) -> dict[str, ET.Element]:
+    """Layers of an SVG by their names, in their order."""
+    root = parse_xml(path.read_bytes())
+    return {group.get(LABEL, ""): group for group in root if MODE in group.attrib}
+
+
+def lines_in(path: Path) -> dict[str, tuple[int, int]]:
+    """Of each layer of a DXF how many circles and other lines it has."""
+    space = ezdxf.readfile(path).modelspace()
+    names = {one.dxf.layer for one in space} - {"container"}
+    return {
+        name: (len(space.query(f'CIRCLE[layer=="{name}"]')),
+               len(space.query(f'LWPOLYLINE[layer=="{name}"]')))
+        for name in names
+    }  # fmt: skip
+
+
+LINE = "nest 120x110mm plate.dxf*2 curved.svg badge.svg --kerf 1mm --passes 60"
+
+
+def test_an_svg_holds_lines_alone_in_layers_by_what_is_done_with_them(
+    shop: Path, packwork: Command
+) -> None:
+    result = packwork(f"{LINE} -o a.svg -o a.dxf -o a.pdf")
+    assert result.exit_code == 0, result.output
+    found = layers(shop / "a.svg")
+    assert list(found) == ["artwork", "Score", "engrave", "cut"]
+    colours = {name: group.get("stroke") for name, group in found.items()}
+    assert (colours["cut"], colours["engrave"]) == ("#ff0000", "#0000ff")
+    assert [one.get("stroke") for one in found["Score"]] == ["#00ff00"] * 2
+    assert [one.get("stroke") for one in found["engrave"]] == [None] * 2
+    assert [len(group) for group in found.values()] == [1, 2, 2, 4]
+    for name in ("Score", "engrave", "cut"):
+        assert found[name].get("fill") == "none"
+        assert all("fill" not in one.attrib for one in found[name])
+    # As many rings as the DXF has.
+    rings = sum(one.get("d", "").count("M") for one in found["cut"])
+    assert rings == sum(lines_in(shop / "a.dxf")["cut"]) == 7
+    assert "<use" not in (shop / "a.svg").read_text(encoding="utf-8")
+
+
+def test_bezier_curves_of_a_filled_part_stay_what_they_are(shop: Path, packwork: Command) -> None:
+    assert packwork("nest 60x60mm curved.svg --rotate none --passes 2 -o a.svg").exit_code == 0
+    (path,) = layers(shop / "a.svg")["cut"]
+    assert path.get("d", "").startswith("M2 2L22 2C31 5 31 18 22 22L2 22ZM8 8C")
+
+
+def test_an_svg_of_lines_is_a_nest_to_go_on_with(shop: Path, packwork: Command) -> None:
+    assert packwork(f"{LINE} -o a.svg -o a.dxf -o a.geojson").exit_code == 0
+    assert "certified" in packwork("measure a.svg").output
+    one, other = (pw.Layout.load(shop / f"a.{kind}") for kind in ("svg", "geojson"))
+    assert one.areas == pytest.approx(other.areas, rel=2e-4)
+    assert all(isinstance(item.art, LineArt) for item in one.items)
+    result = packwork("nest a.svg badge.svg --passes 900 -o b.svg -o b.dxf")
+    assert result.exit_code == 0, result.output
+    assert "go into a DXF as outlines" not in result.output
+    before, after = lines_in(shop / "a.dxf"), lines_in(shop / "b.dxf")
+    cut, more = before.pop("cut"), after.pop("cut")
+    assert before == after == {"Score": (2, 0), "engrave": (0, 2)}
+    assert (more[0], more[1]) == (cut[0], cut[1] + 1)
+    found = layers(shop / "b.svg")
+    assert [len(group) for group in found.values()] == [2, 2, 2, 5]
+    again = pw.Layout.load(shop / "b.svg")
+    assert again.areas[:4] == pytest.approx(one.areas, rel=1e-7)
+
+
+def test_a_layer_that_lost_a_part_is_told(shop: Path, packwork: Command) -> None:
+    assert packwork(f"{LINE} -o a.svg").exit_code == 0
+    text = (shop / "a.svg").read_text(encoding="utf-8")
+    start = text.index('<path id="item-1"')
+    (shop / "a.svg").write_text(text[:start] + text[text.index("<path", start + 1) :], "utf-8")
+    said = " ".join(packwork("measure a.svg").output.split())
+    assert "engraved lines of 1 part that is not there are left out" in said
+    assert "not certified" in said
+
+
+def test_a_line_that_was_moved_is_measured_where_it_is(shop: Path, packwork: Command) -> None:
+    assert packwork(f"{LINE} -o a.svg").exit_code == 0
+    one = layers(shop / "a.svg")["cut"][0].get("transform", "")
+    text = (shop / "a.svg").read_text(encoding="utf-8")
+    other = layers(shop / "a.svg")["cut"][1].get("transform", "")
+    (shop / "a.svg").write_text(
+        text.replace(
+            f'id="item-1" data-name="plate" transform="{one}"',
+            f'id="item-1" data-name="plate" transform="{other}"',
+        ),
+        "utf-8",
+    )
+    assert packwork("measure a.svg").exit_code == 1
+
+
+def test_strokes_of_a_pdf_are_hairlines_in_the_same_colours(shop: Path, packwork: Command) -> None:
+    assert packwork("nest 120x110mm plate.dxf --passes 3 -o a.pdf").exit_code == 0
+    with pikepdf.open(shop / "a.pdf") as pdf:
+        content = b"".join(_contents(pdf.pages[0].obj))
+    text = content.decode("latin-1")
+    assert " f\n" not in text
+    assert "\nf*" not in text
+    assert text.count("S") >= 3
+
+
+def _contents(page: pikepdf.Object) -> list[bytes]:
+    found = [pikepdf.Page(page).contents_coalesce() or page.Contents.read_bytes()]
+    forms = page.Resources.get("/XObject", {})
+    return found + [form.read_bytes() for form in forms.values()]
+
+
+def test_holes_that_nothing_lies_in_are_cut_in_every_file(shop: Path, packwork: Command) -> None:
+    frame = [(0, 0), (40, 0), (40, 30), (0, 30)], [(10, 10), (20, 10), (20, 20), (10, 20)]
+    found = pw.nest("60x50mm", [shapely.Polygon(frame[0], [frame[1]])], holes="fill", passes=2)
+    found.save(shop / "a.svg")
+    found.save(shop / "a.dxf")
+    assert layers(shop / "a.svg")["cut"][0].get("d", "").count("M") == 2
+    assert lines_in(shop / "a.dxf") == {"cut": (0, 2)}
+    assert packwork("measure a.svg").exit_code == packwork("measure a.dxf").exit_code == 0
+
+
+def test_arcs_of_a_path_are_read_as_they_were_written() -> None:
+    (slot,) = arc_lines_of("M0 0L9 0A4 4 0 0 1 9 8L0 8Z", 10.0)
+    assert slot.bulges == pytest.approx([0, 1, 0, 0])
+    (open_,) = arc_lines_of("M0 0A5 5 0 0 0 5 5", 5.0)
+    assert not open_.is_closed
+    assert open_.bulges[0] == pytest.approx(-np.tan(np.pi / 8))
