@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_350,
-    "lines of docstrings": 18_540,
-    "files": 592,
+    "lines of code": 67_500,
+    "lines of docstrings": 18_600,
+    "files": 596,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 746,
+    "constants chosen by hand": 760,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

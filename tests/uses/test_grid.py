@@ -146,3 +146,20 @@ def test_a_picture_finer_than_the_tiles_is_told(album: Path, tmp_path: Path, str
     )  # fmt: skip
     assert any(f"hard to recognise with {(stripes - 1) ** 2} tiles; -n " in one for one in few)
     assert not any("hard to recognise" in one for one in enough)
+
+
+def test_fewer_tiles_than_asked_are_told(album: Path, ramp: np.ndarray, tmp_path: Path) -> None:
+    Image.fromarray((255 * ramp).astype(np.uint8)).save(tmp_path / "ramp.png")
+    asked, met = (
+        fill(
+            make_recipe(
+                container="square", photos={"sources": [str(album)]}, grid=True,
+                picture=str(tmp_path / "ramp.png"), count=count,
+            )
+        )
+        for count in (60, 49)
+    )  # fmt: skip
+    assert len(asked.layout.items) == len(met.layout.items) == 49
+    told = "49 tiles, not 60: rows of equal squares fill this container with so many"
+    assert told in asked.remarks
+    assert not any("rows of" in one for one in met.remarks)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from packwork.arrays import BoolArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.distance_transform import distance_to, label_components
 from packwork.fields.morphology import closed
 from packwork.geometry.outline import Outline, joined
@@ -54,8 +54,12 @@ def pixel_metrics(outlines: Sequence[Outline], container: Container) -> PixelMet
     """
     px_per_cu = RESOLUTION / container.side
     shape = image_shape(container.width, container.height, RESOLUTION)
-    counts = _counts(outlines, px_per_cu, shape)
-    inside = _counts([container.outline], px_per_cu, shape) > 0
+
+    def to_px(points: FloatArray) -> FloatArray:
+        return points * px_per_cu
+
+    counts = _counts(outlines, to_px, shape)
+    inside = _counts([container.outline], to_px, shape) > 0
     whole = max(int(np.count_nonzero(inside)), 1)
     covered = int(np.count_nonzero(inside & (counts > 0)))
     uncovered = whole - covered
@@ -68,9 +72,20 @@ def pixel_metrics(outlines: Sequence[Outline], container: Container) -> PixelMet
     )
 
 
-def _counts(outlines: Sequence[Outline], px_per_cu: float, shape: tuple[int, int]) -> IntArray:
-    points, starts = joined(outlines)
-    return centre_count(points * px_per_cu, starts, shape).astype(np.int64)
+AT_ONCE = 2_000
+"""Outlines whose points are in memory side by side: those of a hundred thousand take gigabytes.
+Chosen."""
+
+
+def _counts(
+    outlines: Sequence[Outline], to_px: Callable[[FloatArray], FloatArray], shape: tuple[int, int]
+) -> IntArray:
+    """Outlines that hold each pixel's centre; ``to_px`` takes points ``(n, 2)`` to pixels."""
+    counts = np.zeros(shape, dtype=np.int64)
+    for first in range(0, len(outlines), AT_ONCE):
+        points, starts = joined(outlines[first : first + AT_ONCE])
+        counts += centre_count(to_px(points), starts, shape)
+    return counts
 
 
 def _non_uniformity(covered: BoolArray, inside: BoolArray) -> float:
@@ -147,13 +162,14 @@ def _images(outlines: Sequence[Outline], container: Outline) -> tuple[BoolArray,
     left, top, right, bottom = container.bounds
     px_per_cu = SHAPE_RESOLUTION / container.extent
     margin = int(REACH * SHAPE_RESOLUTION) + 2
-    shape = tuple(int(np.ceil(v * px_per_cu)) + 2 * margin for v in (bottom - top, right - left))
-    found = []
-    for several in ([container], outlines):
-        points, starts = joined(several)
-        placed = (points - [left, top]) * px_per_cu + margin
-        found.append(centre_count(placed, starts, (shape[0], shape[1])) > 0)
-    return found[0], found[1]
+    rows, columns = (int(np.ceil(v * px_per_cu)) + 2 * margin for v in (bottom - top, right - left))
+
+    def to_px(points: FloatArray) -> FloatArray:
+        return (points - [left, top]) * px_per_cu + margin
+
+    several = [container], outlines
+    inside, covered = (_counts(those, to_px, (rows, columns)) > 0 for those in several)
+    return inside, covered
 
 
 def _parts(inside: BoolArray, covered: BoolArray) -> tuple[int, int]:

@@ -82,6 +82,10 @@ class Sentence(Enum):
     FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
     COUNT = Told.REMARK, "auto chose {many}"
+    ROWS = (
+        Told.REMARK,
+        "{many}, not {asked}: rows of equal squares fill this container with so many",
+    )
     COUNT_BY_WIDTH = (
         Told.REMARK,
         "auto chose {many}, to reach into parts {width:.3g} {unit} wide",

@@ -93,8 +93,11 @@ class Layout:
 
     @cached_property
     def inks(self) -> tuple[Outline, ...]:
-        """Each item's ink in place, canvas units."""
-        return tuple(item.ink.mapped(self.poses.matrix(k)) for k, item in enumerate(self.items))
+        """Each item's ink in place, canvas units; where it is the outline, the same object."""
+        return tuple(
+            outline if item.ink is item.outline else item.ink.mapped(self.poses.matrix(k))
+            for k, (item, outline) in enumerate(zip(self.items, self.outlines, strict=True))
+        )
 
     @cached_property
     def areas(self) -> FloatArray:

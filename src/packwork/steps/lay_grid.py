@@ -16,7 +16,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
 from packwork.phrasing import number_of
-from packwork.pipeline.findings import Finding
+from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -143,9 +143,13 @@ class LayGrid(RunStep):
         if side <= 0:
             raise RecipeError("padding", "leaves nothing of the tiles; use a smaller one")
         poses = _poses(tiles.items, grid, side)
+        findings = state.findings
+        if count < self._most and job.recipe.count is not None:
+            values = {"many": number_of(count, "tile"), "asked": f"{self._most:,}"}
+            findings = (*findings, Finding(Sentence.ROWS, values))
         return replace(
             RunState.of(tiles), poses=poses, nominal=poses.scale, method="grid", is_tight=True,
-            recorder=state.recorder, findings=state.findings,
+            recorder=state.recorder, findings=findings,
         )  # fmt: skip
 
     def _chosen(self, items: Sequence[Item], grid: Grid, repeats: int, seed: int) -> IntArray:

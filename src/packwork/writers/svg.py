@@ -268,14 +268,14 @@ def _backdrop(backdrop: Backdrop | None) -> list[str]:
 
 def _halos(layout: Layout, digits: int) -> list[str]:
     """Halos by which items stand out from a picture behind, under all of them."""
+    if not any(item.halo for item in layout.items):
+        return []
     width = f"{2 * HALO_SHARE * layout.container.side:.6g}"
     drawn = []
     for item, ink in zip(layout.items, layout.inks, strict=True):
         if item.halo:
             head = attributes({"fill": item.halo, "stroke": item.halo})
             drawn.append(f'<path{head} d="{path_data(ink, digits)}"/>')
-    if not drawn:
-        return []
     return [f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">', *drawn, "</g>"]
 
 
