@@ -128,6 +128,48 @@ def test_a_document_is_renamed_and_begun_by_the_menu(open_desk: Callable[..., De
     assert waiting.value.suggested_filename == "For Ada.packwork"
 
 
+def tab_to(desk: Desk, what: str, key: str = "Tab") -> None:
+    """Tab until an element of a selector has the focus."""
+    for _ in range(80):
+        if desk.look(f"document.activeElement.matches({what!r})"):
+            return
+        desk.page.keyboard.press(key)
+    raise AssertionError(f"no Tab leads to {what}")
+
+
+def test_tab_arrows_and_enter_lead_from_the_start_to_a_pdf(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    keys = desk.page.keyboard
+    if not desk.look("studio.start.dialog.open"):
+        tab_to(desk, "#files")
+        keys.press("Enter")
+        tab_to(desk, "[role=menuitem]")
+        keys.press("Enter")
+    tab_to(desk, "dialog.start button:has(img[src*=names])")
+    keys.press("Enter")
+    desk.until("studio.collage.items.length === 39 && studio.collage.items[0].is_word")
+    desk.settled()
+    tab_to(desk, "#panel button.item")
+    keys.press("Enter")
+    desk.until("studio.choice.ids.size === 1")
+    before = desk.look("studio.collage.pose([...studio.choice.ids][0]).x")
+    for _ in range(3):
+        keys.press("ArrowRight")
+    desk.until(f"studio.collage.pose([...studio.choice.ids][0]).x !== {before}")
+    desk.settled()
+    tab_to(desk, "#export", "Shift+Tab")
+    keys.press("Enter")
+    tab_to(desk, "dialog.export input[name=format]")
+    keys.press("ArrowDown")
+    tab_to(desk, "dialog.export button.primary")
+    with desk.page.expect_download() as waiting:
+        keys.press("Enter")
+    assert waiting.value.suggested_filename.endswith(".pdf")
+    assert Path(waiting.value.path()).read_bytes().startswith(b"%PDF")
+
+
 def test_the_start_fits_a_phone(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk(PHONE)
     if not desk.look("studio.start.dialog.open"):
