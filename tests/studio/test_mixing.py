@@ -23,10 +23,15 @@ def desk(browser: Any) -> Iterator[Desk]:
 
 def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) -> None:
     page = desk.page
+    page.mouse.click(*desk.place(0))
+    page.keyboard.press("h")
+    desk.until("studio.areHeld")
+    held = desk.look("studio.collage.pose(0)")
     page.locator("#tab-words").click()
     page.locator("#text").fill("hope, 6\njoy, 4\npeace, 3\nsea, 2\nsun, 2")
     page.get_by_label("Where the words come").select_option("beside")
     page.get_by_label("Share of words, %").fill("40")
+    assert page.get_by_text("hold (H) what is to stay").filter(visible=True).count() == 1
     page.get_by_role("button", name="Fill with words").click()
     desk.until("studio.collage.items.length === 21")
     desk.settled()
@@ -39,6 +44,8 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
         page.keyboard.press("ArrowRight")
     desk.until(f"Math.abs({SHARE} - 0.6) < 1e-3")
     desk.settled()
+    pose = desk.look("studio.collage.pose(0)")
+    assert (pose["x"], pose["y"]) == (held["x"], held["y"])
     desk.picture("mixing-more")
     # What is refused is not shown as if it were there.
     desk.look("(studio.connection.send = () => undefined) && null")
@@ -50,9 +57,9 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
     desk.resize(PHONE)
     desk.picture("mixing-phone")
     desk.resize(WIDE)
-    for _ in range(2):
+    for _ in range(3):
         page.locator("#bar [data-do=undo]").click()
-    desk.until("studio.collage.items.length === 16")
+    desk.until("studio.collage.items.length === 16 && !studio.anyHeld")
 
 
 def test_a_pdf_has_marks_and_spot_inks_and_others_say_why_not(desk: Desk) -> None:

@@ -7,6 +7,8 @@ import { Percent } from "./percent.js";
 
 /** Share of words that is offered first, percent. */
 const FIRST = "40";
+/** Told before anything is put elsewhere. */
+const ANEW = "All are poured anew for it, also what you have put somewhere: hold (H) what is to stay there.";
 
 export class Mixing {
   /** @param {import("./studio.js").Studio} studio */
@@ -15,10 +17,10 @@ export class Mixing {
     this.where = h("select", { "aria-label": "Where the words come", onchange: () => this.refresh() },
       h("option", { value: "" }, "in place of these"), h("option", { value: "beside" }, "beside these"));
     this.share = h("input", { type: "number", id: "words-share", min: "5", max: "95", step: "5", value: FIRST });
-    this.asked = h("label", { class: "row" }, "Share of words, %", this.share);
+    this.asked = h("div", {}, h("label", { class: "row" }, "Share of words, %", this.share), h("p", { class: "hint" }, ANEW));
     this.choice = h("div", {}, h("label", { class: "row" }, "They come", this.where), this.asked);
     this.slider = new Percent("share-of-words", "Share of words", [5, 95], (share) => this.mix(share, {}));
-    this.element = h("div", { class: "question" }, this.slider.element);
+    this.element = h("div", { class: "question" }, this.slider.element, h("p", { class: "hint" }, ANEW));
   }
 
   /** Weights of words and of all else. */
