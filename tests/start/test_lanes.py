@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import shapely
 
 from packwork.geometry.curves import Curve
-from packwork.start.lanes import Lanes, WordOnLine, WordShape
+from packwork.start.lanes import LARGER, Lanes, WordOnLine, WordShape
 from packwork.start.limbs import Limb
 
 ANGLES = np.linspace(0.0, 4 * np.pi, 4_000)
@@ -70,6 +72,17 @@ def test_few_words_are_set_again_until_the_limb_is_full() -> None:
     assert len(lanes.found) > 8
     length = sum(one.end - one.start for one in lanes.found)
     assert length > 0.75 * SPIRAL.axis.length
+
+
+def test_a_heavy_word_that_is_held_down_leaves_no_gap_after_lighter_ones() -> None:
+    # Letters that reach below the line make the heaviest smaller than the lane allows others.
+    shapes = [WordShape(3.0, 1.5), *[WordShape(3.0, 0.75)] * 3]
+    lanes = Lanes(shapes, np.array([40.0, 35.0, 34.0, 33.0]), 2.0, 0.5)
+    lanes.fill(Limb(Curve(np.array([[0.0, 0.0], [160.0, 0.0]])), np.array([10.0, 10.0])))
+    sizes = {one.word: one.size for one in lanes.found[::-1]}
+    assert max(sizes.values()) <= LARGER * sizes[0] + 1e-9
+    rooms = [b.start - a.end for a, b in pairwise(sorted(lanes.found, key=lambda one: one.start))]
+    assert np.ptp(rooms) < 0.2 * sizes[0]
 
 
 def test_a_word_that_fits_nowhere_is_left() -> None:

@@ -18,7 +18,7 @@ from packwork.readers.layouts.svg import layout_of_svg
 from packwork.readers.words.items import EM_PX, word_fonts
 from packwork.readers.words.options import Word, WordOptions
 from packwork.start.lanes import WordOnLine
-from packwork.uses.words import along
+from packwork.uses.words import line_of_words
 
 LICENCE = Path(pw.__file__).with_name("bundled") / "fonts" / "LICENCE-Inter.txt"
 SPIRAL = Path(pw.__file__).with_name("bundled") / "icons" / "spiral.svg"
@@ -64,6 +64,19 @@ def test_heavy_words_are_larger(spiral: pw.Layout) -> None:
     assert np.median(sizes[:10]) > 2 * np.median(sizes[-50:])
 
 
+def test_few_words_are_set_in_turn_until_the_limb_is_full() -> None:
+    words = {"spiral": 9.0, "turn": 7.0, "arm": 6.0, "line": 5.0, "wave": 4.0, "bend": 2.0}
+    layout = pw.words(SPIRAL, words, along="limbs")
+    often = [sum(item.name == word for item in layout.items) for word in words]
+    assert min(often) > 1
+    assert max(often) <= 2 * min(often)
+    said = [one for one in layout.remarks if "set again" in one]
+    assert said == [
+        f"{len(layout) - 6} words are set again, until the line is full; {len(layout)} would "
+        "fill it once"
+    ]
+
+
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_along_a_limb_no_word_is_larger_than_a_heavier_one(seed: int) -> None:
     known = weights(seed)
@@ -80,15 +93,15 @@ def test_along_a_limb_no_word_is_larger_than_a_heavier_one(seed: int) -> None:
 
 def test_small_copies_of_a_word_hold_no_others_down(monkeypatch: pytest.MonkeyPatch) -> None:
     fonts, axis = word_fonts(WordOptions(source=FEW)), Curve.through(np.array([[0.0, 0], [999, 0]]))
-    line = along._LineOfWords([Word("bear", 2.0), Word("bee", 1.0)], (), fonts, "fill")
+    line = line_of_words.LineOfWords([Word("bear", 2.0), Word("bee", 1.0)], (), fonts, "fill")
     found = [
         WordOnLine(word, axis, at, at + 3 * size, size)
         for word, at, size in [(0, 100.0, 40.0), (1, 300.0, 36.0), (0, 600.0, 9.0)]
     ]
     wrong = iter([[Violation(2, None, 1.0, 0.0)], []])
-    monkeypatch.setattr(along, "violations", lambda *_: next(wrong))
+    monkeypatch.setattr(line_of_words, "violations", lambda *_: next(wrong))
     bent = line.bent(found, read_container("circle"), 0.0, never, np.array([2.0, 1.0]))
-    assert (bent.poses.scale * EM_PX).tolist() == pytest.approx([40, 36, 9 * along.SHRUNK])
+    assert (bent.poses.scale * EM_PX).tolist() == pytest.approx([40, 36, 9 * line_of_words.SHRUNK])
 
 
 def test_few_words_are_set_again_and_read_back(tmp_path: Path) -> None:

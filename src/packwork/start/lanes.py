@@ -215,6 +215,7 @@ class Lanes:
         self._longest = max(shape.length for shape in shapes)
         self.left = list(range(len(shapes)))
         self.found: list[WordOnLine] = []
+        self._most = np.full(len(shapes), math.inf)
         self._turn = 0
 
     def fill(self, limb: Limb) -> None:
@@ -253,7 +254,7 @@ class Lanes:
         for word in (*self.left[:TRIED], *again):
             put = self._put(lane, start, width, word)
             if put is not None:
-                self._take(word)
+                self._take(word, put.size)
                 lane.put.append(put)
                 lane.go_to(put.end + SPACE * put.size)
                 return [lane]
@@ -269,9 +270,13 @@ class Lanes:
         first = int(np.searchsorted(small, self._turn))
         return np.roll(small, -first).tolist() or [len(sizes) - 1]
 
-    def _take(self, word: int) -> None:
+    def _take(self, word: int, size: float) -> None:
         if word in self.left:
             self.left.remove(word)
+            # Held down here, lighter ones leave their room to those that follow.
+            lighter = self._wanted < self._wanted[word] * (1 - 1e-9)
+            self._most[lighter] = np.minimum(self._most[lighter], LARGER * size)
+            self._most[word] = min(self._most[word], size)
         else:
             self._turn = (word + 1) % len(self._shapes)
 
@@ -283,7 +288,7 @@ class Lanes:
         """A word from a place on; None where it does not fit."""
         shape, line = self._shapes[word], lane.line
         while True:
-            size = self._size(width, word)
+            size = min(self._size(width, word), float(self._most[word]))
             if size < self._least:
                 return None
             length = shape.length * size

@@ -4,51 +4,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, final
 
 import numpy as np
 from shapely.geometry import Polygon
 
-from packwork.arrays import FloatArray
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
-from packwork.geometry import affine
 from packwork.geometry.curves import Curve
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, buffered, difference, union, valid
-from packwork.metrics.violations import violations
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.run import RunContext, RunStep, run_steps
 from packwork.pipeline.state import RunState
-from packwork.progress import Stop
-from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.reading import UnfitError
-from packwork.readers.regions import Holes
-from packwork.readers.words.items import EM_PX, WordsRead, bent_word, word_fonts
-from packwork.readers.words.options import Along, Word, lines_of, sound
+from packwork.readers.words.items import EM_PX, WordsRead
+from packwork.readers.words.options import Along, Word, sound
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.start.lanes import FILLED, Lanes, WordOnLine, WordShape, held_down, in_order
+from packwork.start.lanes import FILLED, WordOnLine, in_order
 from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
 from packwork.uses.words.copies import words_of
-from packwork.uses.words.graded import LEGIBLE, NEARER, can_give_way, unheeded
+from packwork.uses.words.graded import LEGIBLE, can_give_way, unheeded
+from packwork.uses.words.line_of_words import SLACK, LineOfWords
 from packwork.uses.words.sizes import Letters, without
 
 if TYPE_CHECKING:
-    from packwork.uses.words.use import WordsUse
-
-CAPITAL = 0.73
-"""Height of a capital, ems: words of low letters are set no larger than others. Of the bundled
-font."""
-
-LARGEST, FINER = 3.0, 0.97
-"""Size that the heaviest word may ask for, over the width of the widest limb, so that later ones
-take all of it too; and the factor between sizes that are tried. Chosen."""
+    pass
 
 WIDE = 0.05
 """Share of a container that is a cloud of its own where it is no limb. Smaller puts words into
@@ -64,10 +51,6 @@ BAND = 0.09
 RING, MOST_ROUND = 0.13, 0.42
 """The same of rings of text at most, and the share of the edge that one of two texts takes at most.
 Larger leaves the words inside less room, smaller is read from less far. By eye."""
-
-SHRUNK, MOST_SHRUNK, SLACK = 0.95, 12, 0.9
-"""Factor on words that come too near to others or to the edge, how often it is tried, and how much
-of it words of the least size have room for. Chosen."""
 
 
 @final
@@ -112,9 +95,9 @@ class SetAlong(RunStep):
             rest = np.setdiff1d(np.arange(len(read.items)), rows)
             heights = np.sqrt(job.weights / [item.outline.area for item in job.items])
             least = max(self._letters.smallest or 0.0, LEGIBLE * job.container.side)
-            line = _LineOfWords.of([read.words[k] for k in rest], words_of(job), job.plan.holes)
-            lanes = line.set_along(limbs, heights[rest], least / SLACK, gap, self._letters.largest)
-            settings = in_order(lanes.found, heights[rest])
+            line = LineOfWords.of([read.words[k] for k in rest], words_of(job), job.plan.holes)
+            lines = line.set_along(limbs, heights[rest], least / SLACK, gap, self._letters.largest)
+            settings = in_order(lines, heights[rest])
             bent = line.bent(settings, job.container, gap, context.stop, heights[rest])
         large = np.flatnonzero(bent.poses.scale * EM_PX >= least)
         rows += [int(rest[settings[k].word]) for k in large]
@@ -178,7 +161,7 @@ class RoundTheEdge(RunStep):
             texts = [Word(sound(text), 1.0) for text in self._texts]
             width = RING * math.sqrt(job.container.outline.area)
             try:
-                line = _LineOfWords.of(texts, use, job.plan.holes)
+                line = LineOfWords.of(texts, use, job.plan.holes)
                 band, size = self._band(line, job.container, width, gap)
                 bent = line.bent(self._settings(line, band, size), job.container, gap, context.stop)
             except UnfitError as error:
@@ -203,7 +186,7 @@ class RoundTheEdge(RunStep):
         )  # fmt: skip
 
     def _band(
-        self, line: _LineOfWords, container: Container, width: float, gap: float
+        self, line: LineOfWords, container: Container, width: float, gap: float
     ) -> tuple[Limb, float]:
         """Band along the edge, and the size at which all texts have room there."""
         bands = edges_of(container, width)
@@ -217,7 +200,7 @@ class RoundTheEdge(RunStep):
             return self._band(line, container, width * max(most / longest, 0.5), gap)
         return replace(bands[0], half=bands[0].half - gap / 2), size
 
-    def _settings(self, line: _LineOfWords, band: Limb, size: float) -> list[WordOnLine]:
+    def _settings(self, line: LineOfWords, band: Limb, size: float) -> list[WordOnLine]:
         """The first text round the top, a second one round the bottom, read from left to right."""
         points = band.axis.points[:-1]
         is_above = points[:, 1] < points[:, 1].mean()
@@ -293,106 +276,5 @@ def _joined(
     )  # fmt: skip
     if len(rows) == len(kept):
         return found
-    return found.with_finding(
-        Sentence.SET_AGAIN, many=number_of(len(rows) - len(kept), "word is", "words are")
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class _Bent:
-    """Bent words in place."""
-
-    items: tuple[Item, ...]
-    poses: Poses
-
-
-@dataclass(frozen=True, eq=False)
-class _LineOfWords:
-    """Words that are to be set along limbs, the heaviest first, and the fonts that draw them."""
-
-    words: Sequence[Word]
-    shapes: Sequence[WordShape]
-    fonts: Fonts
-    holes: Holes
-
-    @classmethod
-    def of(cls, words: Sequence[Word], use: WordsUse, holes: Holes) -> _LineOfWords:
-        """Words in the fonts of a use."""
-        fonts, shapes = word_fonts(use.options), list[WordShape]()
-        for word in words:
-            if not (lines := lines_of(word.text)):
-                raise UnfitError("has no letters")
-            region = fonts.lettering([" ".join(lines)]).region
-            left, top, right, bottom = region.bounds
-            shapes.append(WordShape(right - left, max(bottom - top, CAPITAL)))
-        return cls(words, shapes, fonts, "keep" if use.options.nest else holes)
-
-    def set_along(
-        self,
-        limbs: Sequence[Limb],
-        heights: FloatArray,
-        least: float,
-        gap: float,
-        largest: float | None,
-    ) -> Lanes:
-        """Setting that keeps most of the steps between heights with all words readable.
-
-        Of those, that of the largest sizes with which all words find a place.
-        """
-        most = LARGEST * 2 * float(np.median(limbs[0].half))
-        count = max(int(np.log(least / most) / np.log(FINER)), 1)
-        for share in NEARER:
-            own = np.cumprod(np.append(1.0, share * heights[1:] / heights[:-1] + 1 - share))
-
-            def lanes(step: int, own: FloatArray = own) -> Lanes:
-                return Lanes(self.shapes, most * FINER**step * own, least, gap, largest)
-
-            low, high = -1, count
-            if lanes(count).has_room(limbs):
-                while high - low > 1:
-                    middle = (low + high) // 2
-                    low, high = (low, middle) if lanes(middle).has_room(limbs) else (middle, high)
-                break
-        best = lanes(high)
-        for limb in limbs:
-            best.fill(limb)
-        return best
-
-    def bent(
-        self,
-        found: Sequence[WordOnLine],
-        container: Container,
-        gap: float,
-        stop: Stop,
-        wanted: FloatArray | None = None,
-    ) -> _Bent:
-        """Words on their lines, smaller where they come too near; sizes in order if wanted."""
-        pairs = [self._bent(one) for one in found]
-        items = tuple(item for item, _ in pairs)
-        poses = Poses(*np.array([row for _, row in pairs]).reshape(-1, 4).T)
-        for _ in range(MOST_SHRUNK):
-            outlines = [item.outline.mapped(poses.matrix(k)) for k, item in enumerate(items)]
-            wrong = violations(outlines, container.outline, gap)
-            if not wrong or stop():
-                break
-            scale = poses.scale.copy()
-            scale[[k for one in wrong for k in (one.item, one.other) if k is not None]] *= SHRUNK
-            if wanted is not None:
-                scale = held_down([one.word for one in found], scale, wanted)
-            poses = replace(poses, scale=scale)
-        return _Bent(items, poses)
-
-    def _bent(self, one: WordOnLine) -> tuple[Item, tuple[float, float, float, float]]:
-        """A word on its line, upright in its own frame, and its pose."""
-        middle, size = (one.start + one.end) / 2, one.size
-        angle = float(one.line.angle(middle, (one.end - one.start) / 4))
-        x, y = one.line.at(middle).tolist()
-        place = affine.similarity(x, y, angle, size)
-        ends = one.start - size, one.end + size
-        along = one.line.lengths[(one.line.lengths > ends[0]) & (one.line.lengths < ends[1])]
-        points = one.line.at(np.concatenate([ends[:1], along, ends[1:]]))
-        curve = Curve.through(affine.apply(affine.inverse(place), points))
-        length = (one.end - one.start) / size
-        word = bent_word(self.words[one.word], self.fonts, curve, 1.0, 1.0 + length, self.holes)
-        [(x, y)] = affine.apply(place, -word.place[:, 2][None] / EM_PX)
-        return word.item, (float(x), float(y), angle, size / EM_PX)
+    many = number_of(len(rows) - len(kept), "word is", "words are")
+    return found.with_finding(Sentence.SET_AGAIN, many=many, count=len(rows))
