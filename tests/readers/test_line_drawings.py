@@ -280,3 +280,25 @@ def test_marks_beyond_a_filled_part_are_counted(
     assert isinstance(item.art, LineArt)
     assert [len(line.points) for line in item.art.engraved] == [2]
     assert "1 engraved beyond an edge, 1 to engrave beside all parts" in caplog.text
+
+
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        '<rect width="30" height="20" fill="red"/><path d="M5 5h9" stroke="red" fill="none"/>',
+        f'<rect width="30" height="20" {HAIRLINE} style="stroke:red"/>',
+        '<g id="engrave"><rect width="30" height="20"/></g>',
+    ],
+)
+def test_what_is_engraved_all_over_is_refused_in_these_words(tmp_path: Path, drawn: str) -> None:
+    with pytest.raises(ReadError, match="is engraved all over, by the colours or layers"):
+        parts(tmp_path, drawn, engrave=["red"])
+
+
+def test_a_body_whose_edge_alone_is_engraved_is_cut(tmp_path: Path) -> None:
+    body = '<rect width="30" height="20" fill="silver" stroke="red" stroke-width=".1"/>'
+    (item,) = parts(tmp_path, f'{body}<path d="M5 5h9" stroke="red"/>', engrave=["red"])
+    assert isinstance(item.art, LineArt)
+    assert item.outline.area / MM**2 == pytest.approx(600)
+    assert (len(item.art.cut), len(item.art.engraved)) == (1, 2)
+    assert {line.colour for line in item.art.engraved} == {"red"}

@@ -14,7 +14,9 @@ MOST_TOLD = 12
 
 @dataclass(frozen=True, eq=False)
 class Engraving:
-    """Colours and names of layers that are engraved, and which of a drawing's were met.
+    """Colours and names of layers that are engraved, and which of the drawings' were met.
+
+    ``stated``: SVGs that were read, and whether each says in real units how large it is.
 
     Examples
     --------
@@ -27,6 +29,7 @@ class Engraving:
     wanted: dict[str, set[object]] = field(default_factory=dict)
     met: set[object] = field(default_factory=set)
     others: dict[str, None] = field(default_factory=dict)
+    stated: dict[str, bool] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for text in self.asked:

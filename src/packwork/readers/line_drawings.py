@@ -42,7 +42,7 @@ from packwork.readers.gate.door import MAX_BYTES, parse_xml, serialised, unpacke
 from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
-from packwork.readers.svg.container import name_of, tag_of
+from packwork.readers.svg.container import name_of, stated_unit, tag_of
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg.ink import PaintedInk
 from packwork.readers.svg.item import item_of_svg
@@ -87,6 +87,7 @@ def read_line_drawing(path: str | Path, holes: Holes, engraving: Engraving) -> l
     with reading_file(str(path)), one_budget():
         data = _with_engraved_layers(data, engraving)
         drawing = read_drawing(data, is_on_paper=True)
+        engraving.stated[str(path)] = stated_unit(drawing.root) is not None
         is_plain = isinstance(drawing.ink, PaintedInk) and not any(
             shape.clips for shape in drawing.shapes
         )
@@ -100,7 +101,17 @@ def read_line_drawing(path: str | Path, holes: Holes, engraving: Engraving) -> l
         if is_plain and (lines := _lines_to_cut(drawing, engraved)) is not None:
             return items_of(cad_parts(lines), name, str(path), holes)
         marks = [line for shape in engraved for line in _cad_lines(shape, drawing, ENGRAVED, _UP)]
-        if is_plain and (filled := _without_lines(drawing, engraved)) is not None:
+        bodies = [
+            shape for shape in engraved
+            if shape.painting.has_fill and shape.painting.has_stroke
+            and _MARK not in shape.painting.pen.dashes and not engraving.holds(shape.painting.fill)
+        ]  # fmt: skip
+        if engraved and len(engraved) == len(drawing.shapes) and not bodies:
+            raise UnfitError(
+                "is engraved all over, by the colours or layers of all that it shows; give the "
+                "outline that is to be cut another one"
+            )
+        if is_plain and (filled := _without_lines(drawing, engraved, bodies)) is not None:
             drawing = read_drawing(filled, is_on_paper=True)
             data = filled
     item = item_of_svg(data, name, str(path), holes, is_compared=True)
@@ -268,14 +279,19 @@ def _arcs_of(cubics: FloatArray, tolerance: float) -> ArcLine:
     return arcs_along(curve, np.arange(len(cubics) + 1.0), tolerance)
 
 
-def _without_lines(drawing: PaintedDrawing, engraved: Sequence[Painted]) -> bytes | None:
-    """The same drawing without what is engraved and thin lines; None if there are none."""
+def _without_lines(
+    drawing: PaintedDrawing, engraved: Sequence[Painted], bodies: Sequence[Painted]
+) -> bytes | None:
+    """The same drawing without what is engraved and thin lines; None if there are none.
+
+    ``bodies``: those whose line alone is engraved.
+    """
     extent = _extent(drawing)
     lined = [shape.element for shape in drawing.shapes if _is_thin(shape, extent)]
     for element in lined:
         element.set("stroke", "none")
     for shape in engraved:
-        shape.element.attrib |= {"stroke": "none", "fill": "none"}
+        shape.element.attrib |= {"stroke": "none", **({} if shape in bodies else {"fill": "none"})}
     return serialised(drawing.root).encode() if lined or engraved else None
 
 

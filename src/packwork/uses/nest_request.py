@@ -16,12 +16,10 @@ from packwork.errors import ReadError, RecipeError
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
 from packwork.readers.engraving import Engraving
-from packwork.readers.files import exists, read_bytes
-from packwork.readers.gate.door import MAX_BYTES, parse_xml, unpacked
+from packwork.readers.files import exists
 from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import SESSION, holds_layout, read_written
-from packwork.readers.svg.container import stated_unit
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item
 from packwork.scene.line_art import LineArt
@@ -185,7 +183,10 @@ def check_told(sheets: Sequence[Sheet], parts: Sequence[SheetPart], engraving: E
     engraving.check_met()
     in_px = sheets[0].unit == "px"
     files = dict.fromkeys(part.item.source for part in parts)
-    odd = [file for file in files if _states_unit(file) is in_px]
+    # That a DXF states none is told where it is read.
+    known = {**dict.fromkeys((one for one in files if one.lower().endswith(".dxf")), True),
+             **engraving.stated}  # fmt: skip
+    odd = [file for file in files if known.get(file) is in_px]
     if odd:
         named = ", ".join(odd[:4]) + (f" and {len(odd) - 4} others" if len(odd) > 4 else "")
         what = (
@@ -194,16 +195,6 @@ def check_told(sheets: Sequence[Sheet], parts: Sequence[SheetPart], engraving: E
             else (f"no unit is stated in {named}, and the sheet is in {sheets[0].unit}")
         )
         _LOG.warning("%s; a px is taken for 1/96 inch", what)
-
-
-def _states_unit(file: str) -> bool | None:
-    """True of a drawing that says how large it is; None of what is no file of one."""
-    ending = Path(file).suffix.lower()
-    if ending not in {".svg", ".svgz", ".dxf"} or not exists(file):
-        return None
-    # That a DXF states none is told where it is read.
-    is_svg = ending != ".dxf"
-    return not is_svg or stated_unit(parse_xml(unpacked(read_bytes(file, MAX_BYTES)))) is not None
 
 
 def read_parts(

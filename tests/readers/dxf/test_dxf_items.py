@@ -420,7 +420,10 @@ def concentric(space: Modelspace) -> None:
         (overlapping, "layer 'B': the CIRCLE crosses another one, on layer 'A', at (2.5, "),
         (branching, "layer 'CUT': 3 lines meet at (10, 0), so that no outline is clear"),
         (lambda space: space.add_lwpolyline([(0, 0), (5, 0)], close=True), "has no area"),
-        (lambda space: space.add_circle((0, 0), 5, {"layer": "etch"}), "to engrave alone"),
+        (
+            lambda space: space.add_circle((0, 0), 5, {"layer": "etch"}),
+            "to engrave alone, on layer 'etch' in #",
+        ),
         (speckled, "layer 'TRIM': the CIRCLE at (7.0001, 4) is a part of 0.0002 mm; take it out"),
         (lambda space: space.add_circle((1e12, 0), 1), "beyond 1e+09"),
         (lambda space: space.add_blockref("NONE", (0, 0)), "holds no outline"),

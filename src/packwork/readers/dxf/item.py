@@ -184,8 +184,12 @@ def _why_none(
     if loose:
         return _open_at(loose, loose[0])
     if engraved and not cut:
-        layers = ", ".join(sorted({piece.layer[:40] for piece in engraved})[:4])
-        return f"has lines to engrave alone, on layers such as {layers}; outlines go on others"
+        said = dict.fromkeys(f"layer {one.layer[:40]!r} in {one.colour}" for one in engraved)
+        where = ", ".join([*said][:4])
+        return (
+            f"has lines to engrave alone, on {where}; the outline that is to be cut wants another "
+            "layer or colour"
+        )
     if cut:
         first = cut[0]
         return (
