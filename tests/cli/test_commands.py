@@ -356,3 +356,26 @@ def test_items_like_the_background_are_named_and_may_have_rims(
     assert "hardly to be seen" not in rims.stdout
     assert 'id="halos"' in (folder / "rims.svg").read_text(encoding="utf-8")
     assert "hardly" not in packwork(f"fill circle ghost.svg {quick} -o out.dxf").stdout
+
+
+@pytest.mark.parametrize(
+    ("files", "lack"),
+    [
+        ("-o a.packwork", "session"),
+        ("-o a.svg -o a.dxf", "lines for a DXF"),
+        ("-o a.svg --film a.gif", "film"),
+        ("-o a.svg --cut outlines", "lines for a cutter"),
+        ("-o a.svg --flatten", "items without <use>"),
+    ],
+)
+def test_what_a_tile_cannot_be_is_refused_before_it_is_run(
+    files: str, lack: str, folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def never(*_: object, **__: object) -> None:
+        raise AssertionError("it was run")
+
+    monkeypatch.setattr("packwork.cli.running.run_chosen", never)
+    result = packwork(f"fill square star {QUICK} --tile square {files}")
+    assert result.exit_code == 2
+    assert f"a tile goes on over its edge: it has no {lack}" in " ".join(result.output.split())
+    assert not list(folder.iterdir())

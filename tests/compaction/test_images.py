@@ -10,8 +10,10 @@ from hypothesis import given, settings
 
 from packwork.compaction.arrangement import Arrangement, find_conflicts
 from packwork.compaction.compact import compact_all
+from packwork.compaction.kernels.trials import allocate_batch, choose_disjoint
 from packwork.compaction.objective import FreeSizes
 from packwork.compaction.separate import relocate, separate
+from packwork.finish.proposals import destinations
 from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import Outline
 from packwork.metrics.torus import torus_metrics
@@ -119,3 +121,19 @@ def test_conflicts_are_the_same_in_whichever_cell_items_are(
     here, there = (find_conflicts(tile, outlines, one, GAP) for one in (poses, away))
     assert [(c.item, c.other) for c in here] == [(c.item, c.other) for c in there]
     assert [c.overlap_cu2 for c in here] == pytest.approx([c.overlap_cu2 for c in there])
+
+
+def test_a_trial_looks_at_all_images_of_what_it_moves() -> None:
+    lattice = LATTICES[0]
+    places = np.zeros((3, 4))
+    places[:, :2] = [(2.0, 2.0), (7.0, 6.0), (7.0, 2.0)]
+    three = arranged([square(0.2)] * 3, lattice, places)
+    chosen = allocate_batch(1, 1, len(three.board.arms))
+    moved = np.array([[0, 1]])
+    count = choose_disjoint(
+        three.board, three.radii, moved, destinations(three, moved), 1, 0.1, 0.1, chosen
+    )
+    near = chosen.near[: chosen.begins[1, 1]]
+    assert count == 1
+    assert set(np.flatnonzero(np.isin(three.owners, [0, 1]))) <= set(near)
+    assert (np.diff(near) > 0).all()

@@ -12,12 +12,14 @@ import packwork as pw
 from packwork.errors import RecipeError
 from packwork.geometry.curves import Curve
 from packwork.metrics.violations import Violation
+from packwork.pipeline import run
 from packwork.progress import never
 from packwork.readers.container import read_container
 from packwork.readers.layouts.svg import layout_of_svg
 from packwork.readers.words.items import EM_PX, word_fonts
 from packwork.readers.words.options import Word, WordOptions
 from packwork.start.lanes import WordOnLine
+from packwork.uses import read, words_recipe
 from packwork.uses.words import line_of_words
 
 LICENCE = Path(pw.__file__).with_name("bundled") / "fonts" / "LICENCE-Inter.txt"
@@ -66,14 +68,15 @@ def test_heavy_words_are_larger(spiral: pw.Layout) -> None:
 
 def test_few_words_are_set_in_turn_until_the_limb_is_full() -> None:
     words = {"spiral": 9.0, "turn": 7.0, "arm": 6.0, "line": 5.0, "wave": 4.0, "bend": 2.0}
-    layout = pw.words(SPIRAL, words, along="limbs")
+    done = run(read(words_recipe(str(SPIRAL), words, along="limbs")))
+    layout = done.layout
     often = [sum(item.name == word for item in layout.items) for word in words]
     assert min(often) > 1
     assert max(often) <= 2 * min(often)
-    said = [one for one in layout.remarks if "set again" in one]
+    said = [one for one in done.remarks if "set again" in one]
     assert said == [
-        f"{len(layout) - 6} words are set again, until the line is full; {len(layout)} would "
-        "fill it once"
+        f"{len(layout.items) - 6} words are set again, until the line is full; "
+        f"{len(layout.items)} would fill it once"
     ]
 
 

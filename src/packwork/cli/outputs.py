@@ -17,6 +17,7 @@ from packwork.recipe import Recipe
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import VERBS, default_of, film_options, options_of
 from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.sources import check_no_input
 from packwork.units import split_length
@@ -101,13 +102,28 @@ class Outputs:
         return [(self.recipe, writers.recipe_bytes(recipe.plain(), self.recipe.parent))]
 
     def check_read(self, job: pipeline.Job) -> None:
-        """Refuse, once all is read, to write over any of it, and pictures that are too large."""
+        """Refuse, once all is read, to write over any of it, and what the container cannot be."""
         for path in self.every:
             check_no_input(path)
+        self._check_edge(job.container)
         if job.recipe.container != NO_CONTAINER:
             pictures = [*self.files, *([] if self.diagnose is None else [self.diagnose])]
             for path in pictures:
                 writers.check_picture_size(path, job.container, self.options)
+
+    def _check_edge(self, container: Container) -> None:
+        """Refuse what needs an edge of a tile, which would be found when it is written."""
+        endings, svg = {path.suffix.lower() for path in self.files}, self.options.svg
+        is_drawn = bool(endings & {".svg", ".pdf"})
+        for key, what, is_asked in (
+            ("output", "session, in which it is edited by hand", any(map(is_session, self.files))),
+            ("output", "lines for a DXF", ".dxf" in endings),
+            ("film", "film", bool(self.films)),
+            ("cut", "lines for a cutter", is_drawn and svg.cut is not None and svg.cut.is_asked),
+            ("flatten", "items without <use>", svg.flatten and ".svg" in endings),
+        ):
+            if is_asked:
+                container.check_edge(key, what)
 
 
 def outputs_asked(

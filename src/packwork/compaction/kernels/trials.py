@@ -312,15 +312,20 @@ def _meet(boxes, begin, end, hull, margin):
 
 
 @helper
-def _add_near(boxes, begin, end, hull, polygons, moved, margin, near, count):
-    """Write which polygons come within a margin of some boxes, all in a hull, or are moved."""
+def _add_near(boxes, begin, end, hull, board, moved, margin, near, count):
+    """Write which polygons come within a margin of some boxes, all in a hull, or are moved.
+
+    Images move with their item, to where their boxes do not lie yet.
+    """
+    polygons = board.boxes
     for j in range(polygons.shape[0] - 1):
         left, top = polygons[j, 0] - margin, polygons[j, 1] - margin
         right, bottom = polygons[j, 2] + margin, polygons[j, 3] + margin
         is_near = hull[0] <= right and hull[2] >= left and hull[1] <= bottom and hull[3] >= top
         if is_near:
             is_near = _comes_near(boxes, begin, end, left, top, right, bottom)
-        if is_near or j == moved[0] or j == moved[1]:
+        owner = board.owners[j]
+        if is_near or owner == moved[0] or owner == moved[1]:
             near[count] = j
             count += 1
     return count
@@ -362,7 +367,7 @@ def choose_disjoint(board, radii, moved, places, neighbours, room, margin, chose
         count += 1
         begins[count, 0], begins[count, 2] = begin + held, end
         begins[count, 1] = _add_near(
-            reached, last, last + held, hull, board.boxes, moved[p], margin, chosen.near,
+            reached, last, last + held, hull, board, moved[p], margin, chosen.near,
             begins[count - 1, 1],
         )  # fmt: skip
     return count
