@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -95,6 +96,39 @@ def test_a_table_of_excel_becomes_a_chart_under_the_hand(
     desk.until("!studio.collage.state.can_undo || studio.collage.state.busy")
     desk.settled()
     assert areas(desk) == pytest.approx(sizes)
+
+
+def test_each_group_of_a_chart_has_a_container_of_its_own(
+    open_desk: Callable[..., Desk], table: Path
+) -> None:
+    desk = open_desk()
+    give(desk, table)
+    asked = desk.page.locator("dialog.asking[open]")
+    asked.get_by_role("button", name="A chart").click()
+    asked.get_by_label("Groups").select_option("Tassen")
+    assert asked.get_by_label("In steps of").is_visible()
+    asked.get_by_label("Groups").select_option("Kontinent")
+    assert asked.get_by_label("In steps of").is_hidden()
+    desk.picture("chart-groups-asked")
+    asked.get_by_role("button", name="Draw the chart").click()
+    parts = "(studio.collage.scene?.outline.match(/M/g) ?? []).length"
+    desk.until(f"studio.collage.scene?.kind === 'chart' && {parts} === 3")
+    desk.settled()
+    desk.picture("chart-groups")
+    # The last two marks are Asia's: poured anew they lie beside each other, far from the first.
+    first = desk.look("studio.collage.poses[0]")
+    desk.page.keyboard.press("r")
+    desk.until(f"!studio.collage.state.busy && studio.collage.poses[0] !== {first}")
+    desk.settled()
+    places = [desk.look(f"(p => [p.x, p.y])(studio.collage.pose({k}))") for k in (4, 5, 0)]
+    near, far = (math.dist(places[0], other) for other in places[1:])
+    assert near < 0.5 * desk.look("studio.collage.scene.width") < 2 * far
+    desk.picture("chart-groups-anew")
+    # Another chart begins in the container of one of them.
+    desk = open_desk()
+    draw(desk, table)
+    desk.until(f"{parts} === 1")
+    desk.settled()
 
 
 def test_a_table_without_numbers_is_a_chart_of_its_rows(

@@ -134,6 +134,15 @@ class Document:
             return self.container
         return replace(self.container, backdrop=covering(self.behind, sheet_box(self.container)))
 
+    @cached_property
+    def chart_groups(self) -> dict[str, IntArray]:
+        """Rows of the marks of each group of a chart, by its name; empty where it has none."""
+        found = dict[str, list[int]]()
+        for k, item in enumerate(self.items):
+            if item.datum is not None and item.datum.group:
+                found.setdefault(item.datum.group, []).append(k)
+        return {name: np.array(rows) for name, rows in found.items()}
+
     @property
     def positive_weights(self) -> FloatArray:
         """Weights; fillers, which ask for nothing, have the smallest of any other."""

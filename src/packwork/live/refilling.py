@@ -9,6 +9,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.certificate import Certificate, promise_of
+from packwork.live.chart_groups import stray
 from packwork.live.commands.command import Library
 from packwork.live.document import Document
 from packwork.live.macros import word_rows
@@ -117,18 +118,16 @@ def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled |
     # Other letters do not lie where those before did.
     if _has_other_outlines(before, now) or not np.array_equal(before.ids, now.ids):
         return None
-    share = [100 * covered(one) for one in (before, now)]
+    share, elsewhere = [100 * covered(one) for one in (before, now)], stray(before, now)
     least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
-    if share[1] >= share[0] * least and not has_no_room:
+    if share[1] >= share[0] * least and not (has_no_room or elsewhere):
         return None
     names = ("poses", "weights", "smallest", "largest", *["options"] * has_no_room)
     columns = {name: getattr(before, name) for name in names}
-    message = (
-        "taken back, for there is no room for it at these sizes"
-        if has_no_room
-        else f"taken back, for all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
-    )
-    return Refilled(replace(now, **columns), message)
+    why = f"all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
+    if has_no_room:
+        why = "there is no room for it at these sizes"
+    return Refilled(replace(now, **columns), f"taken back, for {elsewhere or why}")
 
 
 def advice_of(document: Document) -> tuple[str, ...]:

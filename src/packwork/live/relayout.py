@@ -15,6 +15,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, valid
 from packwork.live.certificate import promise_of
+from packwork.live.chart_groups import poured_by_group
 from packwork.live.commands.command import Command, Library, made, named_container, named_item
 from packwork.live.commands.container import SetContainer, SetOption
 from packwork.live.commands.items import Add, Remove
@@ -69,6 +70,18 @@ def poured_again(
         return _nested(document, seed, shown, stop, asked)
     if isinstance(document.kind, PileKind):
         return _heaped(document, document.kind, seed, shown, stop, asked)
+    if document.chart_groups:
+        poses = poured_by_group(
+            document, lambda part, show: _together(part, seed, show, stop, asked), shown
+        )
+        return arranged(document.ids.tolist(), poses)
+    return _together(document, seed, shown, stop, asked)
+
+
+def _together(
+    document: Document, seed: int, shown: Shown, stop: Stop, asked: Mapping[str, Any]
+) -> Arrange:
+    """All items of a document anew in the whole of its container."""
     is_by_text = asked.get("embeddings") == BY_TEXT
     mosaic = document.mosaic
     if mosaic is not None and not asked and mosaic.is_seen_on(document.container):

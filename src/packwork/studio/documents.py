@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from pydantic import Field
 
 from packwork.errors import ReadError
+from packwork.live.chart_groups import region_of_one
 from packwork.live.face.offers import container_of
 from packwork.live.face.opening import Opening, chart_opening, opening_sent
 from packwork.live.face.templates import template
@@ -62,6 +63,10 @@ class BeginChart(PageRequest):
     """Column of numbers; None for marks that are all alike."""
     color_by: Name | None = None
     label_by: Name | None = None
+    by: Name | None = None
+    """Column whose values are groups, each in a container of its own; None for no groups."""
+    by_step: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
+    """Numbers of that column in steps of so much."""
     mark: Annotated[str, Field(pattern="^builtin:[a-z0-9-]{1,60}$")] | None = None
     """A bundled drawing; None for circles."""
     title: Annotated[str, Field(max_length=200)] = ""
@@ -72,7 +77,8 @@ class BeginChart(PageRequest):
 
     def _begin(self, tab: Tab) -> None:
         file, container = tab.importer.file(self.source), _room(tab)
-        asked = {"size_by": self.size_by, "color_by": self.color_by, "label_by": self.label_by}
+        columns = ("size_by", "color_by", "label_by", "by", "by_step")
+        asked = {name: getattr(self, name) for name in columns}
         marks = () if self.mark is None else (self.mark,)
         opening = chart_opening(container, file, **asked, mark=marks, title=self.title or None)
         tab.importer.begin(opening)
@@ -80,13 +86,15 @@ class BeginChart(PageRequest):
 
 def _room(tab: Tab) -> Container:
     """Container on the desk, without the paper that a chart has about it."""
-    if (shown := tab.workspace.shown) is None:
+    shown, owner = tab.workspace.shown, tab.workspace.owner
+    if shown is None or owner is None:
         return container_of("circle", None)
     container = shown.view.container
     if not isinstance(shown.view.kind, ChartKind):
         return container
-    left, top, right, bottom = container.outline.bounds
-    box, region = (left, top, right - left, bottom - top), container.outline.region
+    region = region_of_one(owner.frame.document)
+    left, top, right, bottom = region.bounds
+    box = (left, top, right - left, bottom - top)
     room = placed_container(container.name, container.source, region, box, container.side)
     return replace(room, unit=container.unit)
 

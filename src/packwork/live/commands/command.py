@@ -135,6 +135,14 @@ def check_may_size(document: Document, what: str) -> None:
         raise RecipeError(what, document.kind.refusal)
 
 
+def check_one_container(document: Document) -> None:
+    """Refuse another container where each group of a chart has one of its own."""
+    if document.chart_groups:
+        raise RecipeError(
+            "container", "each group of a chart has one of its own; draw the chart in another"
+        )
+
+
 def _numbers(document: Document) -> str:
     if not len(document):
         return "the layout is empty"

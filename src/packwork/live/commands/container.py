@@ -14,7 +14,14 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, valid
 from packwork.geometry.polygon import region
-from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
+from packwork.live.commands.command import (
+    FARTHEST,
+    Command,
+    Library,
+    Number,
+    check_one_container,
+    known,
+)
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.live.options import LiveOptions
@@ -37,6 +44,7 @@ class SetContainer(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the container."""
+        check_one_container(document)
         new = cast(Container, known(library.containers, self.asset, "container"))
         return replace(document, container=new)
 
@@ -52,6 +60,7 @@ class Reshape(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the outline."""
+        check_one_container(document)
         if sum(map(len, self.rings)) > MOST_POINTS:
             raise RecipeError("reshape", f"more than {MOST_POINTS} points; use fewer")
         arrays = [np.array(ring, dtype=np.float64).reshape(-1, 2) for ring in self.rings]
@@ -76,6 +85,7 @@ class DrawContainer(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the outline."""
+        check_one_container(document)
         line, container = np.array(self.line), document.container
         if float(np.abs(line).max()) > FARTHEST * container.side:
             raise RecipeError("container", "points are nowhere near the canvas")
@@ -105,6 +115,7 @@ class PlaceContainer(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the container there."""
+        check_one_container(document)
         container = document.container
         if max(abs(self.x), abs(self.y)) > FARTHEST * container.side:
             raise RecipeError("container", f"{self.x:g}, {self.y:g} is nowhere near the canvas")

@@ -17,12 +17,16 @@ export class Tables {
   constructor(studio) {
     this.studio = studio;
     this.batch = "";
+    /** Columns of numbers. @type {Set<string>} */
+    this.numbers = new Set();
     this.title = h("h2", {});
     this.rows = h("table", {});
     this.size = h("select", {});
     this.colour = h("select", {});
     this.label = h("select", {});
     this.mark = h("select", {});
+    this.by = h("select", { onchange: () => this.refresh() });
+    this.step = h("input", { type: "number", min: "0", step: "any", placeholder: "each value" });
     this.heading = h("input", { type: "text", maxlength: "200", placeholder: "none" });
     this.answers = h("div", { class: "stack" },
       this.answer("Words", "each as large as its number", () => this.fill(), "primary"),
@@ -30,7 +34,8 @@ export class Tables {
       this.answer("Vectors", "like items come to lie side by side", () => this.alike()));
     const field = (/** @type {string} */ label, /** @type {HTMLElement} */ of) => h("label", { class: "row" }, label, of);
     this.form = h("form", { class: "columns", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
-      field("Size", this.size), field("Colour", this.colour), field("Names", this.label), field("Marks", this.mark), field("Title", this.heading),
+      field("Size", this.size), field("Colour", this.colour), field("Names", this.label), field("Groups", this.by),
+      this.steps = field("In steps of", this.step), field("Marks", this.mark), field("Title", this.heading),
       h("p", { class: "hint" }, "It begins as a document of its own, in the container that is there."),
       h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, "Draw the chart"), h("button", { type: "button", onclick: () => this.show(false) }, "Back")));
     this.dialog = h("dialog", { class: "asking", "aria-label": "What is in the table" }, this.title, this.rows, this.answers, this.form,
@@ -72,6 +77,14 @@ export class Tables {
     choose(this.size, "all alike", numbers, numbers[0]);
     choose(this.colour, "all alike", columns, kinds);
     choose(this.label, "none", columns, names);
+    choose(this.by, "none", columns, undefined);
+    this.numbers = new Set(numbers.map((one) => one.name));
+    this.refresh();
+  }
+
+  /** Ask for steps of what are numbers. */
+  refresh() {
+    this.steps.hidden = !this.numbers.has(this.by.value);
   }
 
   /** @param {boolean} isChart */
@@ -87,10 +100,11 @@ export class Tables {
   submitted(event) {
     event.preventDefault();
     this.dialog.close();
-    const { size, colour, label, mark, heading } = this;
+    const { size, colour, label, by, step, mark, heading } = this;
     this.studio.choice.set([]);
     this.studio.connection.send({
       type: "chart", source: `file:${this.batch}`, size_by: size.value || null, color_by: colour.value || null, label_by: label.value || null,
+      by: by.value || null, by_step: this.steps.hidden ? null : step.valueAsNumber || null,
       mark: mark.value ? `builtin:${mark.value}` : null, title: heading.value.trim() });
   }
 
