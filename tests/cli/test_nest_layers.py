@@ -75,7 +75,8 @@ def test_an_svg_holds_lines_alone_in_layers_by_what_is_done_with_them(
     result = packwork(f"{LINE} -o a.svg -o a.dxf -o a.pdf")
     assert result.exit_code == 0, result.output
     found = layers(shop / "a.svg")
-    assert list(found) == ["artwork", "Score", "engrave", "cut"]
+    assert list(found) == ["sheet", "artwork", "Score", "engrave", "cut"]
+    assert found.pop("sheet").get("display") == "none"
     colours = {name: group.get("stroke") for name, group in found.items()}
     assert (colours["cut"], colours["engrave"]) == ("#ff0000", "#0000ff")
     assert [one.get("stroke") for one in found["Score"]] == ["#00ff00"] * 2
@@ -110,7 +111,7 @@ def test_an_svg_of_lines_is_a_nest_to_go_on_with(shop: Path, packwork: Command) 
     assert before == after == {"Score": (2, 0), "engrave": (0, 2)}
     assert (more[0], more[1]) == (cut[0], cut[1] + 1)
     found = layers(shop / "b.svg")
-    assert [len(group) for group in found.values()] == [2, 2, 2, 5]
+    assert [len(group) for group in found.values()] == [1, 2, 2, 2, 5]
     again = pw.Layout.load(shop / "b.svg")
     assert again.areas[:4] == pytest.approx(one.areas, rel=1e-7)
 

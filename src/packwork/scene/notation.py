@@ -100,7 +100,11 @@ def arc_path_data(line: ArcLine, digits: int) -> str:
     'M2 0A2 2 0 0 1 1.94 0.49A2 2 0 0 1 1.76 0.96'
     """
     made = [f"M{points_text(line.points[:1], digits)}"]
-    for start, end, bulge in zip(line.points, line.ends, line.bulges.tolist(), strict=False):
+    # A straight side at the end of a closed line is drawn by its Z.
+    sides = line.sides - int(line.is_closed and abs(line.bulges[-1]) <= STRAIGHT)
+    for start, end, bulge in zip(
+        line.points[:sides], line.ends, line.bulges.tolist(), strict=False
+    ):
         if abs(bulge) <= STRAIGHT:
             made.append(f"L{points_text(end[None], digits)}")
             continue

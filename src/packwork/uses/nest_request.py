@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -45,7 +45,7 @@ MOST_DIGITS = 9
 WITHIN_LIMIT = 4
 """Angles tried to each side where parts may turn within a limit."""
 
-_TIMES = re.compile(r"(?P<source>.+)\*(?P<count>[0-9]{1,6})")
+_TIMES = re.compile(r"(?P<source>.+?)\s*\*\s*(?P<count>[0-9]{1,6})")
 
 RULES = ("rotate", "mirror", "optional", "priority", "together")
 """Columns of a cut list that say how its parts may lie."""
@@ -162,6 +162,8 @@ def read_request(
         return [Sheet(height=instance.height, name=instance.name)], parts
     if not named and not optional:
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.dxf*12")
+    if named and named[0].casefold() in {"x", "*", *get_args(Unit)} and not exists(named[0]):
+        raise RecipeError("sheet", f"{sheet} {named[0]} ... has spaces; write it as 600x400mm")
     sheets = read_sheets(sheet)
     parts = [
         part

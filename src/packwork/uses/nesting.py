@@ -248,7 +248,8 @@ def _check_fit(
         raise RecipeError(
             "items",
             f"{asked.item.name} is {size} with the distance that it keeps, and the sheet {room}; "
-            "allow other angles or a larger one",
+            "allow other angles or a larger one"
+            + (", or state its unit, as 600x400mm" if unit == "px" else ""),
         )
 
 

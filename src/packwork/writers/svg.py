@@ -37,7 +37,7 @@ from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import PictureFrame
 from packwork.writers.options import TextChoice
 from packwork.writers.promise import promised, stated_limits, stated_weights
-from packwork.writers.svg_lines import NAMESPACE, line_layers
+from packwork.writers.svg_lines import NAMESPACE, layer_attributes, line_layers
 from packwork.writers.svg_live_text import LiveWords
 from packwork.writers.svg_symbols import element, item_ids, labelled, note_groups, paint, shape_key
 
@@ -162,7 +162,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
         *_background(options.background),
         *_backdrop(layout.container.backdrop),
         *_halos(layout, digits),
-        *_container(layout, options.show_container, digits),
+        *_container(layout, options, digits),
         *(_lines if options.lines else _items)(layout, shapes, digits, live, options),
         *_images(layout, digits, flatten=options.flatten),
         *note_groups(layout),
@@ -279,8 +279,9 @@ def _halos(layout: Layout, digits: int) -> list[str]:
     return [f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">', *drawn, "</g>"]
 
 
-def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
+def _container(layout: Layout, options: SvgOptions, digits: int) -> list[str]:
     container = layout.container
+    layer = layer_attributes("sheet") if options.lines else ""
     head = attributes(
         {
             "id": "container",
@@ -289,15 +290,15 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
             "fill": "none",
             "stroke": CONTAINER_STROKE,
             "stroke-width": f"{container.side * CONTAINER_STROKE_SHARE:.6g}",
-            "display": "" if shown else "none",
+            "display": "" if options.show_container else "none",
         }
     )
     outline = path_data(container.outline, digits)
     if container.walls is None:
-        return [f"<g{head}>", f'<path d="{outline}"/>', "</g>"]
+        return [f"<g{head}{layer}>", f'<path d="{outline}"/>', "</g>"]
     # The path is what items lie in, and is measured; seen are the walls.
     lines = [f'<polyline points="{points_text(line, digits)}"/>' for line in container.walls]
-    return [f"<g{head}>", f'<path stroke="none" d="{outline}"/>', *lines, "</g>"]
+    return [f"<g{head}{layer}>", f'<path stroke="none" d="{outline}"/>', *lines, "</g>"]
 
 
 def _promise_attributes(layout: Layout) -> dict[str, str]:

@@ -95,8 +95,12 @@ def cut_path(art: LineArt, digits: int) -> str:
 def _layer(name: str, label: str, more: Mapping[str, str], drawn: list[str]) -> list[str]:
     kind = {"artwork": "artwork", "items": CUT}.get(name, ENGRAVE)
     head = attributes({"id": name, "data-lines": kind, **more})
-    shown = f' inkscape:groupmode="layer" inkscape:label="{xml_text(label)}"'
-    return [f"<g{head}{shown}>", *drawn, "</g>"]
+    return [f"<g{head}{layer_attributes(label)}>", *drawn, "</g>"]
+
+
+def layer_attributes(label: str) -> str:
+    """Attributes by which Inkscape, and what goes by it, takes a group for a layer."""
+    return f' inkscape:groupmode="layer" inkscape:label="{xml_text(label)}"'
 
 
 def _painted(item: Item, number: int, name: str, place: str) -> list[str]:

@@ -55,6 +55,8 @@ IGNORED = re.compile(r"constr|dimension|guide|\bdims?\b|border|title", re.IGNORE
 OURS = {"container", "room"}
 """Layers of the sheet in drawings that we wrote."""
 
+_TEXTS = {"TEXT", "MTEXT", "HATCH", "ATTDEF", "ATTRIB"}
+
 LEAST_MM, MOST_MM = 1e-3, 1e6
 """Sizes of a part beyond which its unit is a mistake. Chosen."""
 
@@ -162,7 +164,9 @@ def tell_left_out(left_out: Counter[str]) -> None:
     """Count what is neither cut nor engraved, in a line."""
     if left_out:
         told = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
-        notice(f"left out: {told}; text and hatches have to be made curves to be engraved")
+        is_text = not _TEXTS.isdisjoint(left_out)
+        hint = "; text and hatches have to be made curves to be engraved" if is_text else ""
+        notice(f"left out: {told}{hint}")
 
 
 def _px_of(drawing: CadDrawing) -> float:
