@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import shapely
 
@@ -96,13 +97,14 @@ def _filled_bays(item: Item) -> Outline | None:
 
     Whether they do is near a limit: followed again, a mouth may come out on its other side.
     """
-    outline = item.outline.region
-    if item.outline.has_holes:
+    if item.outline.has_holes or item.is_filled_ink:
         return None
+    # Of copies: what regions take does not stay in memory.
+    outline, ink = replace(item.outline).region, replace(item.ink).region
     least = LEAST_BAY * outline.area
-    if silhouette_area(item.ink.region) > outline.area - least:
+    if silhouette_area(ink) > outline.area - least:
         return None
-    seen = silhouette(item.ink.region)
+    seen = silhouette(ink)
     bays = [part for part in polygon_parts(difference(outline, seen)) if part.area > least]
     return Outline.from_region(shapely.MultiPolygon(bays)) if bays else None
 
