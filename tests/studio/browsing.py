@@ -24,6 +24,19 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"
 PATIENCE_SECONDS = 120.0
 """A first run compiles kernels, beside other tests."""
 
+WAITING = """() => new Promise((done, fail) => {
+  let looks = 0;
+  const look = () => {
+    try {
+      const isSo = Boolean(%s);
+      if (isSo || ++looks === 100) done(isSo);
+      else setTimeout(look, 10);
+    } catch (error) { fail(error); }
+  };
+  look();
+})"""
+"""Waits on the page until an expression is true, a second at most: cheaper than to ask for it."""
+
 
 def browser_path() -> str | None:
     """The Chromium of this machine; None if it has none."""
@@ -113,10 +126,14 @@ class Desk:
     def __init__(self, page: Any, address: str) -> None:
         self.page = page
         self.faults: list[str] = []
-        page.on("pageerror", lambda error: self.faults.append(str(error)))
-        page.on("console", self._hear)
         # Questions for files are the test's from the start: a key is faster than asking for them.
-        page.on("filechooser", lambda _: None)
+        self._listeners = {
+            "pageerror": lambda error: self.faults.append(str(error)),
+            "console": self._hear,
+            "filechooser": lambda _: None,
+        }
+        for event, listener in self._listeners.items():
+            page.on(event, listener)
         page.goto(address, timeout=1000 * PATIENCE_SECONDS)
 
     def _hear(self, message: Any) -> None:
@@ -124,18 +141,41 @@ class Desk:
         if message.type == "error" and "ERR_CONNECTION" not in message.text:
             self.faults.append(message.text)
 
+    def leave(self) -> None:
+        """Leave all as it would be for a new page: nothing is pressed, stored or heard."""
+        for event, listener in self._listeners.items():
+            self.page.remove_listener(event, listener)
+        if self.page.is_closed():
+            return
+        self.page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
+        self.page.goto("about:blank")
+        self.page.mouse.up()
+        for key in ("Shift", "Control", "Alt", "Meta"):
+            self.page.keyboard.up(key)
+        self.page.set_viewport_size(WIDE)
+        self.page.context.clear_permissions()
+        for other in self.page.context.pages:
+            if other is not self.page:
+                other.close()
+
     def look(self, script: str) -> Any:
         """Value of an expression on the page; nothing there is ever made of text."""
         return self.page.evaluate(f"() => {script}")
 
     def until(self, script: str) -> None:
-        """Wait until an expression is true."""
-        end = time.monotonic() + PATIENCE_SECONDS
-        while not self.look(script):
+        """Wait until an expression is true; the page looks by itself, also after it was left."""
+        from playwright.sync_api import Error
+
+        end, is_so = time.monotonic() + PATIENCE_SECONDS, False
+        while not is_so:
             assert time.monotonic() < end, (
                 f"waited for {script}: {self.look('studio.collage.state')}"
             )
-            self.page.wait_for_timeout(10)
+            try:
+                is_so = self.page.evaluate(WAITING % script)
+            except Error as error:
+                if "Execution context was destroyed" not in error.message:
+                    raise
 
     def resize(self, size: dict[str, int]) -> None:
         """Have a window of another size, and what lies in it drawn anew."""

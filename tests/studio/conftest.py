@@ -129,6 +129,34 @@ def browser() -> Iterator[Any]:
         yield found
 
 
+def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
+    """One person's page, which remembers nothing."""
+    context = browser.new_context(viewport=size, accept_downloads=True, **more)
+    # What is left for an empty page has no storage.
+    context.add_init_script("try { localStorage.setItem('person', 'ann'); } catch {}")
+    return context.new_page()
+
+
+class WidePage:
+    """A wide page that serves one test after another, for a new one loads all programs anew.
+
+    Parameters
+    ----------
+    browser
+        Of the module.
+    """
+
+    def __init__(self, browser: Any) -> None:
+        self._browser = browser
+        self.page: Any = None
+
+    def taken(self) -> Any:
+        """The page, as one that was never used; made anew where a test has closed it."""
+        if self.page is None or self.page.is_closed():
+            self.page = new_page(self._browser, WIDE)
+        return self.page
+
+
 @pytest.fixture(scope="module")
 def server() -> Iterator[Server]:
     made = Server("circle", "star", "heart", "moon", "-n", "14").start()
@@ -136,20 +164,32 @@ def server() -> Iterator[Server]:
     made.stop()
 
 
+@pytest.fixture(scope="module")
+def wide_page(browser: Any) -> WidePage:
+    return WidePage(browser)
+
+
 @pytest.fixture
-def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., PageDesk]]:
+def open_desk(
+    browser: Any, server: Server, wide_page: WidePage
+) -> Iterator[Callable[..., PageDesk]]:
     """Opens a page, by default a wide one, all one person's; at the end none has met a fault."""
     desks: list[PageDesk] = []
 
     def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> PageDesk:
-        context = browser.new_context(viewport=size, accept_downloads=True, **more)
-        context.add_init_script("localStorage.setItem('person', 'ann')")
-        desk = PageDesk(context.new_page(), address or server.address)
+        if size is WIDE and not more and not any(desk.page is wide_page.page for desk in desks):
+            page = wide_page.taken()
+        else:
+            page = new_page(browser, size, **more)
+        desk = PageDesk(page, address or server.address)
         desks.append(desk)
         desk.settled()
         return desk
 
     yield opened
     for desk in desks:
+        desk.leave()
+        if desk.page is not wide_page.page:
+            desk.page.context.close()
+    for desk in desks:
         assert desk.faults == []
-        desk.page.context.close()

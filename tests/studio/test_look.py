@@ -106,3 +106,5 @@ def test_a_pipette_is_there_where_the_browser_has_one(desk: Desk) -> None:
         if count:
             found.click()
             desk.until("studio.collage.scene.ground === '#123456'")
+    # No other test is to have that program.
+    desk.page.close()
