@@ -10,6 +10,10 @@ BIN := .venv/bin
 LOWEST_BIN := .lowest/bin
 endif
 
+# Python keeps what it has read of the sources, whatever is set around: each process that a test
+# starts would read all of them.
+export PYTHONDONTWRITEBYTECODE :=
+
 .PHONY: demo gallery figures site check-site setup-browser setup-page check-page test test-lowest check format clean
 
 demo: .venv/installed

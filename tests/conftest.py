@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import os
+import time
 from collections.abc import Iterator
 
 import numpy as np
@@ -10,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from made_fonts import make_font_folders
-from packwork import compiled
+from packwork import compiled, precompile
 from packwork.display import bar
 from packwork.fonts import FOLDERS
 from packwork.readers import cache
@@ -24,11 +26,41 @@ settings.register_profile("check", _PATIENT, max_examples=_EXAMPLES, derandomize
 settings.register_profile("explore", _PATIENT, max_examples=2_000)
 settings.load_profile("check")
 
+# Thousands of tests are collected, and looked through for garbage again and again.
+gc.set_threshold(50_000)
+
+SECONDS_BETWEEN = 0.2
+"""Time between two looks whether the kernels are compiled. Chosen."""
+
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """One more than there are processors, for many tests wait: for a browser, for processes."""
     return (os.cpu_count() or 1) + 1
+
+
+def pytest_collection_finish() -> None:
+    """What was collected stays, and is no garbage."""
+    gc.collect()
+    gc.freeze()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _kernels(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> None:
+    """Kernels that runs need, compiled by one worker, with a second process, for all of them."""
+    if worker_id == "master" or os.environ.get("NUMBA_DISABLE_JIT") == "1":
+        return
+    claim = tmp_path_factory.getbasetemp().parent / "kernels"
+    try:
+        claim.mkdir()
+    except FileExistsError:
+        while not (claim / "done").exists():
+            time.sleep(SECONDS_BETWEEN)
+        return
+    try:
+        precompile.warm_up_once()
+    finally:
+        (claim / "done").touch()
 
 
 class _OfThisSession(dict[str, bytes]):

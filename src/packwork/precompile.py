@@ -8,6 +8,7 @@ list; what it compiles comes back by way of the cache. A run of one thread has n
 from __future__ import annotations
 
 import contextlib
+import functools
 import gc
 import json
 import os
@@ -85,6 +86,9 @@ Part = Callable[[], None]
 Counted = Callable[[int], None]
 """Told how many kernels are compiled or loaded."""
 
+_ready = functools.cache(lambda part: part())
+"""Does a part once: then this process has its kernels."""
+
 _HELPER = (
     END_WITH_PARENT + "import json; sys.path[:] = json.loads(sys.argv[1])\n"
     "from packwork.precompile import help_out; help_out(sys.argv[2])"
@@ -128,7 +132,7 @@ def warm_up(counted: Counted | None = None, second: bool = False) -> None:
             stack.callback(compiled.STORE.put, mark, b"")
         # What another process has compiled is loaded; what is left is compiled.
         for part in PARTS:
-            part()
+            _ready(part)
 
 
 def warm_up_once() -> None:
