@@ -13,6 +13,7 @@ from typing import Literal, TypeAlias, get_args
 import numpy as np
 
 from packwork.errors import ReadError, RecipeError
+from packwork.phrasing import enumerated
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
 from packwork.readers.engraving import Engraving
@@ -190,7 +191,7 @@ def check_told(sheets: Sequence[Sheet], parts: Sequence[SheetPart], engraving: E
              **engraving.stated}  # fmt: skip
     odd = [file for file in files if known.get(file) is in_px]
     if odd:
-        named = ", ".join(odd[:4]) + (f" and {len(odd) - 4} others" if len(odd) > 4 else "")
+        named = enumerated(odd)
         what = (
             f"the sheet is in px, and {named} in real units; give it one, as 600x400mm"
             if in_px

@@ -17,7 +17,7 @@ from PIL import Image
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.morphology import eroded
 from packwork.folders import Store
-from packwork.phrasing import number_of
+from packwork.phrasing import enumerated, number_of
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.contrast import light_of, oklabs_of_light
 from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
@@ -97,8 +97,7 @@ def faint_message(layout: Layout, background: str | None) -> str:
         return ""
     keys = {_look(item) for item in faint}
     count = sum(_look(item) in keys for item in layout.items)
-    names = list(dict.fromkeys(item.name for item in faint))
-    shown = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
+    shown = enumerated(list(dict.fromkeys(item.name for item in faint)))
     ground = "white" if background is None else background
     better = _better_ground(layout, background)
     instead = "" if better is None else f"--background '{better}' or "
