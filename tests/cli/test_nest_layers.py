@@ -173,3 +173,15 @@ def test_arcs_of_a_path_are_read_as_they_were_written() -> None:
     (open_,) = arc_lines_of("M0 0A5 5 0 0 0 5 5", 5.0)
     assert not open_.is_closed
     assert open_.bulges[0] == pytest.approx(-np.tan(np.pi / 8))
+
+
+@pytest.mark.parametrize("odd", ["M1.2.3 4", "M1", "M1 2A3 4", "M1 2A1 1 0 0 1 - 3Z", "M1 1L..Z"])
+def test_a_path_that_no_writer_of_ours_wrote_is_read_as_any(odd: str) -> None:
+    good = "M0 0L9 0L9 9Z"
+    assert len([*arc_lines_of(good, 9.0)]) == 1
+    assert len([*arc_lines_of(good + odd, 9.0)]) >= 1
+
+
+def test_arcs_of_large_radii_are_arcs() -> None:
+    (made,) = arc_lines_of("M0 0A1.5e+06 1.5e+06 0 0 1 100 0L50 80Z", 100.0)
+    assert made.bulges[0] == pytest.approx(100 / 1.5e6 / 4, rel=1e-6)

@@ -31,8 +31,11 @@ from packwork.scene.line_art import EngravedLine, LineArt
 CURVES = 1e-7
 """Distance of Bézier curves from the arcs that a DXF has for them, as a share of the part."""
 
-_OURS = re.compile(r"(?:M[-\d. ]+(?:L[-\d. ]+|A[-\d. ]+)*Z?)+")
-_STEP = re.compile(r"([MLA])([-\d. ]+)|Z")
+_NUMBER = r"-?\d+(?:\.\d+)?"
+_PAIR = rf"{_NUMBER} {_NUMBER}"
+_RADIUS = r"\d+(?:\.\d+)?(?:e[+-]\d+)?"
+_OURS = re.compile(rf"(?:M{_PAIR}(?:L{_PAIR}|A{_RADIUS} {_RADIUS} 0 0 [01] {_PAIR})*Z?)+")
+_STEP = re.compile(r"([MLA])([^MLAZ]+)")
 _KEPT = re.compile(r"[MmZzLlHhVvCcSsQqTtAaeE\d\s+.,-]*")
 
 
