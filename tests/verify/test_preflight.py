@@ -21,6 +21,7 @@ from packwork.errors import ReadError
 from packwork.readers.items import read_items
 from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Layout, sheet
+from packwork.verify.pdf_fonts import FontWidths
 from packwork.verify.pdf_objects import check_size
 from packwork.verify.preflight import MAX_CONTENT, Check, preflight, preflight_of
 from packwork.writers import encoded, write_options
@@ -147,10 +148,61 @@ def test_live_text_has_its_size(content: bytes, told: str) -> None:
         (b"q 9 0 0 9 90 90 cm /Indexed Do Q", "CMYK 1"),
         (b"/Pattern cs /Tiles scn 90 90 9 9 re f", "RGB 1"),
         (b"/Inks cs 1 1 scn 90 90 9 9 re f", "ink Gold, Silver"),
+        (b"/Self cs 1 scn 90 90 9 9 re f", "none"),
+        (b"/Round cs 1 scn 90 90 9 9 re f", "none"),
+        (b"1 0 0 rg q 9 0 0 9 90 90 cm BI /W 1 /H 1 /IM true /BPC 1 ID a EI Q", "RGB 1"),
     ],
 )
 def test_colours_are_found_in_all_that_paints(content: bytes, told: str) -> None:
     assert by_name(preflight_of(made(content), "a.pdf"))["colours"].found == told
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"BT /F 12 Tf 2 100 Td (near) Tj ET", "1 shape ends there"),
+        (b"BT /F 12 Tf 100 100 Td (far off) Tj ET", "none"),
+        (b"BT /F 12 Tf 200 100 Td (sixteen letters.) Tj ET", "1 shape ends there"),
+        (b"BT /F 12 Tf 50 Tz 200 100 Td (sixteen letters.) Tj ET", "none"),
+        (b"BT /F 12 Tf 100 100 Td [(far) -13000 (off)] TJ ET", "1 shape ends there"),
+        (b"BT /F 12 Tf 20 TL 100 25 Td (a) Tj (b) ' ET", "1 shape ends there"),
+        (b"BT /F 12 Tf 0 1 -1 0 100 280 Tm (up) Tj ET", "1 shape ends there"),
+        (b"3 Tr BT /F 12 Tf 2 100 Td (unseen) Tj ET", "none"),
+        (b"1 g 0 0 300 300 re f 0 g 90 90 9 9 re f", "none"),
+        (b"0 0 0 0 k 0 0 300 300 re f 0 g 90 90 9 9 re f", "none"),
+        (b"0 0 300 300 re f 1 g 2 2 5 5 re f", "2 shapes end there"),
+    ],
+)
+def test_what_ends_near_the_trim_is_told(content: bytes, told: str) -> None:
+    assert by_name(preflight_of(made(content), "a.pdf"))[NEAR].found == told
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"/NoLines gs 90 90 9 9 re f", "none"),
+        (b"/NoLines gs 90 90 9 9 re S", "1 opacity"),
+        (b"/Half gs 90 90 9 9 re f 90 90 9 9 re S BT /F 9 Tf 90 90 Td (a) Tj ET", "2 opacities"),
+        (b"q /Half gs Q 90 90 9 9 re f", "none"),
+    ],
+)
+def test_opacity_is_told_where_it_is_painted_with(content: bytes, told: str) -> None:
+    assert by_name(preflight_of(made(content), "a.pdf"))["transparency"].found == told
+
+
+def test_settings_have_a_width_of_lines() -> None:
+    found = by_name(preflight_of(made(b"/Half gs 90 90 9 9 re S"), "a.pdf"))["lines"]
+    assert found.found == "thinnest 0.10 pt; 1 under 0.25 pt"
+
+
+def test_composite_fonts_list_widths_of_characters_and_of_ranges() -> None:
+    widths = Array([1, Array([250, 500]), 10, 12, 750, 20, 10**9, 1])
+    drawn = Dictionary(DW=900, W=widths)
+    font = Dictionary(Subtype=Name.Type0, DescendantFonts=Array([drawn]))
+    found = FontWidths.of(font)
+    codes = b"".join(code.to_bytes(2) for code in (1, 2, 3, 10, 12, 13))
+    assert found.width([String(codes)]) == pytest.approx(0.25 + 0.5 + 0.9 + 0.75 + 0.75 + 0.9)
+    assert len(found.known) < 300_000
 
 
 @pytest.mark.parametrize("unit", [1.0, 2.5])
@@ -230,6 +282,8 @@ def made(content: bytes, encryption: pikepdf.Encryption | None = None) -> bytes:
     )
     tiles = pdf.make_stream(b"1 0 0 rg 0 0 5 5 re f", PatternType=1, Resources=Dictionary())
     inks = Array([Name.DeviceN, Array([Name.Gold, Name.Silver]), Name.DeviceCMYK, ramp])
+    turning = pdf.make_indirect(Array([Name.Indexed, Name.DeviceRGB, 0, String(b"abc")]))
+    turning[1] = turning
     form = pdf.make_stream(b"/Form Do /Form Do", Subtype=Name.Form)
     form.Resources = Dictionary(XObject=Dictionary(Form=form))
     page.obj.Resources = Dictionary(
@@ -237,7 +291,8 @@ def made(content: bytes, encryption: pikepdf.Encryption | None = None) -> bytes:
         Shading=Dictionary(S=shading),
         XObject=Dictionary(Indexed=indexed, Form=form),
         Pattern=Dictionary(Tiles=tiles),
-        ColorSpace=Dictionary(Inks=inks),
+        ColorSpace=Dictionary(Inks=inks, Self=Name.Self, Round=turning),
+        ExtGState=Dictionary(NoLines=Dictionary(CA=0, ca=1), Half=Dictionary(ca=0.5, LW=0.1)),
     )
     page.contents_add(content)
     written = io.BytesIO()

@@ -12,19 +12,25 @@ from packwork.readers.reading import UnfitError
 TOO_MUCH = "paints more than can be looked at"
 
 
-def space_name(space: Any, resources: Any) -> str:
-    """Plain name of a colour space; empty of patterns."""
+_DEEPEST = 8
+"""Colour spaces by way of which one is named; what refers to itself has no end. Chosen."""
+
+
+def space_name(space: Any, resources: Any, depth: int = 0) -> str:
+    """Plain name of a colour space; empty of patterns and of what refers to itself."""
+    if depth > _DEEPEST:
+        return ""
     if isinstance(space, pikepdf.Name):
         named = resources.get("/ColorSpace", {}).get(space)
         if named is not None:
-            return space_name(named, resources)
+            return space_name(named, resources, depth + 1)
         plain = {"/DeviceRGB": "RGB", "/DeviceCMYK": "CMYK", "/DeviceGray": "grey"}
         return plain.get(str(space), "")
     kind = str(space[0])
     if kind == "/ICCBased":
         return {1: "grey", 3: "RGB", 4: "CMYK"}[int(space[1].N)]
     if kind == "/Indexed":
-        return space_name(space[1], resources)
+        return space_name(space[1], resources, depth + 1)
     if kind in {"/Separation", "/DeviceN"}:
         names = [space[1]] if kind == "/Separation" else space[1]
         return "ink " + ", ".join(str(name).removeprefix("/") for name in names)

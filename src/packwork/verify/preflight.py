@@ -28,6 +28,8 @@ from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert
 from packwork.verify.graphics_state import NOWHERE, Graphics, corners, matrix_of, scale_of
+from packwork.verify.near_trim import HAIR_PT, NEAR_MM, SEEN_PT, ending_near
+from packwork.verify.pdf_fonts import FontWidths
 from packwork.verify.pdf_objects import TOO_MUCH, check_size, listed, space_name
 
 MAX_BYTES = 500_000_000
@@ -48,15 +50,6 @@ LEAST_LINE_PT = 0.25
 
 LEAST_TEXT_PT = 5.0
 """Em below which letters may fill up in print."""
-
-NEAR_MM = 3.0
-"""Width along the trim within which a knife may stray, and within which nothing should end."""
-
-_HAIR_PT = 0.01
-"""Distance that is rounding."""
-
-_SEEN_PT = 0.1
-"""Overlap of art in the bleed with art on the sheet, at most."""
 
 _DEEPEST = 40
 _PAINTING = frozenset({"f", "F", "f*", "B", "B*", "b", "b*", "S", "s"})
@@ -158,6 +151,8 @@ class _Content:
         self._inks: set[str] = set()
         self._clear: Counter[str] = Counter()
         self._painted_boxes: list[FloatArray] = []
+        self._fonts: dict[tuple[int, int], FontWidths] = {}
+        self._inked = np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
         self._left = MAX_CONTENT
         if "/Contents" in page.obj:
             for part in listed(page.obj.Contents):
@@ -177,8 +172,8 @@ class _Content:
     def _boxes(self) -> Check:
         width, height = np.diff(self._trim, axis=0)[0] / 72 * 25.4
         bleed = float(np.min([self._trim[0] - self._bleed[0], self._bleed[1] - self._trim[1]]))
-        told = f"bleed {bleed / 72 * 25.4:.3g} mm" if bleed > _HAIR_PT else "no bleed"
-        return Check("trimmed sheet", f"{width:.4g} x {height:.4g} mm, {told}", bleed > _HAIR_PT)
+        told = f"bleed {bleed / 72 * 25.4:.3g} mm" if bleed > HAIR_PT else "no bleed"
+        return Check("trimmed sheet", f"{width:.4g} x {height:.4g} mm, {told}", bleed > HAIR_PT)
 
     def _resolution(self) -> Check:
         low = [dpi for dpi in self._dpi if dpi < LEAST_DPI]
@@ -189,7 +184,7 @@ class _Content:
         return Check("pictures", told, not low)
 
     def _thin(self) -> Check:
-        thin = [width for width in self._lines if width < LEAST_LINE_PT - _HAIR_PT]
+        thin = [width for width in self._lines if width < LEAST_LINE_PT - HAIR_PT]
         told = f"thinnest {min(self._lines):.2f} pt" if self._lines else "none"
         told += f"; {len(thin)} under {LEAST_LINE_PT} pt" if thin else ""
         return Check("lines", told, not thin)
@@ -204,39 +199,13 @@ class _Content:
         return Check("text", told, not small)
 
     def _transparency(self) -> Check:
-        told = [number_of(count, *names.split("|")) for names, count in self._clear.items()]
+        told = [number_of(n, *names.split("|")) for names, n in self._clear.items() if n]
         return Check("transparency", ", ".join(told) or "none", not told)
 
     def _edge(self) -> Check:
-        count = self._ending()
+        count = ending_near(np.reshape(self._painted_boxes, (-1, 2, 2)), self._trim)
         told = f"{number_of(count, 'shape ends', 'shapes end')} there"
         return Check(f"within {NEAR_MM:g} mm of the trim", told if count else "none", not count)
-
-    def _ending(self) -> int:
-        """Number of shapes that end near the trim and are not continued beyond it."""
-        boxes = np.reshape(self._painted_boxes, (-1, 2, 2))
-        # Distances of left, low, right and high inwards from the trim.
-        gaps = np.hstack([boxes[:, 0] - self._trim[0], self._trim[1] - boxes[:, 1]])
-        inner = np.minimum(boxes[:, 1], self._trim[1]) - np.maximum(boxes[:, 0], self._trim[0])
-        on_sheet = (inner > _SEEN_PT).all(axis=1)
-        count = 0
-        near = on_sheet & (gaps < NEAR_MM * 72 / 25.4 - _HAIR_PT).any(axis=1)
-        for k in np.flatnonzero(near).tolist():
-            ends = [side for side in range(4) if -_HAIR_PT < gaps[k, side] < NEAR_MM * 72 / 25.4]
-            count += any(
-                gaps[k, side] > _HAIR_PT or not self._goes_on(boxes, gaps, k, side) for side in ends
-            )
-        return count
-
-    @staticmethod
-    def _goes_on(boxes: FloatArray, gaps: FloatArray, k: int, side: int) -> bool:
-        """Whether something beyond one side of the trim adjoins all of a shape that ends there."""
-        across, opposite = 1 - side % 2, (side + 2) % 4
-        length = gaps[k, opposite] + float(np.ptp(boxes[k, :, side % 2]))
-        beyond = (gaps[:, side] < -_SEEN_PT) & (gaps[:, opposite] < length + _SEEN_PT)
-        low = boxes[:, 0, across] < boxes[k, 0, across] + _SEEN_PT
-        high = boxes[:, 1, across] > boxes[k, 1, across] - _SEEN_PT
-        return bool((beyond & low & high).any())
 
     def _colours(self) -> Check:
         told = [f"{space} {count:,}" for space, count in sorted(self._spaces.items())]
@@ -267,7 +236,8 @@ class _Content:
             elif name in _PAINTING or name == "n":
                 box = state.bounds(points) if points else None
                 if box is not None and name != "n":
-                    self._painted(box, name in _STROKES, name not in {"S", "s"}, state)
+                    self._lines += [state.line_pt] if name in _STROKES else []
+                    self._paint(box, (name not in {"S", "s"}, name in _STROKES), state)
                 if clips and box is not None:
                     state = replace(state, window=box)
                 points, clips = [], False
@@ -280,23 +250,35 @@ class _Content:
             elif name == "INLINE IMAGE":
                 self._picture(operands[0].obj, resources, state)
             elif name in {"Tj", "TJ", "'", '"'}:
-                self._lettered(state)
+                shown = operands[0] if name == "TJ" else operands[-1:]
+                state = self._lettered(state.after(name, operands), shown)
             else:
                 state = self._changed(state, name, operands, resources, depth)
 
-    def _painted(self, box: FloatArray, strokes: bool, fills: bool, state: Graphics) -> None:
-        if strokes:
-            self._lines.append(state.line_pt)
-        for space in (state.spaces[:1] if fills else ()) + (state.spaces[1:] if strokes else ()):
+    def _paint(self, box: FloatArray, paints: tuple[bool, bool], state: Graphics) -> None:
+        """Count what is filled, or stroked, or both."""
+        for space in (state.spaces[k] for k in (0, 1) if paints[k]):
             self._count(space)
+        if any(state.alphas[k] < 1 for k in (0, 1) if paints[k]):
+            self._clear["opacity|opacities"] += 1
+        is_bare = all(state.bare[k] for k in (0, 1) if paints[k])
+        if is_bare and not ((box[0] < self._inked[1]) & (box[1] > self._inked[0])).all():
+            # White on bare paper, as the ground that many programs paint, ends nowhere to be seen.
+            return
+        self._placed(box)
+
+    def _placed(self, box: FloatArray) -> None:
+        self._inked[0] = np.minimum(self._inked[0], box[0])
+        self._inked[1] = np.maximum(self._inked[1], box[1])
         self._painted_boxes.append(box)
 
-    def _lettered(self, state: Graphics) -> None:
+    def _lettered(self, state: Graphics, operands: Any) -> Graphics:
         """Count letters that are shown; those of a mode that paints nothing are not."""
-        for space in state.text_spaces:
-            self._count(space)
-        if state.text_spaces:
+        box, after = state.shown(operands)
+        if any(state.text_paints):
+            self._paint(box, state.text_paints, state)
             self._ems.append(state.em_pt)
+        return after
 
     def _count(self, space: str) -> None:
         if space.startswith("ink "):
@@ -308,6 +290,10 @@ class _Content:
         if drawn.Subtype == "/Image":
             self._picture(drawn, resources, state)
             return
+        if "/Group" in drawn and state.alphas[0] < 1:
+            # The whole is as opaque as that, and in itself all of it is.
+            self._clear["opacity|opacities"] += 1
+            state = replace(state, alphas=(1.0, 1.0))
         own = affine.compose(state.matrix, matrix_of(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
         state = replace(state, matrix=own)
         if "/BBox" in drawn:
@@ -317,13 +303,16 @@ class _Content:
 
     def _picture(self, drawn: Any, resources: Any, state: Graphics) -> None:
         box = state.bounds([corners(0.0, 0.0, 1.0, 1.0)])
-        self._painted_boxes.append(box)
-        if (box[1] > self._trim[0] + _SEEN_PT).all() and (box[0] < self._trim[1] - _SEEN_PT).all():
+        self._placed(box)
+        if state.alphas[0] < 1:
+            self._clear["opacity|opacities"] += 1
+        if (box[1] > self._trim[0] + SEEN_PT).all() and (box[0] < self._trim[1] - SEEN_PT).all():
             inches = np.hypot(*state.matrix[:, :2]) / 72
             size = np.array([float(drawn.Width), float(drawn.Height)])
             self._dpi.append(float((size / inches).min()))
         space = drawn.get("/ColorSpace", pikepdf.Name.DeviceGray)
-        self._count(space_name(space, resources))
+        is_mask = bool(drawn.get("/ImageMask", False))
+        self._count(state.spaces[0] if is_mask else space_name(space, resources))
         if "/SMask" in drawn:
             self._clear["soft edge|soft edges"] += 1
 
@@ -331,33 +320,53 @@ class _Content:
         self, state: Graphics, name: str, operands: Any, resources: Any, depth: int
     ) -> Graphics:
         if name == "gs":
-            self._transparent(resources["/ExtGState"][operands[0]])
-        elif name == "sh":
+            return self._set(state, resources["/ExtGState"][operands[0]])
+        if name == "Tf":
+            font = self._font(resources.get("/Font", {}).get(operands[0]))
+            return replace(state, font=font, em=float(operands[1]))
+        if name == "sh":
             shading = resources["/Shading"][operands[0]]
             self._count(space_name(shading.ColorSpace, resources))
-        elif name.lower() in {"cs", *_DEVICE}:
-            spaces = list(state.spaces)
-            is_named = name.lower() == "cs"
-            found = space_name(operands[0], resources) if is_named else _DEVICE[name.lower()]
-            spaces[name.isupper()] = found
-            return replace(state, spaces=(spaces[0], spaces[1]))
-        elif name.lower() == "scn" and operands and isinstance(operands[-1], pikepdf.Name):
-            pattern = resources["/Pattern"][operands[-1]]
-            if "/Shading" in pattern:
-                self._count(space_name(pattern.Shading.ColorSpace, resources))
-            elif pattern.PatternType == 1:
-                # The shape that it fills ends on the page, not its tiles.
-                unseen = Graphics(affine.identity(), window=NOWHERE)
-                self._follow(pattern, pattern.get("/Resources", {}), unseen, depth + 1)
+            self._clear["opacity|opacities"] += state.alphas[0] < 1
+        elif name.lower() == "cs":
+            return state.coloured(name.isupper(), space_name(operands[0], resources), None)
+        elif name.lower() in _DEVICE:
+            return state.coloured(name.isupper(), _DEVICE[name.lower()], operands)
+        elif name.lower() in {"sc", "scn"}:
+            if operands and isinstance(operands[-1], pikepdf.Name):
+                self._tiled(resources["/Pattern"][operands[-1]], resources, depth)
+                operands = None
+            return state.coloured(name.isupper(), state.spaces[name.isupper()], operands)
         return state.after(name, operands)
 
-    def _transparent(self, settings: Any) -> None:
-        if min(float(settings.get("/ca", 1)), float(settings.get("/CA", 1))) < 1:
-            self._clear["opacity|opacities"] += 1
+    def _font(self, font: Any) -> FontWidths:
+        """Widths of a font, read once; usual ones of what stands in the resources themselves."""
+        key = getattr(font, "objgen", (0, 0))
+        if key not in self._fonts:
+            self._fonts[key] = FontWidths.of(font) if key[0] else FontWidths()
+        return self._fonts[key]
+
+    def _tiled(self, pattern: Any, resources: Any, depth: int) -> None:
+        """Count what a pattern is painted with."""
+        if "/Shading" in pattern:
+            self._count(space_name(pattern.Shading.ColorSpace, resources))
+        elif pattern.PatternType == 1:
+            # The shape that it fills ends on the page, not its tiles.
+            unseen = Graphics(affine.identity(), window=NOWHERE)
+            self._follow(pattern, pattern.get("/Resources", {}), unseen, depth + 1)
+
+    def _set(self, state: Graphics, settings: Any) -> Graphics:
+        """State after a dictionary of settings; blend modes and masks in it are counted."""
         if settings.get("/BM", "/Normal") != "/Normal":
             self._clear["blend mode|blend modes"] += 1
         if isinstance(settings.get("/SMask"), pikepdf.Dictionary):
             self._clear["mask|masks"] += 1
+        fill, stroke = (
+            float(settings.get(key, had))
+            for key, had in zip(("/ca", "/CA"), state.alphas, strict=True)
+        )
+        width = float(settings.get("/LW", state.width))
+        return replace(state, alphas=(fill, stroke), width=width)
 
 
 def _box(box: Any) -> FloatArray:

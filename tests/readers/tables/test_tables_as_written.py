@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.readers.charts import ChartOptions
@@ -65,6 +67,18 @@ def test_the_encodings_of_windows_are_told_by_their_letters(encoding: str, text:
     read = decoded(text.encode(encoding), "t.csv")
     assert read.text == text
     assert f"Windows-{encoding[2:]}" in read.notice
+
+
+@pytest.mark.parametrize("text", ["GIF89a, a format of pictures", "gif87a\tolder", "GIF89a\n"])
+def test_a_text_may_begin_as_a_picture_does(text: str) -> None:
+    assert decoded(text.encode(), "a.txt").text == text
+
+
+@pytest.mark.parametrize("format", ["GIF", "PNG", "JPEG"])
+def test_pictures_are_no_text(format: str) -> None:
+    Image.new("RGB", (300, 200), "teal").save(content := io.BytesIO(), format)
+    with pytest.raises(ReadError, match="is a picture, not text"):
+        decoded(content.getvalue(), "a.txt")
 
 
 @pytest.mark.parametrize("encoding", ["koi8-r", "shift_jis", "gb18030", "cp437"])

@@ -42,10 +42,13 @@ DOCUMENTS = {
     b"<?xml": "XML or a drawing", b"<svg": "a drawing", b"<!doctype": "a web page",
     b"<html": "a web page", b"%pdf-": "a PDF",
     b"pk\3\4": "a .docx, .xlsx or other archive", b"\xd0\xcf\x11\xe0": "a .doc or .xls",
-    b"{\\rtf": "RTF", b"\x89png": "a picture", b"\xff\xd8\xff": "a picture",
-    b"gif89a": "a picture",
+    b"{\\rtf": "RTF",
 }  # fmt: skip
 """First bytes of files whose bytes are not what they say, in lower case."""
+
+_PICTURE = re.compile(rb"\x89png|\xff\xd8\xff|gif8[79]a.{0,6}[\0-\x08\x0e-\x1f]", re.DOTALL)
+"""First bytes of pictures, in lower case; after a GIF's name, with which a text may begin, its size
+follows."""
 
 _COMMENTS = re.compile(rb"\A\s*(?:<!--.*?-->\s*)*", re.DOTALL)
 """What may stand before a document, and before any text of Markdown."""
@@ -119,6 +122,7 @@ def check_no_document(data: bytes, file: str) -> None:
     """
     head = _COMMENTS.sub(b"", data[:4_000].removeprefix(codecs.BOM_UTF8)).lower()
     kind = next((kind for mark, kind in DOCUMENTS.items() if head.startswith(mark)), None)
+    kind = "a picture" if _PICTURE.match(head) else kind
     if kind is not None:
         raise ReadError(file, f"is {kind}, not text; save its text as .txt or .csv")
 
