@@ -118,3 +118,33 @@ def test_groups_of_a_chart_keep_the_colours_of_its_keys() -> None:
     chart = pw.chart("circle", rows, size_by="size", color_by="kind", label_by="name")
     with pytest.raises(RecipeError, match="as its keys say"):
         chart.edit().palette("viridis")
+
+
+def test_halos_follow_the_background_and_are_in_files(drawn: pw.Layout) -> None:
+    session = drawn.edit()
+    session.recolor("star", "white")
+    session.recolor("heart", "#101010")
+
+    def rims() -> dict[str, set[str]]:
+        items = session.document.items
+        return {name: {one.halo for one in items if one.name == name} for name in ("star", "heart")}
+
+    session.background("white")
+    session.do("halos", choice="faint")
+    assert rims()["heart"] == {""}
+    assert len(rims()["star"] - {""}) == 1
+    assert '<g id="halos"' in layout_bytes(session.layout, "svg", {}).decode()
+    session.background("black")
+    assert rims()["star"] == {""}
+    assert len(rims()["heart"] - {""}) == 1
+    # On a gradient, whose lightness is not everywhere the same, all of them.
+    session.background("linear-gradient(90deg, black, white)")
+    assert all("" not in found for found in rims().values())
+    before = session.document.poses
+    session.do("halos", choice="none")
+    assert rims() == {"star": {""}, "heart": {""}}
+    session.undo()
+    assert "" not in rims()["star"]
+    assert session.document.poses is before
+    with pytest.raises(RecipeError, match="choice"):
+        session.do("halos", choice="most")

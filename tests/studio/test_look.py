@@ -94,6 +94,32 @@ def test_backgrounds_are_told_from_the_page_in_light_and_dark(desk: Desk) -> Non
     assert desk.page.locator("#why").is_hidden()
 
 
+def test_halos_are_on_the_page(desk: Desk) -> None:
+    if not desk.page.get_by_label("Halos").is_visible():
+        desk.page.locator("#tab-look").click()
+    desk.page.locator("#panel [data-ground='#171717']").click()
+    halos = desk.page.get_by_label("Halos")
+    halos.select_option("all")
+    desk.until("studio.collage.items.every((item) => item.halo)")
+    # Their colour is seen.
+    is_seen = desk.look("""(() => {
+      const { collage, stage } = studio;
+      stage.draw();
+      const seen = new Set();
+      const { width, height } = stage.canvas;
+      const { data } = stage.pen.getImageData(0, 0, width, height);
+      for (let k = 0; k < data.length; k += 4) seen.add(data.slice(k, k + 3).join());
+      const channels = collage.items[0].halo.slice(1).match(/../g);
+      const rim = channels.map((one) => parseInt(one, 16)).join();
+      return seen.has(rim);
+    })()""")
+    assert is_seen
+    desk.picture("halos")
+    desk.page.locator("#bar [data-do=undo]").click()
+    desk.until("studio.collage.items.every((item) => !item.halo)")
+    assert halos.input_value() == "none"
+
+
 def test_a_pipette_is_there_where_the_browser_has_one(desk: Desk) -> None:
     taken = "class { open() { return Promise.resolve({ sRGBHex: '#123456' }); } }"
     for pipette, count in ((taken, 1), ("undefined", 0)):

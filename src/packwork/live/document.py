@@ -23,6 +23,8 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout, ground_in, is_hex
 from packwork.scene.pose import Poses
+from packwork.writers.options import HaloChoice
+from packwork.writers.svg import HALO_SHARE
 
 Property: TypeAlias = Literal["place", "angle", "size"]
 """What of an item can be held, each by itself."""
@@ -155,6 +157,17 @@ class Document:
         """Title that a person has given, or its container's name."""
         given = self.manifest.get("title")
         return given if isinstance(given, str) and given else self.container.name
+
+    @property
+    def halos(self) -> HaloChoice | None:
+        """Which items were asked to have halos; None where nothing was."""
+        asked = self.manifest.get("halos")
+        return asked if asked in get_args(HaloChoice) else None
+
+    @property
+    def rim(self) -> float:
+        """Distance by which halos reach beyond their items, canvas units."""
+        return HALO_SHARE * self.container.side
 
     @property
     def left_out(self) -> dict[str, float]:

@@ -56,6 +56,8 @@ class View:
     left_out: Mapping[str, float] = field(default_factory=dict)
     mosaic: Mosaic | None = None
     behind: Item | None = None
+    halos: str = ""
+    rim: float = 0.0
     poses: Poses | None
 
     @classmethod
@@ -77,6 +79,8 @@ class View:
             left_out=document.left_out,
             mosaic=document.mosaic,
             behind=document.behind,
+            halos=document.halos or "",
+            rim=document.rim,
             poses=poses or document.poses,
         )
 
@@ -112,6 +116,7 @@ class View:
             and self.options == other.options
             and (self.kind, self.title) == (other.kind, other.title)
             and (self.palette, self.ground) == (other.palette, other.ground)
+            and self.halos == other.halos
             and self.notes is other.notes
             and self.mosaic is other.mosaic
             and self.behind is other.behind
@@ -192,6 +197,8 @@ class Scenes:
             ground=view.ground,
             left_out=dict(view.left_out),
             likeness=view.likeness,
+            halos=view.halos,
+            rim=view.rim,
             under=self._underlays(view),
         )
         # The scene before may still be on its way; of what was wanted longer ago little is kept.
@@ -214,6 +221,7 @@ class Scenes:
             count=counted_weight(item),
             is_word=is_straight_word(item),
             held=(place, angle, size),
+            halo=item.halo,
             crop=None if item.parts is not None else _crop_of(item.art),
             parts=0 if item.parts is None else len(item.parts.items),
         )

@@ -63,6 +63,8 @@ class Thing(Message):
     held: tuple[bool, bool, bool]
     crop: tuple[float, float, float] | None
     """Zoom, x and y of a photograph in its frame; None of what is none."""
+    halo: str
+    """Colour of the rim by which it stands out; empty for none."""
     parts: int
     """Number of items that a group is made of; 0 of what is none."""
 
@@ -118,6 +120,10 @@ class Scene(Message):
     """Words that a person left out, with how often they were there."""
     likeness: float | None = None
     """Share of the colours of the picture shown that items take on; None without one."""
+    halos: str = ""
+    """Which items were asked to have halos."""
+    rim: float = 0.0
+    """How far a halo reaches beyond its item, canvas units."""
     under: tuple[Underlay, ...] = ()
     """The lowest first."""
 

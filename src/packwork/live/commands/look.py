@@ -17,14 +17,18 @@ from packwork.live.ground import gradient
 from packwork.live.mosaic import Mosaic, coloured
 from packwork.recipe.pictures import Shades, known_palette
 from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.contrast import channels_of
 from packwork.scene.groups import of_each
 from packwork.scene.item import Item, PhotoArt, VectorArt
 from packwork.scene.layout import ground_in
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, in_own_colours, with_own_art
+from packwork.scene.swatch import mean_light
 from packwork.steps.appearance import given_out
 from packwork.steps.mosaic import best_ground
 from packwork.uses.cutting import cropped
+from packwork.writers.halos import haloed
+from packwork.writers.options import HaloChoice
 from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
 
@@ -97,7 +101,33 @@ class Background(Command):
         if behind is None:
             channels = parse_colour("background", self.colour or "none")
             ground = hex_colour(channels) if channels[3] else ""
-        return replace(document, manifest={**document.manifest, "ground": ground}, behind=behind)
+        manifest = {**document.manifest, "ground": ground}
+        return _with_halos(replace(document, manifest=manifest, behind=behind))
+
+
+class SetHalos(Command):
+    """Give items halos by which they stand out from the background, also from a later one."""
+
+    kind: Literal["halos"] = "halos"
+    choice: HaloChoice
+    """Which items: none, all, or those that are hardly to be seen, faint."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with these halos."""
+        return _with_halos(replace(document, manifest={**document.manifest, "halos": self.choice}))
+
+
+def _with_halos(document: Document) -> Document:
+    """A document whose items have the halos that it asks for; on a picture all of them."""
+    if not (choice := document.halos):
+        return document
+    ground: str | None = ground_in(document.manifest) or None
+    if document.behind is not None:
+        choice = "none" if choice == "none" else "all"
+        ground = hex_colour(tuple((255 * channels_of(mean_light(document.behind))).astype(int)))
+    bare = tuple(replace(item, halo="") for item in document.items)
+    layout = replace(document, items=bare, behind=None).layout
+    return replace(document, items=haloed(layout, choice, ground).items)
 
 
 class SetMosaic(Command):

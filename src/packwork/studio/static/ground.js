@@ -9,6 +9,8 @@ const GROUNDS = /** @type {const} */ ([["none", "Transparent"], ["white", "White
 const WAYS = /** @type {const} */ ([["linear-gradient(180deg, ", "down"], ["linear-gradient(90deg, ", "across"], ["linear-gradient(135deg, ", "slanting"], ["radial-gradient(", "outwards"]]);
 /** Colours that a gradient begins with. */
 const FIRST = ["#fdf6e3", "#8ecae6"];
+/** Which items have halos. */
+const HALOS = /** @type {const} */ ([["none", "none"], ["faint", "those hardly to be seen"], ["all", "all"]]);
 
 export class Ground {
   /** @param {import("./studio.js").Studio} studio */
@@ -17,15 +19,18 @@ export class Ground {
     this.colour = picker("Colour behind all", (colour) => this.set(colour));
     this.way = h("select", { class: "way", "aria-label": "Way of the gradient", onchange: () => this.shade() }, ...WAYS.map(([value, label]) => h("option", { value }, label)));
     this.ends = FIRST.map((value, k) => h("input", { type: "color", value, "aria-label": `Colour ${k + 1} of the gradient`, onchange: () => this.shade() }));
+    this.halos = h("select", { onchange: () => studio.connection.do({ kind: "halos", choice: this.halos.value }) }, ...HALOS.map(([value, label]) => h("option", { value }, label)));
     const picture = h("button", { type: "button", onclick: () => studio.dropping.choosePicture("behind") }, "Picture …");
     this.elements = [
       h("div", { class: "row wrap" }, h("span", {}, "Background"), ...grounds((colour) => this.set(colour)), this.colour.element),
-      h("div", { class: "row wrap", role: "group", "aria-label": "A gradient or a picture behind all" }, h("button", { type: "button", onclick: () => this.shade() }, "Gradient"), ...this.ends, this.way, picture)];
+      h("div", { class: "row wrap", role: "group", "aria-label": "A gradient or a picture behind all" }, h("button", { type: "button", onclick: () => this.shade() }, "Gradient"), ...this.ends, this.way, picture),
+      h("label", { class: "row" }, "Halos", this.halos)];
   }
 
   /** Show what is there. */
   refresh() {
-    const ground = this.studio.collage.scene?.ground;
+    const { ground = "", halos } = this.studio.collage.scene ?? {};
+    this.halos.value = halos || "none";
     this.colour.show(ground || "#ffffff", !ground);
   }
 

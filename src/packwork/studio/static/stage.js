@@ -225,12 +225,25 @@ export class Stage {
     const perUnit = this.view.zoom * this.ratio;
     const last = collage.hand;
     const late = [];
+    // Under all of them, as in files.
+    if (!this.showsFaults) collage.items.forEach((item, k) => item.halo && isDrawn(k) && this.drawHalo(k, item));
     for (let k = 0; k < collage.items.length; k++) {
       if (!isDrawn(k)) continue;
       if (last.has(collage.items[k].id)) late.push(k);
       else this.drawItem(k, perUnit, sprites);
     }
     for (const k of late) this.drawItem(k, perUnit, sprites);
+  }
+
+  /** @param {number} k @param {import("./wire.js").Thing} item */
+  drawHalo(k, item) {
+    const look = this.collage.looks.get(item.shape);
+    if (!look || this.isOutOfSight(k, look.extent)) return;
+    const scale = this.toItem(k, item);
+    this.pen.strokeStyle = item.halo;
+    this.pen.lineWidth = (2 * (this.collage.scene?.rim ?? 0)) / Math.max(scale, 1e-9);
+    this.pen.lineJoin = "round";
+    this.pen.stroke(look.inkPath ?? look.outlinePath);
   }
 
   /**

@@ -19,7 +19,7 @@
  * @typedef {{kind: "cover", share: number}} Cover
  * @typedef {{kind: "crop", item: number, zoom: number, x?: number, y?: number}} CropPhoto
  * @typedef {{kind: "distribute", items: number[], direction: ("horizontal" | "vertical")}} Distribute
- * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | SetMosaic | CropPhoto | Background | DrawContainer | Together | Grab | Drop | Cancel)}} Do
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | SetMosaic | CropPhoto | Background | SetHalos | DrawContainer | Together | Grab | Drop | Cancel)}} Do
  * @typedef {{kind: "draw_container", line: [number, number][], is_hole?: boolean}} DrawContainer
  * @typedef {{path: string, matrix: [number, number, number, number, number, number], fill: string, item: (number | null), pose: [number, number, number, number]}} DrawnNote
  * @typedef {{kind: "drop"}} Drop
@@ -55,9 +55,10 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], ground?: string, left_out?: any, likeness?: (number | null), under?: Underlay[]}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], ground?: string, left_out?: any, likeness?: (number | null), halos?: string, rim?: number, under?: Underlay[]}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
+ * @typedef {{kind: "halos", choice: ("none" | "faint" | "all")}} SetHalos
  * @typedef {{kind: "mosaic", asset?: (string | null), tint?: (number | null)}} SetMosaic
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape
@@ -65,8 +66,8 @@
  * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: any, can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, clip: string, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
- * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null), parts: number}} Thing
- * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | SetMosaic | CropPhoto | Background | DrawContainer)[]}} Together
+ * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null), halo: string, parts: number}} Thing
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip | Group | Ungroup | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut | Paint | SetMosaic | CropPhoto | Background | SetHalos | DrawContainer)[]}} Together
  * @typedef {Ack | Alike | Begin | Bring | BeginChart | Copy | Count | Do | Fill | LeapMessage | Mix | More | Open | Order | OutlineMessage | Paste | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{shape: string, matrix: [number, number, number, number, number, number], faint: boolean}} Underlay
