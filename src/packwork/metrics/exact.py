@@ -35,7 +35,7 @@ _REACH_GROWTH = 4.0
 """Growth of that distance while nothing is found; as above. Tried."""
 
 
-_PORTION = 256
+PORTION = 256
 """Regions whose gaps are measured at a time. Larger: more memory; smaller: more rounds. Chosen."""
 
 _FEW_PAIRS = 8
@@ -215,8 +215,8 @@ def _gap_within(
     what one has found spares the next most of its pairs.
     """
     least: float | None = None
-    for begin in range(0, len(regions), _PORTION):
-        portion = regions[begin : begin + _PORTION]
+    for begin in range(0, len(regions), PORTION):
+        portion = regions[begin : begin + PORTION]
         shapely.prepare(portion)
         i, j = tree.query(portion, predicate="dwithin", distance=reach)
         before = j < i + begin

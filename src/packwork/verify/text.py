@@ -11,6 +11,7 @@ import shapely
 from packwork import writers
 from packwork.errors import PackworkError
 from packwork.metrics.certificate import HAIR, Promise, unclean
+from packwork.metrics.exact import PORTION
 from packwork.metrics.measure import exact_of
 from packwork.phrasing import number_of
 from packwork.readers.gate.door import MAX_BYTES
@@ -155,9 +156,15 @@ def is_clear(layout: Layout, gap: float) -> bool:
     regions = np.array([outline.region for outline in layout.outlines], dtype=object)
     whole = layout.container.outline.region
     edge = whole.boundary
-    shapely.prepare([whole, edge, *regions])
+    shapely.prepare([whole, edge])
     if not shapely.covers(whole, regions).all():
         return False
     tree = shapely.STRtree(regions)
-    near = tree.query(regions, predicate="dwithin", distance=gap)
-    return near.shape[1] == len(regions) and not shapely.dwithin(edge, regions, gap).any()
+    for begin in range(0, len(regions), PORTION):
+        portion = regions[begin : begin + PORTION]
+        shapely.prepare(portion)
+        near = tree.query(portion, predicate="dwithin", distance=gap)
+        shapely.destroy_prepared(portion)
+        if near.shape[1] > len(portion) or shapely.dwithin(edge, portion, gap).any():
+            return False
+    return True
