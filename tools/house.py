@@ -61,9 +61,9 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_663,
-    "lines of docstrings": 18_600,
-    "files": 596,
+    "lines of code": 67_730,
+    "lines of docstrings": 18_620,
+    "files": 597,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,

@@ -20,6 +20,7 @@ from shapely.geometry import LinearRing, MultiPolygon, Polygon
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
+from packwork.geometry.arc_chains import arcs_through
 from packwork.geometry.arcs import ArcLine, arcs_along, joined_lines, with_longest_arcs
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import symmetric_difference, valid
@@ -56,6 +57,10 @@ from packwork.units import convert
 CURVES_PX = convert(5e-4, "mm", "px")
 """Largest distance of a curve from the arcs that stand for it, and again of these from longer ones.
 Larger shows in what is cut, smaller makes a machine stutter. Chosen: half a micrometre."""
+
+ALONG = 1e-6
+"""Largest distance of a union's corners from its arcs, as a share of the drawing's size. Larger is
+seen in small drawings, smaller makes many arcs. Tried: areas of icons come out to 1e-6."""
 
 MOST_CURVES = 40_000
 """Curves of a drawing that are followed, each by some tens of arcs. Chosen."""
@@ -305,8 +310,8 @@ def _with_true_curves(
     )
     slack, left_out = 3.0 * FLATTENING * extent, Counter[str]()
     rings = [
-        RingPart(_ring_at(polygon.exterior, [*known], slack),
-                 tuple(_ring_at(ring, [*known], slack) for ring in polygon.interiors))
+        RingPart(_ring_at(polygon.exterior, [*known], slack, extent),
+                 tuple(_ring_at(ring, [*known], slack, extent) for ring in polygon.interiors))
         for polygon in polygon_parts(drawn)
     ]  # fmt: skip
     parts = [
@@ -348,8 +353,8 @@ def _rings(shape: Painted, extent: float) -> Iterator[tuple[Ring, SubPath]]:
             yield from ((ring, piece.placed(shape.matrix)) for ring in found)
 
 
-def _ring_at(edge: LinearRing, known: Sequence[Ring], slack: float) -> Ring:
-    """The ring that lies on an edge, px, y down; else one of straight sides."""
+def _ring_at(edge: LinearRing, known: Sequence[Ring], slack: float, extent: float) -> Ring:
+    """The ring that lies on an edge, px, y down; else arcs through its corners."""
     points = affine.apply(_UP, shapely.get_coordinates(edge)[:-1])
     polygon = Polygon(points)
     bounds, most = np.array(polygon.bounds), slack * polygon.length
@@ -358,4 +363,5 @@ def _ring_at(edge: LinearRing, known: Sequence[Ring], slack: float) -> Ring:
         if is_near and symmetric_difference(polygon, ring.polygon).area <= most:
             return ring
     points = points if signed_area(points) > 0 else points[::-1]
-    return Ring(ArcLine(points, np.zeros(len(points)), is_closed=True), "", "edge", polygon)
+    line = arcs_through(points, min(CURVES_PX, ALONG * extent), 2.0 * FLATTENING * extent)
+    return Ring(line, "", "edge", polygon)
