@@ -122,6 +122,16 @@ def test_scripts_are_read_as_they_were_written(
     assert read(pdf_bytes(placed(word(said, font)), LIVE)) == [said]
 
 
+@pytest.mark.parametrize("read", READ, ids=["pdfium", "poppler"])
+@pytest.mark.parametrize("x", [1.0, 79.0])
+def test_a_word_that_leaves_the_page_is_read_whole(
+    placed: MakeLayout, read: Callable[[bytes], list[str]], x: float
+) -> None:
+    layout = placed(word("office"), word("bear"))
+    beyond = Poses(np.array([x, 60.0]), layout.poses.y, 0.0, 0.02)
+    assert sorted(read(pdf_bytes(replace(layout, poses=beyond), LIVE))) == ["bear", "office"]
+
+
 def test_nothing_of_it_is_seen(placed: MakeLayout) -> None:
     layout = placed(word("office"), round_word("OLD ORCHARD"), angle=0.3)
     live, curves = (pdf_pixels(pdf_bytes(layout, options), 900) for options in (LIVE, SvgOptions()))

@@ -7,8 +7,9 @@ tree that Typst writes, in their order.
 
 A bent word is one straight run, from its first letter to its last through their middle. Programs
 that read text join letters by nearness: those of a run apiece, each turned on the curve, come
-apart in Firefox, and PDFium reads some words twice. Poppler takes tilted runs apart too, unless
-``ActualText`` says the word; leftward words have none, as it and PDFium read that from the left.
+apart in Firefox, and PDFium reads some words twice. Poppler takes tilted runs apart too, and what
+leaves the page, unless ``ActualText`` says the word; leftward words have none, as it and PDFium
+read that from the left.
 """
 
 from __future__ import annotations
@@ -165,9 +166,17 @@ class _TextWriter:
         self._document.K.append(element)
         numbers = " ".join(number(float(v), _DIGITS) for v in matrix.T.ravel())
         shown = f"{numbers} Tm [{self._shown(text, ends)}] TJ"
-        is_leftward = any(run.is_leftward for run in runs)
-        said = "" if is_leftward or not _is_tilted(matrix) else f" /ActualText <{_hex(text)}>"
+        is_plain = not self._takes_apart(matrix, ends) or any(run.is_leftward for run in runs)
+        said = "" if is_plain else f" /ActualText <{_hex(text)}>"
         self._content += [f"/Span <</MCID {mark}{said}>> BDC", f"BT {shown} ET", "EMC"]
+
+    def _takes_apart(self, matrix: FloatArray, ends: FloatArray) -> bool:
+        """Whether a run is parallel to no side of the page, or leaves the page as tiles' may."""
+        along = np.abs(matrix[:, 0])
+        sides = affine.apply(matrix, np.array([[ends[0, 0], 0.0], [ends[-1, 1], 0.0]]))
+        low, high = np.reshape([float(v) for v in self._page.mediabox], (2, 2))
+        is_inside = bool(((sides > low) & (sides < high)).all())
+        return not is_inside or bool(along.min() > _LEVEL * along.max())
 
     def _shown(self, text: str, ends: FloatArray) -> str:
         """Codes of characters, and by how much each is wider than up to the next."""
@@ -214,12 +223,6 @@ class _TextWriter:
             ToUnicode=pdf.make_stream(_unicode_map(self._codes).encode()),
         )  # fmt: skip
         return pdf.make_indirect(font)
-
-
-def _is_tilted(matrix: FloatArray) -> bool:
-    """Whether a run is parallel to no side of the page."""
-    along = np.abs(matrix[:, 0])
-    return bool(along.min() > _LEVEL * along.max())
 
 
 def _hex(text: str) -> str:
