@@ -76,7 +76,7 @@ def test_few_words_are_set_in_turn_until_the_limb_is_full() -> None:
     said = [one for one in done.remarks if "set again" in one]
     assert said == [
         f"{len(layout.items) - 6} words are set again, until the line is full; "
-        f"{len(layout.items)} would fill it once"
+        f"{len(layout.items)} would fill it once, and --repeat auto what lies beside it"
     ]
 
 

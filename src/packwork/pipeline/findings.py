@@ -95,7 +95,10 @@ class Sentence(Enum):
         Told.REMARK,
         "{why}, so sizes of words give way; --sizes shared keeps proportions",
     )
-    SET_AGAIN = Told.REMARK, "{many} set again, until the line is full; {count} would fill it once"
+    SET_AGAIN = (
+        Told.REMARK,
+        "{many} set again, until the line is full; {count} would fill it once{elsewhere}",
+    )
     THIN = Told.PART, "the container is thin"
     LEFT_BARE = Told.PART, "in proportion they would leave it bare"
     CLOSER = (

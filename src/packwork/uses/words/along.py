@@ -277,4 +277,5 @@ def _joined(
     if len(rows) == len(kept):
         return found
     many = number_of(len(rows) - len(kept), "word is", "words are")
-    return found.with_finding(Sentence.SET_AGAIN, many=many, count=len(rows))
+    elsewhere = "" if use.options.repeat == "auto" else ", and --repeat auto what lies beside it"
+    return found.with_finding(Sentence.SET_AGAIN, many=many, count=len(rows), elsewhere=elsewhere)
