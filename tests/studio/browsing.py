@@ -195,12 +195,8 @@ class Desk:
 
     def rested(self) -> str:
         """Wait until nothing is won back any more; where all lies then."""
-        seen, poses = "", ""
-        while not poses or seen != poses:
-            seen = poses
-            self.page.wait_for_timeout(1000)
-            poses = self.look("JSON.stringify([...studio.collage.poses])")
-        return poses
+        self.settled()
+        return self.look("JSON.stringify([...studio.collage.poses])")
 
     def place(self, item: int) -> tuple[float, float]:
         """Where an item is on the window."""

@@ -50,7 +50,7 @@ def test_no_panel_or_dialog_has_a_serious_fault(
     for panel in ("room", "items", "words", "options", "more", "look"):
         if desk.look(f"document.getElementById('tab-{panel}').ariaPressed") != "true":
             desk.page.locator(f"#tab-{panel}").click()
-        desk.page.wait_for_timeout(100)
+        desk.until("studio.panels.choices !== null")
         desk.look("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
         found += faults(desk)
     for keys in ("Control+e", "?", "Shift+R"):

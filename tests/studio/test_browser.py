@@ -475,7 +475,7 @@ def test_every_button_and_field_has_a_name(open_desk: Callable[..., Desk]) -> No
     for panel in ("room", "items", "words", "options", "more"):
         if desk.look(f"document.getElementById('tab-{panel}').ariaPressed") != "true":
             desk.page.locator(f"#tab-{panel}").click()
-        desk.page.wait_for_timeout(100)
+        desk.until("studio.panels.choices !== null")
         nameless = desk.look(
             "[...document.querySelectorAll('button, input, select, textarea')].filter(e =>"
             " !(e.ariaLabel || e.textContent.trim() || e.labels?.length || e.ariaHidden))"
@@ -487,10 +487,9 @@ def test_every_button_and_field_has_a_name(open_desk: Callable[..., Desk]) -> No
 def test_a_page_that_does_not_know_the_token_sees_nothing(browser: Any, server: Server) -> None:
     page = browser.new_page()
     page.goto(server.address.partition("#")[0])
-    page.wait_for_timeout(400)
+    page.locator("#outage", has_text="Open the address").wait_for()
     assert page.evaluate("() => studio.collage.scene === null && !studio.connection.isOpen")
     assert page.locator("#badge").inner_text().endswith("not connected")
-    page.locator("#outage", has_text="Open the address").wait_for()
     page.close()
 
 

@@ -21,9 +21,10 @@ def test_an_arrow_that_is_drawn_is_a_force(open_desk: Callable[..., Desk]) -> No
     desk.until("studio.collage.scene.options.force.length === 2")
     desk.settled()
     desk.picture("forces")
-    for _ in range(2):
-        desk.page.locator("#panel [aria-label^=Without]").first.click()
-        desk.page.wait_for_timeout(200)
-    desk.until("!studio.collage.scene.options.force?.length")
+    buttons = desk.page.locator("#panel [aria-label^=Without]")
+    for left in (1, 0):
+        buttons.first.click()
+        desk.until(f"(studio.collage.scene.options.force?.length ?? 0) === {left}")
+        desk.until(f"document.querySelectorAll('#panel [aria-label^=Without]').length === {left}")
     assert desk.look("studio.stage.forces.arrows().length") == 0
     desk.settled()

@@ -97,14 +97,12 @@ def test_what_is_free_and_covered_is_shown_in_colours(open_desk: Callable[..., D
     desk = open_desk()
     desk.page.keyboard.press("v")
     assert desk.page.locator("#key").is_visible()
-    desk.page.wait_for_timeout(100)
-    desk.picture("faults")
     x, y = desk.place(0)
     shown = (
         f"studio.canvas.getContext('2d').getImageData({x} * studio.stage.ratio,"
         f" ({y} - studio.canvas.getBoundingClientRect().top) * studio.stage.ratio, 1, 1).data"
     )
-    red, _, blue, _ = desk.look(f"[...{shown}]")
-    assert blue > red - 60
+    desk.until(f"(([red, , blue]) => blue > red - 60)({shown})")
+    desk.picture("faults")
     desk.page.keyboard.press("v")
     assert not desk.page.locator("#key").is_visible()
