@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_778,
-    "lines of docstrings": 18_620,
+    "lines of code": 67_830,
+    "lines of docstrings": 18_640,
     "files": 597,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,

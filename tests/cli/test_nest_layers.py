@@ -116,6 +116,24 @@ def test_an_svg_of_lines_is_a_nest_to_go_on_with(shop: Path, packwork: Command) 
     assert again.areas[:4] == pytest.approx(one.areas, rel=1e-7)
 
 
+def test_paths_too_many_to_be_read_again_are_shared(
+    shop: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert packwork(f"{LINE} -o a.svg").exit_code == 0
+    monkeypatch.setattr("packwork.writers.svg_lines.MOST_IN_FULL", 10)
+    assert packwork(f"{LINE} -o b.svg -o b.pdf").exit_code == 0
+    text = (shop / "b.svg").read_text(encoding="utf-8")
+    assert (text.count("<use"), text.count(' id="shape-')) == (4, 3)
+    assert "not certified" not in packwork("measure b.svg").output
+    one, other = (pw.Layout.load(shop / f"{name}.svg") for name in "ab")
+    assert other.areas == pytest.approx(one.areas, rel=1e-9)
+    engraved = [
+        [len(item.art.engraved) for item in layout.items if isinstance(item.art, LineArt)]
+        for layout in (one, other)
+    ]
+    assert engraved == [[2, 2, 0, 0]] * 2
+
+
 def test_a_layer_that_lost_a_part_is_told(shop: Path, packwork: Command) -> None:
     assert packwork(f"{LINE} -o a.svg").exit_code == 0
     text = (shop / "a.svg").read_text(encoding="utf-8")

@@ -174,8 +174,8 @@ def test_colours_that_may_mean_something_are_told(
     with caplog.at_level(logging.WARNING):
         parts(tmp_path, f"<g {HAIRLINE}>{drawn}</g>")
     assert (
-        "lines in several colours: #f00 (1), blue (1); none is engraved for its colour"
-        in caplog.text
+        "lines in several colours: #f00 (1), blue (1); outlines of all are cut, but for colours "
+        "that are given as --engrave 'COLOUR'" in caplog.text
     )
 
 

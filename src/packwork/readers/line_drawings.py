@@ -172,7 +172,8 @@ def _lines_to_cut(drawing: PaintedDrawing, engraved: Sequence[Painted]) -> CadDr
         found += _cad_lines(shape, drawing, layer, up)
     if len(+colours) > 1:
         told = ", ".join(f"{colour} ({count})" for colour, count in colours.most_common() if count)
-        notice(f"has lines in several colours: {told}; none is engraved for its colour (--engrave)")
+        notice(f"has lines in several colours: {told}; outlines of all are cut, but for colours "
+               "that are given as --engrave 'COLOUR'")  # fmt: skip
     return CadDrawing(tuple(found), Counter(), 1.0, None)
 
 

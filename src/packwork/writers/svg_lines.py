@@ -1,19 +1,20 @@
 """Nests as SVG: lines for a machine, in layers by what it does with them.
 
 Layers are groups as Inkscape marks them, and each has a colour, by which programs for lasers and
-plotters go. Every line stands in full: many of them know no ``use``, and follow what is filled and
-what is not shown like all else.
+plotters go. Every line stands in full, as long as that can be read again: many of them know no
+``use``, and follow what is filled and what is not shown like all else.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from packwork.geometry import affine
-from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.item import FlatArt, Item, Label, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.scene.line_art import CUT, CUT_COLOUR, ENGRAVE, ENGRAVED_COLOUR, LineArt
 from packwork.scene.notation import (
@@ -34,9 +35,12 @@ HAIRLINE_IN = 0.001
 
 NAMESPACE = ' xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 
+MOST_IN_FULL = 10_000_000
+"""Characters of paths beyond which parts that are alike share one: half of what is read. Chosen."""
+
 SEEN = (
-    "<style>@supports (vector-effect:non-scaling-stroke){@media screen{[data-lines] path"
-    "{vector-effect:non-scaling-stroke;stroke-width:1px}}}</style>"
+    "<style>@supports (vector-effect:non-scaling-stroke){@media screen{[data-lines=cut] path,"
+    "path[data-lines],path[data-item]{vector-effect:non-scaling-stroke;stroke-width:1px}}}</style>"
 )
 """Lets browsers show lines that are too thin to be seen. Inkscape, which would print them as wide,
 knows no such conditions."""
@@ -59,19 +63,20 @@ def line_layers(
     """
     ids, weights = item_ids(layout.items), stated_weights(layout)
     hair = convert(HAIRLINE_IN, "in", layout.container.unit)
-    artwork, cut, engraved = list[str](), list[str](), defaultdict[str, list[str]](list)
+    artwork, cut, engraved = list[str](), list[_CutPart](), defaultdict[str, list[str]](list)
+    paths = dict[Item, str]()
     for k, (item, (place, digits)) in enumerate(zip(layout.items, places, strict=True)):
         art = item.art if isinstance(item.art, LineArt) else None
         matrix = affine.identity() if art is None else art.matrix
         digits += finer_decimals(matrix)
         scale = float(layout.poses.scale[k]) * abs(np.linalg.det(matrix[:, :2])) ** 0.5
-        head = {"transform": place + ("" if art is None else matrix_text(matrix)),
-                "stroke-width": f"{hair / scale:.4g}"}  # fmt: skip
+        within, width = "" if art is None else matrix_text(matrix), f"{hair / scale:.4g}"
+        head = {"transform": place + within, "stroke-width": width}
         artwork += _painted(item, k + 1, ids[k], place)
-        own = {"id": ids[k], "data-name": names[k], "data-weight": weights[k], **head}
-        path = path_data(item.ink, digits) if art is None else cut_path(art, digits)
-        drawn = f'<path{attributes(own)} fill-rule="evenodd" d="{path}"/>'
-        cut.append(labelled(drawn, item.label))
+        if item not in paths:
+            paths[item] = path_data(item.ink, digits) if art is None else cut_path(art, digits)
+        own = {"id": ids[k], "data-name": names[k], "data-weight": weights[k]}
+        cut.append(_CutPart(own, place, within, width, paths[item], item.label))
         marks = defaultdict[tuple[str, str], str](str)
         for line in () if art is None else art.engraved:
             marks[line.own_layer, line.own_colour] += arc_path_data(line, digits)
@@ -83,8 +88,46 @@ def line_layers(
         stroke = {"fill": "none", "stroke": ENGRAVED_COLOUR}
         layers.append(_layer(f"{ENGRAVE}-{number}", layer, stroke, drawn_lines))
     stroke = {"fill": "none", "stroke": CUT_COLOUR, **promise}
-    layers.append(_layer("items", CUT, stroke, cut))
-    return [SEEN, *(line for one in layers for line in one)]
+    is_in_full = sum(len(one.path) for one in cut) <= MOST_IN_FULL
+    shared, drawn = ([], [one.in_full for one in cut]) if is_in_full else _shared(cut)
+    layers.append(_layer("items", CUT, stroke, drawn))
+    return [SEEN, *shared, *(line for one in layers for line in one)]
+
+
+@dataclass(frozen=True)
+class _CutPart:
+    """Attributes of a part, its place, the map of its drawing, width and path of its line."""
+
+    own: Mapping[str, str]
+    place: str
+    within: str
+    width: str
+    path: str
+    label: Label
+
+    @property
+    def in_full(self) -> str:
+        drawn = self.drawn({**self.own, "transform": self.place + self.within})
+        return labelled(drawn, self.label)
+
+    def drawn(self, head: Mapping[str, str]) -> str:
+        """Its line, with some attributes."""
+        known = attributes({**head, "stroke-width": self.width})
+        return f'<path{known} fill-rule="evenodd" d="{self.path}"/>'
+
+
+def _shared(parts: Sequence[_CutPart]) -> tuple[list[str], list[str]]:
+    """Definitions of lines, and of each part the one that it uses."""
+    names, shapes, drawn = dict[tuple[str, ...], str](), list[str](), list[str]()
+    for one in parts:
+        key = (one.within, one.width, one.path)
+        if key not in names:
+            names[key] = f"shape-{len(names) + 1}"
+            own = {"id": names[key], "data-lines": CUT, "transform": one.within}
+            shapes.append(one.drawn(own))
+        head = {**one.own, "xlink:href": f"#{names[key]}", "transform": one.place}
+        drawn.append(labelled(f"<use{attributes(head)}/>", one.label))
+    return ["<defs>", *shapes, "</defs>"], drawn
 
 
 def cut_path(art: LineArt, digits: int) -> str:

@@ -78,11 +78,12 @@ class LineParts:
         return [f"engraved lines of {many} left out"]
 
     def item(
-        self, drawn: ET.Element, label: Label, ink: Region, arts: Arts, *, keeps_holes: bool
-    ) -> Item:
+        self, drawn: ET.Element, source: ET.Element, label: Label, ink: Region, arts: Arts,
+        *, keeps_holes: bool,
+    ) -> Item:  # fmt: skip
         """One part; ``ink`` is what its path encloses, in its own units."""
-        name, path = drawn.get("data-name", "item"), drawn.get("d", "")
-        place, own = place_and_art(drawn, drawn)
+        name, path = drawn.get("data-name", "item"), source.get("d", "")
+        place, own = place_and_art(source, drawn)
         back = affine.inverse(affine.compose(place, own))
         marks = self._marks.get(drawn.get("id", ""), [])
         artwork = self._artwork.get(drawn.get("id", ""))

@@ -274,7 +274,7 @@ def _found(
     item = (
         arts.item(number, drawn, source, label, ink, keeps_holes=keeps_holes)
         if parts is None
-        else parts.item(drawn, label, ink, arts, keeps_holes=keeps_holes)
+        else parts.item(drawn, source, label, ink, arts, keeps_holes=keeps_holes)
     )
     place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
     return FoundItem(item.name, item, sound_weight(drawn.get("data-weight", "1")), place)

@@ -61,8 +61,8 @@ _HIDING = {
 }  # fmt: skip
 _OWN_STYLE = re.compile(
     r"(?:@font-face\{[^{}]*\}|#items text\{font-kerning:normal;white-space:pre\}|\s"
-    r"|@supports \(vector-effect:non-scaling-stroke\)\{@media screen\{\[data-lines\] path"
-    r"\{vector-effect:non-scaling-stroke;stroke-width:1px\}\}\})*"
+    r"|@supports \(vector-effect:non-scaling-stroke\)\{@media screen\{\[data-lines=cut\] path,"
+    r"path\[data-lines\],path\[data-item\]\{vector-effect:non-scaling-stroke;stroke-width:1px\}\}\})*"
 )
 _OWN_MOTION = re.compile(
     r'(?:\[id="[^"]*"\]\{animation:way-[^{}]*\}|\s'
