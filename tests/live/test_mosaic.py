@@ -13,6 +13,7 @@ import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.commands.command import named_container
 from packwork.live.commands.container import SetContainer
+from packwork.live.face.exporting import film_of
 from packwork.live.log import Log, read_entries
 from packwork.live.mosaic import MOST_PX
 from packwork.live.owner import Owner
@@ -169,6 +170,22 @@ def test_a_picture_behind_all_stays_where_the_container_is_another(
     with Image.open(io.BytesIO(session.layout.to_png(pixels=200))) as picture:
         row = [picture.convert("L").getpixel((x, 1)) for x in (1, picture.width - 2)]
     assert row[1] > row[0] + 80
+
+
+def test_a_gradient_covers_the_frame_of_a_film(layout: pw.Layout) -> None:
+    session = Session(layout.edit().document, record=True)
+    session.do("background", colour="linear-gradient(90deg, red, blue)")
+    session.do("move", item=0, x=300, y=300)
+    session.finish()
+    options = {"seconds": 1, "film_pixels": 160, "film_ratio": "16:9"}
+    data = film_of(session.layout, "film.gif", options, session.document.behind)
+    with Image.open(io.BytesIO(data)) as film:
+        film.seek(film.n_frames - 1)
+        assert film.width / film.height == pytest.approx(16 / 9, rel=0.02)
+        shown = film.convert("RGB")
+        left, right = (shown.getpixel((x, 1)) for x in (1, film.width - 2))
+    assert left[0] > 200 > 60 > left[2]
+    assert right[2] > 200 > 60 > right[0]
 
 
 def test_colours_of_a_picture_are_its_own(tmp_path: Path) -> None:

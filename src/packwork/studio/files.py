@@ -160,7 +160,9 @@ class Exporter:
             owner.call(lambda session: (session.layout, session.document.behind))
         )
         if kind in FILM_FORMATS:
-            return await asyncio.to_thread(film_of, layout, kind, options), FILM_FORMATS[kind]
+            return await asyncio.to_thread(film_of, layout, kind, options, behind), FILM_FORMATS[
+                kind
+            ]
         data = await asyncio.to_thread(layout_bytes, layout, kind, options, behind)
         return data, FORMATS[kind]
 

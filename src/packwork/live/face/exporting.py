@@ -25,7 +25,8 @@ from packwork.scene.layout import Layout, framed
 from packwork.temporary import TemporaryFolder
 from packwork.units import parse_share
 from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options
-from packwork.writers.film.options import FilmOptions
+from packwork.writers.film.framing import in_frame
+from packwork.writers.film.options import CANVAS, FilmOptions
 from packwork.writers.registry import check_extra
 
 FORMATS: Mapping[str, str] = {
@@ -86,13 +87,20 @@ def layout_bytes(
     drawing, margin = _drawing(options), _margin(options)
     if margin:
         layout = framed(layout, (margin * layout.container.side,) * 4)
-    if margin and behind is not None:
-        cover = covering(behind, sheet_box(layout.container))
-        layout = replace(layout, container=replace(layout.container, backdrop=cover))
+        layout = _covered(layout, behind)
     return encoded(layout, f"layout.{kind}", drawing)
 
 
-def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
+def _covered(layout: Layout, behind: Item | None) -> Layout:
+    if behind is None:
+        return layout
+    cover = covering(behind, sheet_box(layout.container))
+    return replace(layout, container=replace(layout.container, backdrop=cover))
+
+
+def film_of(
+    layout: Layout, kind: str, options: Mapping[str, Any], behind: Item | None = None
+) -> bytes:
     """A film of how the items of a layout came where they are.
 
     Parameters
@@ -101,10 +109,16 @@ def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
         One of :data:`FILM_FORMATS`.
     options
         Of films, as on the command line, and ``background`` and ``show_container``.
+    behind
+        Picture or gradient that covers the whole frame.
     """
     if kind not in FILM_FORMATS:
         raise WriteError(kind[:20], f"is no film; use one of {', '.join(FILM_FORMATS)}")
-    return film_bytes(Film(layout, *_filming(options)), f"layout.{kind.removeprefix(FILM)}")
+    film = in_frame(Film(layout, *_filming(options)))
+    # The frame is there: a film of its ratio has no other one about it.
+    settings = film.options.model_copy(update={"film_ratio": CANVAS})
+    film = replace(film, layout=_covered(film.layout, behind), options=settings)
+    return film_bytes(film, f"layout.{kind.removeprefix(FILM)}")
 
 
 def check(kind: str, options: Mapping[str, Any]) -> None:
