@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
@@ -142,6 +143,31 @@ def test_a_layer_that_lost_a_part_is_told(shop: Path, packwork: Command) -> None
     said = " ".join(packwork("measure a.svg").output.split())
     assert "engraved lines of 1 part that is not there are left out" in said
     assert "not certified" in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (r'd="M[^"]*"', 'd="M1"'), (r'd="M[^"]*"', 'd="M0 0A1 2"'), (r'd="M[^"]*"', 'd=""'),
+        (r'd="M[^"]*"', 'd="M0 0L1.2.3 4L9 9Z"'), (r'd="M[^"]*"', f'd="M0 0L{"9" * 400} 0L9 9Z"'),
+        (r'd="M[^"]*"', 'd="M0 0A0 0 0 0 1 9 9A1e300 1e300 0 0 1 0 0Z"'),
+        (r"rotate\(90\)|translate", "scale(1 0)translate"), (r"scale\([^)]*\)", "scale(0)"),
+        (r"scale\([^)]*\)", "scale(1e-300)"), (r'stroke="#[0-9a-f]*"', 'stroke="url(#x)"'),
+        (r'data-item="item-1"', 'data-item=""'), (r'inkscape:label="Score"', 'x="2"'),
+        (r'data-lines="artwork"', 'data-lines="engrave"'), (r"<path", "<rect"),
+    ],
+)  # fmt: skip
+def test_what_another_hand_has_spoilt_is_read_or_refused_in_a_line(
+    shop: Path, packwork: Command, old: str, new: str
+) -> None:
+    assert packwork(f"{LINE} -o a.svg").exit_code == 0
+    text = (shop / "a.svg").read_text(encoding="utf-8")
+    (shop / "b.svg").write_text(re.sub(old, new, text), encoding="utf-8")
+    for line in ("measure b.svg", "nest b.svg badge.svg --passes 2 -o c.svg"):
+        result = packwork(line)
+        assert result.exit_code in {0, 1, 2}, result.output
+        assert "Traceback" not in result.output
+        assert result.exception is None or isinstance(result.exception, SystemExit)
 
 
 def test_a_line_that_was_moved_is_measured_where_it_is(shop: Path, packwork: Command) -> None:

@@ -23,6 +23,7 @@ from packwork.readers.layouts.arts import Arts, place_and_art
 from packwork.readers.layouts.assembly import sound_outline
 from packwork.readers.layouts.foreign_svg import tag
 from packwork.readers.line_drawings import arc_line
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import parse_transform
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.scene.item import Item, Label
@@ -31,11 +32,13 @@ from packwork.scene.line_art import EngravedLine, LineArt
 CURVES = 1e-7
 """Distance of Bézier curves from the arcs that a DXF has for them, as a share of the part."""
 
-_NUMBER = r"-?\d+(?:\.\d+)?"
-_PAIR = rf"{_NUMBER} {_NUMBER}"
-_RADIUS = r"\d+(?:\.\d+)?(?:e[+-]\d+)?"
-_OURS = re.compile(rf"(?:M{_PAIR}(?:L{_PAIR}|A{_RADIUS} {_RADIUS} 0 0 [01] {_PAIR})*Z?)+")
-_STEP = re.compile(r"([MLA])([^MLAZ]+)")
+_NUMBER, _RADIUS = r"-?\d{1,15}(?:\.\d{1,30})?", r"\d{1,15}(?:\.\d{1,30})?(?:e[+-]?\d{1,3})?"
+_PAIR = f"{_NUMBER} {_NUMBER}"
+_OURS = re.compile(
+    f"(?:M{_PAIR}(?: {_PAIR})*(?:L{_PAIR}|A{_RADIUS} {_RADIUS} 0 0 [01] {_PAIR})*Z?)+"
+)
+_STEP = re.compile(r"([MLA])([-+\d.e ]+)")
+_FLAT = 1e-200
 _KEPT = re.compile(r"[MmZzLlHhVvCcSsQqTtAaeE\d\s+.,-]*")
 
 
@@ -84,7 +87,7 @@ class LineParts:
         """One part; ``ink`` is what its path encloses, in its own units."""
         name, path = drawn.get("data-name", "item"), source.get("d", "")
         place, own = place_and_art(source, drawn)
-        back = affine.inverse(affine.compose(place, own))
+        back = _inverse(affine.compose(place, own))
         marks = self._marks.get(drawn.get("id", ""), [])
         artwork = self._artwork.get(drawn.get("id", ""))
         moved = [affine.compose(back, parse_transform(one.get("transform"))) for _, one in marks]
@@ -121,7 +124,7 @@ class LineParts:
 
 def _painted(art: LineArt, artwork: ET.Element, arts: Arts, matrix: FloatArray) -> LineArt:
     """The same lines on what is painted; ``matrix`` maps that to the lines' units."""
-    to_markup = affine.inverse(matrix)
+    to_markup = _inverse(matrix)
     cut = tuple(line.mapped(to_markup, CURVES) for line in art.cut)
     engraved = tuple(line.mapped(to_markup, CURVES) for line in art.engraved)
     markup = arts.fragment(artwork).markup
@@ -129,6 +132,14 @@ def _painted(art: LineArt, artwork: ET.Element, arts: Arts, matrix: FloatArray) 
     is_same = np.allclose(matrix, affine.identity(), rtol=0, atol=1e-9)
     path = art.path if is_same else ""
     return LineArt(markup, place, cut=cut, engraved=engraved, path=path, is_painted=True)
+
+
+def _inverse(matrix: FloatArray) -> FloatArray:
+    """Map back, where nothing is pressed flat."""
+    found = affine.inverse(matrix) if abs(np.linalg.det(matrix[:, :2])) > _FLAT else matrix * np.nan
+    if not np.isfinite(found).all():
+        raise UnfitError("has a line to cut or artwork that is pressed flat")
+    return found
 
 
 def arc_lines_of(data: str, size: float) -> Iterator[ArcLine]:
