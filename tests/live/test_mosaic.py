@@ -26,6 +26,12 @@ from packwork.scene.recolour import one_colour
 from packwork.scene.swatch import mean_lights
 
 
+@pytest.fixture(autouse=True)
+def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are painted with few pixels: most of the time went into many."""
+    monkeypatch.setattr("packwork.readers.target.DECODED_PX", 400)
+
+
 @pytest.fixture(scope="module")
 def layout() -> pw.Layout:
     return pw.fill("circle", ["star", "heart", "bird"], count=24, effort="draft", levels="50,100")

@@ -126,10 +126,13 @@ def _target(data: bytes, source: str, container: Container) -> TargetPicture:
 
 
 def painted(item: Item) -> bytes:
-    """PNG of what a drawing or a photograph shows."""
-    art = cast("VectorArt", item.art.preview if isinstance(item.art, PhotoArt) else item.art)
+    """PNG of what a drawing or a photograph shows; this one has no more pixels than its copy."""
+    art, most_px = item.art, DECODED_PX
+    if isinstance(art, PhotoArt):
+        art, most_px = art.preview, min(DECODED_PX, PREVIEW_PX)
+    art = cast("VectorArt", art)
     left, top, right, bottom = item.ink.bounds
-    px = max(right - left, bottom - top) / DECODED_PX
+    px = max(right - left, bottom - top) / most_px
     size = [max(round((right - left) / px), 1), max(round((bottom - top) / px), 1)]
     document = (
         f'<svg {_SPACES} width="{size[0]}" height="{size[1]}" preserveAspectRatio="none"'
