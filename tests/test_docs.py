@@ -12,7 +12,7 @@ import pytest
 import typer.main
 
 from packwork.cli import app
-from packwork.cli.files import Choosing, LayoutFiles, Serial, SerialMarks, SideFiles, Terminal
+from packwork.cli.options import Choosing, LayoutFiles, Serial, SerialMarks, SideFiles, Terminal
 from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics

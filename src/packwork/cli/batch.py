@@ -5,17 +5,21 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from pydantic import Field
 
 from packwork.cli import options as shared
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
+from packwork.cli.options import Terminal
 from packwork.cli.terminal import MOST_LINES, printable, say
 from packwork.errors import RecipeError, WriteError
+from packwork.offers import Offer, Verbs
+from packwork.options import Options
 from packwork.phrasing import enumerated, number_of
+from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
     from packwork.batches.batch import BatchPlan, BatchProgress
@@ -31,126 +35,23 @@ _STATUS_WORDS: Mapping[Status, str] = {
 }  # fmt: skip
 """What is said of rows by their status."""
 
-
-@shared.by_name
-def batch(
-    recipe: Annotated[
-        Path,
-        typer.Argument(
-            metavar="RECIPE.toml",
-            help="A recipe in which {column} stands for a cell of the table; or a folder of "
-            "recipes.",
-        ),
-    ],
-    table: Annotated[
-        Path | None,
-        typer.Option("--table", help="CSV, TSV, JSON or Parquet: a run for each row."),
-    ] = None,
-    output: Annotated[
-        list[str],
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="A row's file, as 'out/{name}.svg': {row} is its number, {recipe} the name of "
-            "the recipe's file. May be given several times.",
-        ),
-    ] = [],  # noqa: B006
-    workers: Annotated[
-        int | None,
-        typer.Option("--workers", help="Processes at once; one a core unless given.", min=1),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            "--scheduler",
-            metavar="ADDRESS",
-            help="Scheduler of a running cluster of Dask, as tcp://10.0.0.1:8786, whose workers "
-            "make the rows; needs packwork[cluster].",
-        ),
-    ] = None,
-    in_place: Annotated[
-        bool,
-        typer.Option(
-            "--in-place",
-            help="Workers of the cluster see the same files, and write the outputs themselves.",
-        ),
-    ] = False,
-    dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Say what would be made, and make nothing.")
-    ] = False,
-    anew: Annotated[bool, typer.Option("--anew", help="Make what is made already, too.")] = False,
-    report: Annotated[
-        Path | None,
-        typer.Option("--report", help="Table of all rows with their metrics (CSV or JSON)."),
-    ] = None,
-    contact_sheet: Annotated[
-        Path | None,
-        typer.Option("--contact-sheet", help="Small pictures of all rows on one (PNG)."),
-    ] = None,
-    index: Annotated[
-        Path | None, typer.Option("--index", help="Page of all rows to look through (HTML).")
-    ] = None,
-    allow_code: shared.AllowCode = False,
-    *,
-    pixels: int,
-    dpi: float | None,
-    background: str | None,
-    halo: str,
-    show_container: bool,
-    flatten: bool,
-    text: str,
-    bleed: str | None,
-    marks: str,
-    icc: str | None,
-    spot: str | None,
-    quiet: bool,
-) -> None:
-    """Run a recipe for each row of a table, on all cores.
-
-    A row that cannot be made is named, all others are; the same command goes on where it ended,
-    and makes anew what has changed. Exit code 1 if a row is not as asked.
-
-    [bold]packwork batch poster.toml --table people.csv -o 'out/{name}.svg' -o 'out/{name}.pdf'[/]
-
-    [bold]packwork batch poster.toml --table people.csv -o 'out/{name}.png' --dry-run[/]
-
-    [bold]packwork batch recipes/ -o 'out/{recipe}.svg' --index out/index.html[/]
-    """
-    with clear_errors():
-        from packwork.batches.batch import batch_progress, plan_batch, read_request
-
-        drawing: dict[str, Any] = {
-            "pixels": pixels, "dpi": dpi, "background": background, "halo": halo,
-            "show_container": show_container, "flatten": flatten, "text": text, "bleed": bleed,
-            "marks": marks, "icc": icc, "spot": spot,
-        }  # fmt: skip
-        files = BatchFiles(report=report, contact_sheet=contact_sheet, index=index)
-        files.check()
-        request = read_request(recipe, table, output, drawing, allow_code=allow_code)
-        for notice in request.notices:
-            say(notice)
-        plan = plan_batch(request)
-        files.check_plan(plan)
-        if plan.outside:
-            say(f"rows read files outside the recipe's folder: {enumerated(plan.outside, 5)}")
-        now = batch_progress(plan, anew=anew)
-        if dry_run:
-            _say_what_would_be(plan, now, quiet)
-            raise typer.Exit(SHORTFALL if plan.bad else 0)
-        if in_place and scheduler is None:
-            raise RecipeError("in_place", "is of --scheduler; say which, as tcp://10.0.0.1:8786")
-        by = {"workers": workers, "scheduler": scheduler, "in_place": in_place}
-        raise typer.Exit(_make_rows(plan, now, by, files, quiet))
+OF_ONE_LAYOUT = ("tiles", "cut", "kiss_cut")
+"""Options of drawing that batches do without."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class BatchFiles:
+class BatchFiles(Options):
     """Files that are written of all rows together; None for none."""
 
+    offers = Offer(verbs=Verbs.EVERY)
+
     report: Path | None = None
+    """Table of all rows with their metrics (CSV or JSON)."""
+
     contact_sheet: Path | None = None
+    """Small pictures of all rows on one (PNG)."""
+
     index: Path | None = None
+    """Page of all rows to look through (HTML)."""
 
     @property
     def paths(self) -> list[Path]:
@@ -198,6 +99,89 @@ class BatchFiles:
         return [path for path, _ in made]
 
 
+class BatchWorkers(Options):
+    """Processes that make the rows, and which rows they make."""
+
+    offers = Offer(verbs=Verbs.EVERY)
+
+    workers: Annotated[int | None, Field(ge=1)] = None
+    """Processes at once; one a core unless given."""
+
+    scheduler: Annotated[str | None, Offer(metavar="ADDRESS")] = None
+    """Scheduler of a running cluster of Dask, as tcp://10.0.0.1:8786, whose workers make the rows;
+    needs packwork[cluster]."""
+
+    in_place: bool = False
+    """Workers of the cluster see the same files, and write the outputs themselves."""
+
+    dry_run: bool = False
+    """Say what would be made, and make nothing."""
+
+    anew: bool = False
+    """Make what is made already, too."""
+
+
+@shared.of_models(BatchWorkers, BatchFiles, DrawingOptions, Terminal, without=OF_ONE_LAYOUT)
+def batch(
+    recipe: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RECIPE.toml",
+            help="A recipe in which {column} stands for a cell of the table; or a folder of "
+            "recipes.",
+        ),
+    ],
+    table: Annotated[
+        Path | None,
+        typer.Option("--table", help="CSV, TSV, JSON or Parquet: a run for each row."),
+    ] = None,
+    output: Annotated[
+        list[str],
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="A row's file, as 'out/{name}.svg': {row} is its number, {recipe} the name of "
+            "the recipe's file. May be given several times.",
+        ),
+    ] = [],  # noqa: B006
+    allow_code: shared.AllowCode = False,
+    **asked: Any,
+) -> None:
+    """Run a recipe for each row of a table, on all cores.
+
+    A row that cannot be made is named, all others are; the same command goes on where it ended,
+    and makes anew what has changed. Exit code 1 if a row is not as asked.
+
+    [bold]packwork batch poster.toml --table people.csv -o 'out/{name}.svg' -o 'out/{name}.pdf'[/]
+
+    [bold]packwork batch poster.toml --table people.csv -o 'out/{name}.png' --dry-run[/]
+
+    [bold]packwork batch recipes/ -o 'out/{recipe}.svg' --index out/index.html[/]
+    """
+    with clear_errors():
+        from packwork.batches.batch import batch_progress, plan_batch, read_request
+
+        by, files = (shared.part_of(model, asked) for model in (BatchWorkers, BatchFiles))
+        quiet = asked["quiet"]
+        drawing = {name: asked[name] for name in DrawingOptions.model_fields if name in asked}
+        files.check()
+        request = read_request(recipe, table, output, drawing, allow_code=allow_code)
+        for notice in request.notices:
+            say(notice)
+        plan = plan_batch(request)
+        files.check_plan(plan)
+        if plan.outside:
+            say(f"rows read files outside the recipe's folder: {enumerated(plan.outside, 5)}")
+        now = batch_progress(plan, anew=by.anew)
+        if by.dry_run:
+            _say_what_would_be(plan, now, quiet)
+            raise typer.Exit(SHORTFALL if plan.bad else 0)
+        if by.in_place and by.scheduler is None:
+            raise RecipeError("in_place", "is of --scheduler; say which, as tcp://10.0.0.1:8786")
+        raise typer.Exit(_make_rows(plan, now, by, files, quiet))
+
+
 class _RateBar:
     """Moves a bar: rows done and failed, how many a minute, time left."""
 
@@ -226,7 +210,7 @@ def _duration(seconds: float) -> str:
 
 
 def _make_rows(
-    plan: BatchPlan, now: BatchProgress, by: Mapping[str, Any], files: BatchFiles, quiet: bool
+    plan: BatchPlan, now: BatchProgress, by: BatchWorkers, files: BatchFiles, quiet: bool
 ) -> int:
     """Make what is to be made, and tell of it; the exit code."""
     from packwork import threads
@@ -234,20 +218,23 @@ def _make_rows(
     from packwork.cli.running import compile_kernels
     from packwork.display.bar import TerminalBar
 
-    if now.to_do and by["scheduler"] is None:
+    if now.to_do and by.scheduler is None:
         with threads.using(1):
             compile_kernels(TerminalBar(None, quiet))
     bar, interrupt = TerminalBar(None, quiet), Interrupt()
     with interrupt.listening():
         with bar.showing():
             teller = _RateBar(bar, max(len(now.to_do), 1))
-            found = run_batch(plan, now, told=teller, stop=interrupt, **by)
+            found = run_batch(
+                plan, now, by.workers, told=teller, stop=interrupt,
+                scheduler=by.scheduler, in_place=by.in_place,
+            )  # fmt: skip
         interrupt.is_over = True
         written = files.write(found)
     _say_what_came(found, written, quiet)
     if any(one.status == "stopped" for one in found):
-        if by["scheduler"] is not None and not interrupt.pressed:
-            say(f"{by['scheduler']} is lost; the same command goes on with the rest")
+        if by.scheduler is not None and not interrupt.pressed:
+            say(f"{by.scheduler} is lost; the same command goes on with the rest")
             return SHORTFALL
         say("stopped by Ctrl-C; the same command goes on with the rest")
         return INTERRUPTED

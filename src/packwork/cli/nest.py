@@ -5,13 +5,16 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
+from pydantic import Field
 
 from packwork.cli import options as shared
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
-from packwork.offers import Group
+from packwork.cli.options import SideFiles, Terminal
+from packwork.offers import Group, Offer, Verbs
+from packwork.options import Options
 from packwork.phrasing import number_of
 
 if TYPE_CHECKING:
@@ -25,21 +28,66 @@ MOST_NUMBERED = 100
 TABLE = ".csv"
 """Ending of a table of where each part lies."""
 
-NestFiles = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--output",
-        "-o",
-        rich_help_panel=Group.WRITTEN.value,
-        show_default="nest.svg",
-        help="File to write, one for each sheet where there are several: .dxf, .svg, .png, "
-        ".jpg, .webp, .tif, .geojson; .packwork, to go on by hand. One for all: .pdf, with a list "
-        "of parts; .csv, a table of where each part lies. May be given several times.",
-    ),
-]
+NOT_OF_NESTS = ("show_saliency", "diagnose", "preflight", "save_recipe")
+"""Further files that nests do without."""
 
 
-@shared.by_name
+class NestOptions(Options):
+    """Options of a nest."""
+
+    offers = Offer(verbs=Verbs.EVERY)
+
+    rotate: str = "0,90,180,270"
+    """Angles in degrees: the only ones, as 0,180; free; none; 30: nine up to 30 off."""
+
+    kerf: str = "0"
+    """Distance of parts, and from the sheet's edge, as 2mm: the tool's width."""
+
+    tool: str = "0"
+    """Diameter of a mill's tool, as 6mm: --kerf is as much at least, and places that it cannot
+    enter are named."""
+
+    mirror: bool = False
+    """Parts may be turned over."""
+
+    holes: Literal["keep", "fill"] = "keep"
+    """keep: the holes of items stay free, so that small items may sit in them."""
+
+    engrave: Annotated[tuple[str, ...], Offer(metavar="COLOUR")] = ()
+    """Lines and areas in this colour, or on the layer of this name, are engraved and not cut. May
+    be given several times."""
+
+    optional: Annotated[tuple[str, ...], Offer(metavar="PART")] = ()
+    """As part.svg*20: only fills what all others leave of the sheets that they take. May be given
+    several times."""
+
+    margin: str | None = None
+    """Distance from the sheet's edge, as 10mm, where it is more than --kerf."""
+
+    time: Annotated[float, Field(ge=0.1)] = 20.0
+    """Seconds to search; results depend on the machine."""
+
+    passes: Annotated[int | None, Field(ge=1)] = None
+    """Passes to search, in place of seconds: the same bytes again."""
+
+    seed: Annotated[int, Field(ge=0)] = 0
+    """Another one gives another nest."""
+
+    output: Annotated[tuple[Path, ...], Offer(flags="--output -o", group=Group.WRITTEN)] = ()
+    """File to write, one for each sheet where there are several: .dxf, .svg, .png, .jpg, .webp,
+    .tif, .geojson; .packwork, to go on by hand. One for all: .pdf, with a list of parts; .csv, a
+    table of where each part lies. May be given several times. Default: nest.svg."""
+
+    def lengths(self, sheet: Sheet) -> dict[str, Any]:
+        """Distances and the tool's diameter in units of a sheet, as a nest takes them."""
+        from packwork.uses.nest_request import length_of
+
+        margin = None if self.margin is None else length_of("margin", self.margin, sheet)
+        gap, tool = length_of("kerf", self.kerf, sheet), length_of("tool", self.tool, sheet)
+        return {"gap": gap, "margin": margin, "tool": tool}
+
+
+@shared.of_models(NestOptions, SideFiles, Terminal, without=NOT_OF_NESTS)
 def nest(
     sheet: Annotated[
         str,
@@ -60,66 +108,7 @@ def nest(
             "together.",
         ),
     ] = None,
-    rotate: Annotated[
-        str,
-        typer.Option(
-            help="Angles in degrees: the only ones, as 0,180; free; none; 30: nine up to 30 off."
-        ),
-    ] = "0,90,180,270",
-    kerf: Annotated[
-        str,
-        typer.Option(
-            help="Distance of parts, and from the sheet's edge, as 2mm: the tool's width."
-        ),
-    ] = "0",
-    tool: Annotated[
-        str,
-        typer.Option(
-            help="Diameter of a mill's tool, as 6mm: --kerf is as much at least, and places that "
-            "it cannot enter are named."
-        ),
-    ] = "0",
-    mirror: Annotated[bool, typer.Option("--mirror", help="Parts may be turned over.")] = False,
-    holes: Annotated[
-        Literal["keep", "fill"],
-        typer.Option(
-            help="keep: the holes of items stay free, so that small items may sit in them."
-        ),
-    ] = "keep",
-    engrave: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="COLOUR",
-            help="Lines and areas in this colour, or on the layer of this name, are engraved and "
-            "not cut. May be given several times.",
-        ),
-    ] = None,
-    optional: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="PART",
-            help="As part.svg*20: only fills what all others leave of the sheets that they take. "
-            "May be given several times.",
-        ),
-    ] = None,
-    margin: Annotated[
-        str | None,
-        typer.Option(help="Distance from the sheet's edge, as 10mm, where it is more than --kerf."),
-    ] = None,
-    seconds: Annotated[
-        float,
-        typer.Option("--time", min=0.1, help="Seconds to search; results depend on the machine."),
-    ] = 20.0,
-    passes: Annotated[
-        int | None,
-        typer.Option(min=1, help="Passes to search, in place of seconds: the same bytes again."),
-    ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Another one gives another nest.")] = 0,
-    output: NestFiles = None,
-    *,
-    report: Path | None,
-    no_clobber: bool,
-    quiet: bool,
+    **asked: Any,
 ) -> None:
     """Nest parts of true size on as few sheets and as little of the last one as possible.
 
@@ -134,21 +123,21 @@ def nest(
         from packwork.display.bar import TerminalBar
         from packwork.readers.engraving import Engraving
         from packwork.separation.strip import WorkBound
-        from packwork.uses.nest_request import length_of, read_request
+        from packwork.uses.nest_request import read_request
         from packwork.uses.nesting import nest as nest_parts
 
-        files = list(output or (DEFAULT_OUTPUT,))
+        options = shared.part_of(NestOptions, asked)
+        report, no_clobber, quiet = asked["report"], asked["no_clobber"], asked["quiet"]
+        files = list(options.output or (DEFAULT_OUTPUT,))
         every = [*files, *([report] if report else [])]
         sheets, counted = read_request(
-            sheet, parts or [], optional or [], rotate, mirror=mirror, holes=holes,
-            engraving=Engraving(engrave or []),
+            sheet, parts or [], options.optional, options.rotate, mirror=options.mirror,
+            holes=options.holes, engraving=Engraving(options.engrave),
         )  # fmt: skip
-        gap = length_of("kerf", kerf, sheets[0])
-        bit = length_of("tool", tool, sheets[0])
-        away = None if margin is None else length_of("margin", margin, sheets[0])
+        lengths = options.lengths(sheets[0])
         _check_files(files, every, no_clobber)
         console = Paper(quiet)
-        work = WorkBound.of(seconds, passes)
+        work = WorkBound.of(options.time, options.passes)
         bar, interrupt = TerminalBar(None, quiet), Interrupt()
 
         def stop() -> bool:
@@ -156,9 +145,7 @@ def nest(
             return interrupt.pressed
 
         with bar.showing(), interrupt.listening():
-            found = nest_parts(
-                counted, sheets, gap=gap, margin=away, tool=bit, seed=seed, work=work, stop=stop
-            )  # fmt: skip
+            found = nest_parts(counted, sheets, **lengths, seed=options.seed, work=work, stop=stop)
         drawn, faults = _drawn(found, files)
         certified = found.certified and not faults
         if no_clobber:

@@ -1,4 +1,7 @@
-"""Flags of commands, made of the fields of the models: type, names, help and default."""
+"""Flags of commands, made of the fields of the models: type, names, help and default.
+
+Some options only command lines have: names of files, and what is printed.
+"""
 
 from __future__ import annotations
 
@@ -6,19 +9,108 @@ import inspect
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 import typer
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, Field
 
-from packwork.cli.files import Choosing, LayoutFiles, Serial, SerialMarks, SideFiles, Terminal
-from packwork.offers import Offered, Verbs
+from packwork.offers import Group, Offer, Offered, Verbs
 from packwork.options import Options, offered
 from packwork.recipe import Recipe
+from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import VERBS, WRITTEN, in_groups, options_of, run_options
 from packwork.writers.film.options import FilmOptions
 
+
+class LayoutFiles(Options):
+    """Layouts and films to write."""
+
+    offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
+
+    output: Annotated[tuple[Path, ...], Offer(flags="-o --output")] = ()
+    """File to write; the ending (.svg, .png, .jpg, .webp, .tif, .pdf, .dxf, .geojson, or
+    .packwork, a session to go on from) picks the format. May be given several times."""
+
+    film: Annotated[tuple[Path, ...], Offer(group=Group.FILM)] = ()
+    """Film of the run to write; the ending (.svg, .gif, .webp, .mp4, .webm, .json for
+    Lottie) picks the format. May be given several times."""
+
+
+class SideFiles(Options):
+    """Further files to write, and whether files may be replaced."""
+
+    offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
+
+    show_saliency: Annotated[Path | None, Offer(verbs=Verbs.COLLAGES)] = None
+    """Write a picture (PNG) of what was found of a container around:IMAGE: what stands out red, a
+    line round what is filled."""
+
+    report: Path | None = None
+    """Write measures and times as JSON."""
+
+    diagnose: Path | None = None
+    """Write the diagnostic picture (PNG): container yellow, items grey, overlap red, what sticks
+    out blue."""
+
+    preflight: Annotated[bool, Offer(group=Group.PRINTED)] = False
+    """Print what a print shop looks at in each PDF and SVG: resolution of pictures, thin lines,
+    small text, transparency, what ends near the trim, colours that are no inks."""
+
+    save_recipe: Path | None = None
+    """Write the recipe (TOML) that repeats this run."""
+
+    no_clobber: bool = False
+    """Keep files that are there already: refuse to run if one is to be written."""
+
+
+class Choosing(Options):
+    """Number of runs to choose from."""
+
+    offers = Offer(group=Group.SOLVED, verbs=Verbs.EVERY)
+
+    best_of: Annotated[int, Field(ge=1, le=10_000)] = 1
+    """Try so many seeds, from --seed on, on all cores, and keep the best."""
+
+    best_by: str = "coverage"
+    """What the best of several is: coverage, evenness, or a metric of the report such as LC_ink,
+    with a minus where less is better."""
+
+    contact_sheet: Annotated[Path | None, Offer(group=Group.WRITTEN)] = None
+    """Write a picture (PNG) of all that --best-of has tried, the best first, or of all steps of a
+    series."""
+
+
+class Serial(Options):
+    """A layout for each step of a table."""
+
+    offers = Offer(group=Group.PLACED, verbs=Verbs.WORDS)
+
+    series: Annotated[str | None, Offer(metavar="TABLE:COLUMN")] = None
+    """Table of words and its column of steps, as talks.csv:year, in place of SOURCE: a layout for
+    each step, all on one scale, words in their places for as long as goes."""
+
+
+class SerialMarks(Options):
+    """A chart for each step of a table."""
+
+    offers = Offer(group=Group.MARKS, verbs=Verbs.CHART)
+
+    series: Annotated[str | None, Offer(metavar="COLUMN")] = None
+    """Column of steps, as year: a chart for each, all at one scale, marks of one name in their
+    places for as long as goes. --by-step takes so many numbers together."""
+
+
+class Terminal(Options):
+    """Output on the terminal."""
+
+    offers = Offer(verbs=Verbs.EVERY)
+
+    quiet: Annotated[bool, Offer(flags="-q --quiet")] = False
+    """Print nothing but warnings and errors."""
+
+
 Command = Callable[..., None]
+AnyOptions = TypeVar("AnyOptions", bound=Options)
 
 AllowCode = Annotated[
     bool,
@@ -73,6 +165,20 @@ def by_name(command: Command) -> Command:
         for each in own.parameters.values()
     ]
     return _signed(command, own.replace(parameters=parameters))
+
+
+def of_models(
+    *models: type[Options], without: Collection[str] = ()
+) -> Callable[[Command], Command]:
+    """Replace a command's ``**asked`` by the options of some models."""
+    listed = [option for model in models for option in offered(model)]
+    return _with(_as_it_is(option) for option in listed if option.name not in without)
+
+
+def part_of(model: type[AnyOptions], asked: Mapping[str, Any]) -> AnyOptions:
+    """Options of one model, of all that a command was asked for."""
+    given = {name: asked[name] for name in model.model_fields if asked[name] is not None}
+    return validated(model, given)
 
 
 def of_run(verb: Verbs, asked: Mapping[str, Any]) -> dict[str, Any]:

@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from packwork import pipeline, writers
-from packwork.cli.files import Choosing
+from packwork.cli.options import Choosing, part_of
 from packwork.cli.terminal import say
 from packwork.errors import RecipeError, WriteError
 from packwork.readers.layouts.read import SESSION, is_session
 from packwork.recipe import Recipe
-from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import VERBS, default_of, film_options, options_of
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Container
@@ -143,7 +142,7 @@ def outputs_asked(
         saliency=asked.get("show_saliency"),
         keeps_files=asked["no_clobber"],
         preflight=asked["preflight"],
-        choosing=validated(Choosing, {name: asked[name] for name in Choosing.model_fields}),
+        choosing=part_of(Choosing, asked),
         drawing=drawing,
     )
     return outputs if outputs.every else replace(outputs, files=[default])

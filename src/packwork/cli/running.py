@@ -15,7 +15,7 @@ from rich.console import Console
 
 from packwork import pipeline, precompile, threads, uses, verify, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, WATCH, Interrupt
-from packwork.cli.files import Choosing
+from packwork.cli.options import Choosing
 from packwork.cli.outputs import Outputs, check_room, outputs_asked, saving, with_room
 from packwork.cli.show import Paper, preflight_table, printing, show_results
 from packwork.cli.start_up import START_UP

@@ -14,7 +14,7 @@ import typer
 from packwork import threads, writers
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
-from packwork.cli.files import Choosing
+from packwork.cli.options import Choosing, part_of
 from packwork.cli.outputs import Outputs, outputs_asked, saving
 from packwork.cli.running import compile_kernels
 from packwork.cli.terminal import printable, say
@@ -25,7 +25,6 @@ from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import EM_PX
 from packwork.readers.words.table import named_column, read_word_steps
-from packwork.recipe.refusals import validated
 from packwork.sources import check_no_input
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
@@ -95,7 +94,7 @@ def _check(asked: Mapping[str, Any]) -> None:
     for key in IDLE:
         if asked.get(key) is not None:
             raise RecipeError(key, "is of one layout; leave it out of a series")
-    choosing = validated(Choosing, {key: asked[key] for key in Choosing.model_fields})
+    choosing = part_of(Choosing, asked)
     if choosing.best_of > 1:
         raise RecipeError("best_of", "is of one layout; leave it out of a series")
 

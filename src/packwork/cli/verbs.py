@@ -22,6 +22,16 @@ COLLAGE = Path("collage.svg")
 ABOUT_CONTAINERS = frozenset({"show_saliency"})
 """What ``run`` does not offer: it is for trying containers out."""
 
+ContainerName = Annotated[
+    str,
+    typer.Argument(
+        metavar="CONTAINER",
+        help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
+        "lines), around:IMAGE (its quiet part), a built-in name such as heart, or page "
+        "(the whole sheet of --canvas).",
+    ),
+]
+
 ItemNames = Annotated[
     list[str] | None,
     typer.Argument(
@@ -55,15 +65,7 @@ def _verb(verb: Verbs, default: Path) -> Callable[[Callable[..., Recipe]], share
 
 @_verb(Verbs.FILL, COLLAGE)
 def fill(
-    container: Annotated[
-        str,
-        typer.Argument(
-            metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
-            "lines), around:IMAGE (its quiet part), a built-in name such as heart, or page "
-            "(the whole sheet of --canvas).",
-        ),
-    ],
+    container: ContainerName,
     items: ItemNames = None,
     **asked: Any,
 ) -> Recipe:
@@ -83,14 +85,7 @@ def fill(
 
 @_verb(Verbs.WORDS, Path("words.svg"))
 def words(
-    container: Annotated[
-        str,
-        typer.Argument(
-            metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
-            "part), a built-in name such as heart, or page (the whole sheet of --canvas).",
-        ),
-    ],
+    container: ContainerName,
     source: Annotated[
         str | None,
         typer.Argument(
@@ -134,14 +129,7 @@ def words(
 
 @_verb(Verbs.PHOTOS, Path("photos.jpg"))
 def photos(
-    container: Annotated[
-        str,
-        typer.Argument(
-            metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
-            "part), a built-in name such as moon, or page (the whole sheet of --canvas).",
-        ),
-    ],
+    container: ContainerName,
     sources: Annotated[
         list[str],
         typer.Argument(

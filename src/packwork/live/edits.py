@@ -2,7 +2,7 @@
 
 An edit is a function of a session, whose name, signature and docstring are those of the verb of
 :class:`packwork.Session`. The texts of its flags are read by the types of its parameters
-(:mod:`packwork.cli.edits`). Edits with flags stand in the order in which a command line does them.
+(:mod:`packwork.cli.edit`). Edits with flags stand in the order in which a command line does them.
 What takes long to load is loaded by the edit: help of command lines is made of this module.
 """
 
