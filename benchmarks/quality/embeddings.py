@@ -29,7 +29,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.start.first_poses import container_image
-from packwork.start.stippling import stippled
+from packwork.start.places import stippled
 
 COUNTS, KINDS, NEAREST = (100, 400), 5, 5
 CONTAINERS = ("circle", "heart", "square")

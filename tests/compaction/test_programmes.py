@@ -1,7 +1,7 @@
 import numpy as np
 
+from packwork.compaction.compact import in_twos
 from packwork.compaction.kernels import interior_point
-from packwork.compaction.programmes import in_twos
 
 
 def test_programmes_in_twos_have_the_same_best_value() -> None:

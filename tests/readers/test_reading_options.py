@@ -10,11 +10,10 @@ from packwork import uses
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import polygon_parts
-from packwork.readers.container import read_container
+from packwork.readers.container import closed_slits, read_container
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import read_written
 from packwork.readers.options import ReadOptions
-from packwork.readers.slits import closed_slits
 from packwork.readers.svg.curve import walled_container
 from packwork.recipe import make_recipe
 from packwork.recipe.reading import ReadingOptions

@@ -9,9 +9,9 @@ import pytest
 import shapely
 
 from packwork.separation.compact import StripCompaction
+from packwork.separation.container import SquareGround
 from packwork.separation.ground import Ground, ground_of
 from packwork.separation.shapes import Floats, Part, placed
-from packwork.separation.square import SquareGround
 from packwork.separation.state import Problem
 
 pytestmark = pytest.mark.compiled

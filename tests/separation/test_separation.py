@@ -11,11 +11,11 @@ import pytest
 import shapely
 import shapely.affinity
 
+from packwork.separation.container import SquareGround, SquareSearch
 from packwork.separation.ground import Ground
 from packwork.separation.kernels.field import MARGIN, draw_others, score_row
 from packwork.separation.kernels.moves import put_all
 from packwork.separation.shapes import Part, poles_of, rings_of, spare
-from packwork.separation.square import SquareGround, SquareSearch
 from packwork.separation.state import Problem, WorkerState
 from packwork.separation.strip import Strip, StripSearch, WorkBound
 

@@ -12,9 +12,9 @@ import shapely
 from packwork.geometry.outline import Outline
 from packwork.scene.limits import Limits, Zone
 from packwork.scene.pose import Poses
-from packwork.start.allowed_pixels import allowed_pixels, around
 from packwork.start.first_poses import first_poses, relocated
 from packwork.start.options import StartOptions
+from packwork.start.places import allowed_pixels, around
 from scenes import box, disc, overlap_area, placed, poses, round_container, square
 
 NAN = np.nan

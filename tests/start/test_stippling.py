@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork.start.stippling import stippled
+from packwork.start.places import stippled
 
 
 def test_even_density_gives_even_cells() -> None:

@@ -20,7 +20,7 @@ from packwork.precompile import warm_up_once
 from packwork.progress import Stop, never
 from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Value
-from packwork.readers.tables.frames import is_frame, rows_of_frame
+from packwork.readers.tables.table import is_frame, rows_of_frame
 from packwork.readers.words.options import check_weight
 from packwork.readers.words.table import read_word_steps, steps_of_rows
 from packwork.timeline.film import filmed

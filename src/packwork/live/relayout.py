@@ -42,7 +42,7 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.temporary import TemporaryFolder
-from packwork.uses.words.again import with_sizes_that_give_way
+from packwork.uses.words.use import with_sizes_that_give_way
 
 BY_TEXT = FROM_TEXT
 """Stands for vectors that are made from the text of the words."""

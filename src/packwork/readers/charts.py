@@ -90,7 +90,7 @@ class ChartOptions(Options):
         if isinstance(data, str | Path):
             return str(data)
         # What turns frames into rows is not needed for the command line's help.
-        from packwork.readers.tables.frames import rows_of_frame
+        from packwork.readers.tables.table import rows_of_frame
 
         try:
             return tuple(rows_of_frame(data))

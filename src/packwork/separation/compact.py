@@ -10,10 +10,10 @@ import numpy.typing as npt
 from shapely.geometry import box
 
 from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.compact import maximised
 from packwork.compaction.kernels.contacts import BEND, REACH, rows_of
 from packwork.compaction.kernels.interior_point import Rows
 from packwork.compaction.kernels.steps import TRAVEL, step_of
-from packwork.compaction.programmes import maximised
 from packwork.geometry.outline import Outline
 from packwork.separation.shapes import Floats, placed
 from packwork.separation.state import Problem

@@ -1,10 +1,13 @@
 """Parts of given size in a container that is made smaller: what raises one common scale of all.
 
 Nothing of the parts is drawn anew for that: only what stands round the container is scaled.
+
+The smallest square that holds all parts is found alike.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -15,7 +18,7 @@ from shapely.geometry import box
 from packwork.geometry.overlay import buffered, difference, simplify
 from packwork.geometry.polygon import Region
 from packwork.separation.ground import TILES, Bay, Ground, tiles
-from packwork.separation.shapes import Floats, Part, spans_of, starts
+from packwork.separation.shapes import Floats, Part, boxes_of, spans_of, starts
 from packwork.separation.strip import Strip, StripSearch, WorkBound
 
 COARSENESS = 5e-4
@@ -126,3 +129,39 @@ def _ground_of(room: Region) -> ContainerRoom:
     )
     bay = Bay(0.0, wide, room.area, (-x0, -y0))
     return ContainerRoom(tall, (bay,), tuple(tiles(around, min(wide, tall) / TILES)))
+
+
+@dataclass(frozen=True)
+class SquareGround(Ground):
+    """A square of any side."""
+
+    height: float = math.inf
+    axes: tuple[int, ...] = (0, 1)
+    measure: str = "side"
+
+    def height_at(self, length: float) -> float:
+        """The same as the length."""
+        return length
+
+    def length_for(self, area: float) -> float:
+        """Side of the square of an area."""
+        return math.sqrt(area)
+
+
+GROWTH = 1.05
+"""Factor between squares into which columns of parts are laid."""
+
+
+class SquareSearch(StripSearch):
+    """Search over squares: as over strips, but shorter on both sides at once."""
+
+    def fallback(self) -> Strip:
+        """All parts in columns, on the smallest of some squares that holds them."""
+        boxes = [boxes_of(part)[1] for part in self.problem.parts]
+        least = [(one[:, 2:] - one[:, :2]).max(axis=1).min() for one in boxes]
+        side = max(math.sqrt(self.problem.area), *least)
+        while True:
+            strip = self.columns(side)
+            if strip.length <= side:
+                return Strip(side, strip.poses, strip.lefts)
+            side *= GROWTH

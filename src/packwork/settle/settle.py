@@ -14,11 +14,10 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.compact import blocks, disjoint_groups
+from packwork.compaction.compact import blocks, disjoint_groups, maximised
 from packwork.compaction.kernels import broad_phase, contacts, steps
 from packwork.compaction.kernels.distances import Board
 from packwork.compaction.kernels.steps import TRAVEL
-from packwork.compaction.programmes import maximised
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
 from packwork.settle.kernels import descent

@@ -16,10 +16,12 @@ from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
-from packwork.start.allowed_pixels import AllowedPixels, allowed_pixels, around
 from packwork.start.options import Placing, StartOptions
 from packwork.start.places import (
     AXIS_ELBOW_ROOM,
+    AllowedPixels,
+    allowed_pixels,
+    around,
     distance_field,
     elbow_room,
     medial_axis,

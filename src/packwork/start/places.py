@@ -3,19 +3,33 @@
 Wang and Lu 2025, section 3.4 (doi:10.1145/3721238.3730690): each item, largest first, at the centre
 of the largest empty circle (distance field), or along the medial axis, larger ones where the
 container is wider.
+
+Weighted Voronoi stippling: places that lie closely where a density is high, each with its share.
+
+A. Secord, "Weighted Voronoi stippling", NPAR 2002, 37-43 (doi:10.1145/508530.508537): Lloyd's
+method, each point going to the centroid of its Voronoi cell, weighted by the density. Ours begins
+with points drawn by that density, counts pixels instead of cutting polygons, and gives the areas.
+
+Single items may begin in the pixels of their zone, or of the line that they lie on.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
-from packwork.arrays import FloatArray, Image, IntArray
+from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.fields.distance_transform import distance_inside
 from packwork.fields.morphology import medial_axis as axis_of
 from packwork.fields.voids import Clearance, largest_voids
-from packwork.start.allowed_pixels import AllowedPixels
+from packwork.geometry.outline import Outline
+from packwork.raster.coverage import Rasteriser, region_image
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
 from packwork.start.options import Placing
 
 JITTER = 0.11
@@ -192,3 +206,137 @@ def suitable(container: Image, px_per_cu: float, radii_cu: FloatArray) -> Placin
     width_px = distance_inside(mask)[axis_of(mask)]
     is_narrow = np.mean(width_px) < NARROW * np.mean(radii_cu) * px_per_cu
     return "medial-axis" if is_narrow else "distance-field"
+
+
+ROUNDS = 30
+"""Rounds of Lloyd's method. Fewer leave cells uneven, more move nothing that is seen. Tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stippling:
+    """Points and their cells.
+
+    ``x``, ``y``: ``(n,)``, pixels.
+    ``areas``: ``(n,)`` of the cells, pixels, none below one.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    areas: FloatArray
+
+
+def stippled(
+    inside: Image, density: Image, count: int, rng: np.random.Generator, rounds: int = ROUNDS
+) -> Stippling:
+    """Points whose cells are small where the density is high: side of a cell by its fourth root.
+
+    ``inside``: coverage of the region; pixels of which more than half is covered belong to it.
+    ``density``: positive weight of each pixel.
+    ``count``: number of points, at least 1; where there are more than pixels, several share one.
+
+    Examples
+    --------
+    >>> density = np.ones((40, 80)); density[:, 40:] = 16.0
+    >>> found = stippled(np.ones((40, 80)), density, 60, np.random.default_rng(0))
+    >>> left = found.x < 40
+    >>> bool(np.median(found.areas[left]) > 2.5 * np.median(found.areas[~left]))
+    True
+    """
+    # The tree is needed for pictures alone.
+    from scipy.spatial import cKDTree
+
+    rows, columns = np.nonzero(inside > 0.5)
+    pixels = np.column_stack([columns + 0.5, rows + 0.5])
+    weights = density[rows, columns].astype(np.float64)
+    points = pixels[_drawn(weights, count, rng)] + rng.uniform(-0.25, 0.25, (count, 2))
+    for _ in range(rounds):
+        cells = cKDTree(points).query(pixels)[1]
+        points = _centroids(pixels, weights, cells, points)
+    cells = cKDTree(points).query(pixels)[1]
+    areas = np.maximum(np.bincount(cells, minlength=count), 1.0)
+    return Stippling(points[:, 0], points[:, 1], areas)
+
+
+def _drawn(weights: FloatArray, count: int, rng: np.random.Generator) -> IntArray:
+    """Pixels drawn one from each equal part of the summed weight: spread better than by chance.
+
+    At one place of all parts they would stand in columns where rows hold a whole number of parts.
+    """
+    sums = np.cumsum(weights)
+    at = (np.arange(count) + rng.uniform(size=count)) / count * sums[-1]
+    return np.asarray(np.minimum(np.searchsorted(sums, at), len(sums) - 1))
+
+
+def _centroids(
+    pixels: FloatArray, weights: FloatArray, cells: IntArray, points: FloatArray
+) -> FloatArray:
+    """Weighted centroids of the cells; a point without a cell stays."""
+    count = len(points)
+    whole = np.bincount(cells, weights, count)
+    sums = [np.bincount(cells, weights * pixels[:, k], count) for k in range(2)]
+    held = whole > 0
+    moved = points.copy()
+    moved[held] = np.column_stack(sums)[held] / whole[held, None]
+    return moved
+
+
+AllowedPixels: TypeAlias = Sequence[IntArray | None]
+"""Per item the pixels to choose from, ``row * columns + column``; None for any."""
+
+
+def allowed_pixels(limits: Limits, container: Image, px_per_cu: float) -> AllowedPixels:
+    """Pixels of the container for each item that may not lie anywhere in it.
+
+    A line is the row or column of pixels that is nearest to it. Where no pixel shows an
+    item's zone, it may begin anywhere.
+
+    ``container``: ``(rows, columns)`` coverage of the container.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> limits = replace(Limits.free(2), x=np.array([np.nan, 1.2]))
+    >>> [None if h is None else h.tolist() for h in allowed_pixels(limits, np.ones((2, 3)), 1.0)]
+    [None, [1, 4]]
+    """
+    free = container > 0.5
+    masks: dict[int, BoolArray] = {}
+    for zone in limits.zones:
+        inside = free & (_coverage(zone.outline, container, px_per_cu) > 0.5)
+        masks |= {int(k): inside for k in zone.items}
+    on_column, on_row = limits.held[:, 0], limits.held[:, 1]
+    for k in np.flatnonzero(on_column & ~on_row):
+        away = np.abs(np.arange(free.shape[1]) + 0.5 - limits.x[k] * px_per_cu)
+        masks[int(k)] = _nearest(masks.get(int(k), free), away[None, :])
+    for k in np.flatnonzero(on_row & ~on_column):
+        away = np.abs(np.arange(free.shape[0]) + 0.5 - limits.y[k] * px_per_cu)
+        masks[int(k)] = _nearest(masks.get(int(k), free), away[:, None])
+    pixels = {k: np.flatnonzero(mask) for k, mask in masks.items()}
+    return [pixels[k] if k in pixels and len(pixels[k]) else None for k in range(len(limits.x))]
+
+
+def around(
+    container: Image, px_per_cu: float, outlines: Sequence[Outline], poses: Poses, items: IntArray
+) -> Image:
+    """Coverage ``(rows, columns)`` that items ``(m,)`` leave; all of it, should they leave nothing.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> one = np.ones(1)
+    >>> around(np.ones((2, 3)), 1.0, [tile], Poses(one, one, 0 * one, one), np.arange(1)).tolist()
+    [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
+    """
+    left = container
+    for k in items:
+        left = left * (1 - _coverage(outlines[k].mapped(poses.matrix(int(k))), left, px_per_cu))
+    return left if (left > 0.5).any() else container
+
+
+def _nearest(mask: BoolArray, away: FloatArray) -> BoolArray:
+    least = np.where(mask, away, np.inf).min(initial=np.inf)
+    return np.asarray(mask & (away <= least))
+
+
+def _coverage(outline: Outline, like: Image, px_per_cu: float) -> Image:
+    return region_image(outline, Rasteriser((like.shape[0], like.shape[1])), px_per_cu)

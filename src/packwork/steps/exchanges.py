@@ -18,7 +18,7 @@ from packwork.scene.container import Container
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses
 from packwork.start.first_poses import container_image, disc_radii, start_resolution
-from packwork.start.stippling import stippled
+from packwork.start.places import stippled
 
 
 def even_points(region: Container, count: int, rng: np.random.Generator) -> FloatArray:

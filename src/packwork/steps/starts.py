@@ -43,7 +43,7 @@ from packwork.start.first_poses import (
     poses_apart,
     start_resolution,
 )
-from packwork.start.stippling import stippled
+from packwork.start.places import stippled
 from packwork.steps.assign_by_embedding import homes_alike
 from packwork.steps.assign_in_order import homes_in_order
 from packwork.steps.place import Setting, Start, unburied

@@ -19,7 +19,7 @@ from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import height_shares
 from packwork.readers.words.options import Word
 from packwork.scene.palette import palette_colours
-from packwork.uses.charts.grouped import unit_scales
+from packwork.uses.charts.copies import unit_scales
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.charts.series import read_steps
 from packwork.uses.words.recipe import PALETTE, words_recipe

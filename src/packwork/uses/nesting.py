@@ -15,9 +15,9 @@ from packwork.errors import RecipeError
 from packwork.geometry.overlay import buffered, polygon_parts
 from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise
+from packwork.separation.container import SquareGround, SquareSearch
 from packwork.separation.ground import Ground
 from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
-from packwork.separation.square import SquareGround, SquareSearch
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import (
     EMPTIEST,

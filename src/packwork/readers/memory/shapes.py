@@ -17,7 +17,7 @@ from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import simplify, valid
 from packwork.geometry.polygon import Region, polygon_parts, united
 from packwork.readers.reading import UnfitError, notice
-from packwork.readers.tables.frames import is_count
+from packwork.readers.tables.table import is_count
 from packwork.scene.item import RowLabel
 
 MAX_SHAPES = 20_000

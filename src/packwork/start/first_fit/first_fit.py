@@ -25,10 +25,10 @@ from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
-from packwork.start.allowed_pixels import allowed_pixels
 from packwork.start.first_fit.occupancy import NOISE, Occupancy, Stencil, cut
 from packwork.start.first_fit.preferences import Homes, KindPenalty
 from packwork.start.first_poses import container_image
+from packwork.start.places import allowed_pixels
 
 Key: TypeAlias = tuple[Outline, float, float]
 """Which outline, its scale, its angle."""

@@ -24,7 +24,7 @@ from packwork.scene.pose import Poses
 from packwork.settle.pile import Arrival, SettleOptions, pile
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.place import first_angles
-from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
+from packwork.uses.charts.copies import Grouped, GroupSteps, moved, unit_scales
 from packwork.uses.charts.layout import (
     COVER,
     SNUG_SHARE,

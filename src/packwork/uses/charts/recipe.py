@@ -8,7 +8,7 @@ from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.charts import ChartOptions
 from packwork.readers.options import check_colour
-from packwork.readers.tables.frames import index_of_frame
+from packwork.readers.tables.table import index_of_frame
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults

@@ -10,8 +10,8 @@ from typing import Any
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.options import TEXT_PREFIX
-from packwork.readers.tables.frames import is_frame, rows_of_frame
 from packwork.readers.tables.pairs import PairColumns, pairs_of_rows
+from packwork.readers.tables.table import is_frame, rows_of_frame
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.pictures import check_no_names, known_palette

@@ -22,7 +22,7 @@ from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.readers.vectors import Vectors
 from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
-from packwork.readers.words.options import WordOptions
+from packwork.readers.words.options import Word, WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
 from packwork.scene.item import Item
@@ -288,6 +288,17 @@ def fuller(tried: Sequence[RunState], context: RunContext) -> RunState:
     # Better a full cloud of the heavier words than dust of all.
     is_kept = Run.of(graded).is_as_asked or (graded.certified and seen.bare > DUST)
     return graded if is_fuller and is_kept else found
+
+
+def with_sizes_that_give_way(job: Job) -> Job:
+    """The run of items that are words, in proportion as far as that leaves the container full."""
+    names = [item.name for item in job.items]
+    pairs = zip(names, job.weights.tolist(), strict=True)
+    words = tuple(Word(name, weight) for name, weight in pairs)
+    read = WordsRead(job.items, job.weights, words, {}, len(words))
+    asked = WordOptions(source=dict.fromkeys(names, 1.0), count=len(words))
+    recipe = job.recipe.model_copy(update={"sizes": AUTO})
+    return replace(job, recipe=recipe, use=WordsUse(read, asked, Letters(), len(words)))
 
 
 def nesting(asked: WordOptions, recipe: Recipe, room: KnownContainer) -> WordOptions:
