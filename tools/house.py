@@ -61,14 +61,14 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_830,
+    "lines of code": 67_600,
     "lines of docstrings": 18_640,
-    "files": 597,
+    "files": 587,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
-    "docstrings that begin with a question word": 2,
+    "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
     "constants chosen by hand": 760,
 }

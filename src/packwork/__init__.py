@@ -97,53 +97,34 @@ __all__ = [
 ]
 
 _HOMES = {
-    "Anchor": "packwork.recipe.typed:Anchor",
-    "Batch": "packwork.api.batches:Batch",
-    "Container": "packwork.api.inputs:Container",
-    "FittedOutline": "packwork.fit.fitted:FittedOutline",
-    "FlatArt": "packwork.scene.item:FlatArt",
-    "Force": "packwork.recipe.typed:Force",
-    "Hero": "packwork.recipe.typed:Hero",
-    "History": "packwork.api.history:History",
-    "ImageLoss": "packwork.losses.term:ImageLoss",
-    "Item": "packwork.api.inputs:Item",
-    "Layout": "packwork.api.layout:Layout",
-    "Metrics": "packwork.metrics.measure:Metrics",
-    "Nest": "packwork.api.nesting:Nest",
-    "Outline": "packwork.geometry.outline:Outline",
-    "PackworkError": "packwork.errors:PackworkError",
-    "Placement": "packwork.api.parts:Placement",
-    "PoseTerm": "packwork.losses.term:PoseTerm",
-    "PosedItems": "packwork.losses.term:PosedItems",
-    "Poses": "packwork.scene.pose:Poses",
-    "ReadError": "packwork.errors:ReadError",
-    "RecipeError": "packwork.errors:RecipeError",
-    "Series": "packwork.api.series:Series",
-    "Session": "packwork.api.session:Session",
-    "ShapeError": "packwork.errors:ShapeError",
-    "Step": "packwork.progress:Step",
-    "Term": "packwork.losses.term:Term",
-    "WriteError": "packwork.errors:WriteError",
-    "batch": "packwork.api.batches:batch",
-    "chart": "packwork.api.verbs:chart",
-    "chart_series": "packwork.api.series:chart_series",
-    "fill": "packwork.api.verbs:fill",
-    "finish": "packwork.api.judging:finish",
-    "fit_outline": "packwork.fit.fitted:fit_outline",
-    "measure": "packwork.api.judging:measure",
-    "nest": "packwork.api.nesting:nest",
-    "photos": "packwork.api.verbs:photos",
-    "pile": "packwork.api.verbs:pile",
-    "read_container": "packwork.api.inputs:read_container",
-    "read_items": "packwork.api.inputs:read_items",
-    "render": "packwork.raster.coverage:coverage",
-    "render_colour": "packwork.raster.colour:render_colour",
-    "render_colour_pullback": "packwork.raster.colour:render_colour_pullback",
-    "render_pullback": "packwork.raster.coverage:coverage_pullback",
-    "run": "packwork.api.verbs:run",
-    "series": "packwork.api.series:series",
-    "words": "packwork.api.verbs:words",
+    "packwork.api.batches": ("Batch", "batch"),
+    "packwork.api.history": ("History",),
+    "packwork.api.inputs": ("Container", "Item", "read_container", "read_items"),
+    "packwork.api.judging": ("finish", "measure"),
+    "packwork.api.layout": ("Layout",),
+    "packwork.api.nesting": ("Nest", "nest"),
+    "packwork.api.parts": ("Placement",),
+    "packwork.api.series": ("Series", "chart_series", "series"),
+    "packwork.api.session": ("Session",),
+    "packwork.api.verbs": ("chart", "fill", "photos", "pile", "run", "words"),
+    "packwork.errors": ("PackworkError", "ReadError", "RecipeError", "ShapeError", "WriteError"),
+    "packwork.fit.fitted": ("FittedOutline", "fit_outline"),
+    "packwork.geometry.outline": ("Outline",),
+    "packwork.losses.term": ("ImageLoss", "PoseTerm", "PosedItems", "Term"),
+    "packwork.metrics.measure": ("Metrics",),
+    "packwork.progress": ("Step",),
+    "packwork.raster.colour": ("render_colour", "render_colour_pullback"),
+    "packwork.raster.coverage": ("render", "render_pullback"),
+    "packwork.recipe.typed": ("Anchor", "Force", "Hero"),
+    "packwork.scene.item": ("FlatArt",),
+    "packwork.scene.pose": ("Poses",),
 }
+"""Public names by the modules that they are taken from."""
+
+_OTHERWISE = {"render": "coverage", "render_pullback": "coverage_pullback"}
+"""Names of these there, where they are others."""
+
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 
 # A checker that saw it would take any name for one of ours.
@@ -153,10 +134,10 @@ if not TYPE_CHECKING:
         """Load a public name when it is first used, so that importing stays cheap."""
         if name == "__version__":
             return importlib.import_module("importlib.metadata").version("packwork")
-        if name not in _HOMES:
+        if name not in _HOME_OF:
             raise AttributeError(f"module 'packwork' has no attribute {name!r}")
-        module, attribute = _HOMES[name].split(":")
-        return getattr(importlib.import_module(module), attribute)
+        module = importlib.import_module(_HOME_OF[name])
+        return getattr(module, _OTHERWISE.get(name, name))
 
 
 def _layout_of_session(path: str | Path) -> scene.Layout:

@@ -7,13 +7,14 @@ images ``[row, col]``; pixel ``(row, col)`` is the square
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from packwork.errors import ShapeError
 
+Kind = TypeVar("Kind", bound=np.generic)
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 IntArray: TypeAlias = npt.NDArray[np.int64]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
@@ -69,3 +70,12 @@ def as_image(image: npt.ArrayLike) -> Image:
         raise ShapeError(f"an image must have shape (rows, columns), not {array.shape}")
     dtype = np.float32 if array.dtype == np.float32 else np.float64
     return np.ascontiguousarray(array, dtype=dtype)
+
+
+def frozen(array: npt.NDArray[Kind]) -> npt.NDArray[Kind]:
+    """The array itself, if nobody can change it; else a copy of that kind."""
+    if not array.flags.writeable:
+        return array
+    copied = np.array(array)
+    copied.flags.writeable = False
+    return copied

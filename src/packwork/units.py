@@ -216,10 +216,3 @@ def _written(plain: str) -> CanvasSize | None:
     if unit is None or (last is not None and first not in ("", unit)):
         return None
     return CanvasSize(float(width), None if height is None else float(height), unit)
-
-
-def known_canvas(text: str | float | None) -> str | float | None:
-    """The same, refused as by :func:`canvas_size` if it is neither a canvas nor None."""
-    if text is not None:
-        canvas_size(text)
-    return text

@@ -19,13 +19,13 @@ from packwork.api.parts import (
     Placement,
     Pose,
     checked_poses,
-    frozen,
     frozen_poses,
     manifest_of,
     measures,
     same_content,
 )
 from packwork.api.signatures import of_model
+from packwork.arrays import frozen
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, NoReturn, cast
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import frozen
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.metrics.measure import Metrics
@@ -85,15 +85,6 @@ def manifest_of(values: Mapping[str, Any], parts: tuple[Any, ...]) -> Manifest:
     if all(mine is one for mine, one in zip(values.parts, parts, strict=True)):
         return values
     return Manifest({k: v for k, v in values.items() if k not in OF_PLACES}, parts)
-
-
-def frozen(array: FloatArray) -> FloatArray:
-    """The array itself, if nobody can change it; else a copy of that kind."""
-    if not array.flags.writeable:
-        return array
-    copied = np.array(array)
-    copied.flags.writeable = False
-    return copied
 
 
 def checked_poses(poses: Poses) -> Poses:

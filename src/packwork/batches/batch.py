@@ -11,7 +11,7 @@ from typing import Any
 
 from packwork import writers
 from packwork.batches.pool import results, worker_count
-from packwork.batches.task import RowOutcome, Task, failed, is_done, make, record_path
+from packwork.batches.task import RowOutcome, Status, Task, failed, is_done, make, record_path
 from packwork.batches.templates import RECIPE, ROW, columns_of, fill_template, identity_of, path_of
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.phrasing import enumerated
@@ -236,17 +236,10 @@ def batch_progress(plan: BatchPlan, *, anew: bool = False) -> BatchProgress:
         found = None if anew else is_done(task.key, task.outputs)
         if found is None:
             to_do.append(task)
-        else:
-            kept.append(
-                RowOutcome(
-                    row=task.row,
-                    name=task.name,
-                    status="kept" if found.get("status") == "made" else "short",
-                    outputs=task.outputs,
-                    metrics=dict(found.get("metrics") or {}),
-                    said=str(found.get("said", "")),
-                )
-            )
+            continue
+        status: Status = "kept" if found.get("status") == "made" else "short"
+        metrics, said = dict(found.get("metrics") or {}), str(found.get("said", ""))
+        kept.append(task.outcome(status, outputs=task.outputs, metrics=metrics, said=said))
     return BatchProgress(tuple(to_do), tuple(kept))
 
 
@@ -277,9 +270,5 @@ def run_batch(
         found.append(outcome)
         told(outcome)
     met = {one.row for one in found}
-    found += [
-        RowOutcome(row=task.row, name=task.name, status="stopped")
-        for task in now.to_do
-        if task.row not in met
-    ]
+    found += [task.outcome("stopped") for task in now.to_do if task.row not in met]
     return sorted(found, key=lambda one: one.row)

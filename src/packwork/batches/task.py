@@ -49,6 +49,10 @@ class Task:
         """Hash of all that is asked for."""
         return key_of(self.options, self.outputs, self.drawing)
 
+    def outcome(self, status: Status, **found: Any) -> RowOutcome:
+        """Outcome of the row; ``found`` are further fields of it."""
+        return RowOutcome(row=self.row, name=self.name, status=status, **found)
+
 
 @dataclass(frozen=True, kw_only=True)
 class RowOutcome:
@@ -100,7 +104,7 @@ def draw(task: Task, stop: Stop = never) -> Drawn | RowOutcome:
         with noting_inputs() as noted, collecting_notices() as heard, threads.using(1):
             run = pipeline.run(uses.read(make_recipe(**task.options)), NOBODY, stop)
             if stop():
-                return RowOutcome(row=task.row, name=task.name, status="stopped")
+                return task.outcome("stopped")
             options = writers.write_options(**task.drawing)
             files = tuple(writers.encoded(run.layout, path, options) for path in task.outputs)
             pipeline.tell_coarse(run.layout, options.dpi)
@@ -126,16 +130,8 @@ def write(task: Task, found: Drawn) -> RowOutcome:
         writers.write_all([*drawn, (record_path(task.outputs), writers.json_bytes(told))])
     except PackworkError as error:
         return failed(task.row, task.name, error)
-    return RowOutcome(
-        row=task.row,
-        name=task.name,
-        status=told["status"],
-        outputs=task.outputs,
-        metrics=told["metrics"],
-        seconds=told["seconds"],
-        said=told["said"],
-        notices=found.notices,
-    )
+    figures = {name: told[name] for name in ("metrics", "seconds", "said")}
+    return task.outcome(told["status"], outputs=task.outputs, notices=found.notices, **figures)
 
 
 @contextmanager

@@ -162,7 +162,7 @@ def batch(
     with clear_errors():
         from packwork.batches.batch import batch_progress, plan_batch, read_request
 
-        by, files = (shared.part_of(model, asked) for model in (BatchWorkers, BatchFiles))
+        by, files = shared.part_of(BatchWorkers, asked), shared.part_of(BatchFiles, asked)
         quiet = asked["quiet"]
         drawing = {name: asked[name] for name in DrawingOptions.model_fields if name in asked}
         files.check()

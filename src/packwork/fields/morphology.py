@@ -35,21 +35,6 @@ def closed(mask: BoolArray, radius_px: float) -> BoolArray:
     return np.asarray((distance_to(~near) > radius_px)[within])
 
 
-def opened(mask: BoolArray, radius_px: float) -> BoolArray:
-    """Opening of a mask ``(rows, columns)``: what a disc of a radius, px, inside it can cover.
-
-    What lies off the image counts as outside.
-
-    >>> opened(np.array([[0, 0, 0, 1, 1, 1, 0], [1, 1, 0, 1, 1, 1, 0], [0, 0, 0, 1, 1, 1, 0]],
-    ...        dtype=bool), 1.5)[1].astype(int).tolist()
-    [0, 0, 0, 1, 1, 1, 0]
-    """
-    room = distance_to(np.pad(~mask, 1, constant_values=True))[1:-1, 1:-1]
-    # Centres and edges of pixels lie half a pixel apart.
-    core = room - 0.5 >= radius_px
-    return np.asarray(mask & (distance_to(core) <= radius_px))
-
-
 def eroded(mask: BoolArray, steps: int) -> BoolArray:
     """Mask ``(rows, columns)`` without what some steps from side to side lead out of.
 

@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, IntArray, frozen
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.live.ground import covering, sheet_box
 from packwork.live.kinds import Kind, kind_of
@@ -84,9 +84,9 @@ class Document:
     def __post_init__(self) -> None:
         put = object.__setattr__
         for name in ("ids", "weights", "smallest", "largest", "held"):
-            put(self, name, _frozen(getattr(self, name)))
+            put(self, name, frozen(getattr(self, name)))
         columns = (getattr(self.poses, column.name) for column in fields(Poses))
-        put(self, "poses", Poses(*(_frozen(values) for values in columns)))
+        put(self, "poses", Poses(*(frozen(values) for values in columns)))
 
     @classmethod
     def from_layout(cls, layout: Layout) -> Document:
@@ -160,7 +160,7 @@ class Document:
 
     @property
     def halos(self) -> HaloChoice | None:
-        """Which items were asked to have halos; None where nothing was."""
+        """Items that were asked to have halos; None where nothing was."""
         asked = self.manifest.get("halos")
         return asked if asked in get_args(HaloChoice) else None
 
@@ -247,14 +247,6 @@ class Document:
         """Index of an item in the arrays, by its number; None if there is none such."""
         found = np.flatnonzero(self.ids == number)
         return int(found[0]) if len(found) else None
-
-
-def _frozen(values: Any) -> Any:
-    if not values.flags.writeable:
-        return values
-    copy = np.array(values)
-    copy.flags.writeable = False
-    return copy
 
 
 class Invalidation(IntEnum):

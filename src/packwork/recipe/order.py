@@ -7,12 +7,13 @@ import re
 from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic import AfterValidator, field_validator, model_validator
+from pydantic import field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import DIRECTIONS
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
+from packwork.recipe.refusals import parsed_by
 from packwork.recipe.typed import Anchor
 from packwork.recipe_paths import split_words
 from packwork.units import NUMBER
@@ -108,20 +109,13 @@ def _meant(word: str, known: tuple[str, ...]) -> str:
     return f"did you mean {close[0]}?" if close else f"use {', '.join(known)}"
 
 
-def known_arrangement(text: str | None) -> str | None:
-    """The same text, if it is an arrangement as :func:`parse_arrangement` has it, or None."""
-    if text is not None:
-        parse_arrangement(text)
-    return text
-
-
 class OrderOptions(Options):
     """In which order items lie."""
 
     offers = Offer(group=Group.ORDER, verbs=Verbs.COLLAGES)
 
     arrange: Annotated[
-        str | None, AfterValidator(known_arrangement), Offer(metavar="WAY", after="ground")
+        str | None, parsed_by(parse_arrangement), Offer(metavar="WAY", after="ground")
     ] = None
     """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
     middle, around it, or along the container from end to end) and what rises along it, as in

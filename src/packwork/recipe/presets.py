@@ -45,19 +45,6 @@ def parse_levels(text: str) -> tuple[tuple[int, ...], tuple[float, ...]]:
     return tuple(levels), tuple(shares)
 
 
-def checked_levels(text: str | None) -> str | None:
-    """The same text, if it can be parsed; None is none.
-
-    Examples
-    --------
-    >>> checked_levels("50,600")
-    '50,600'
-    """
-    if text is not None:
-        parse_levels(text)
-    return text
-
-
 def refined_levels(
     levels: tuple[int, ...], side: float, room: float, count: int
 ) -> tuple[int, ...]:

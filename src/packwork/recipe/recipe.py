@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
-    AfterValidator,
     BeforeValidator,
     Field,
     ValidationInfo,
@@ -24,9 +23,9 @@ from packwork.readers.words.options import WordOptions
 from packwork.recipe.order import EmbeddingOptions, OrderOptions
 from packwork.recipe.pictures import MosaicOptions, PictureOptions, check_no_names, known_palette
 from packwork.recipe.piles import MotionOptions
-from packwork.recipe.presets import checked_levels
+from packwork.recipe.presets import parse_levels
 from packwork.recipe.reading import ReadingOptions
-from packwork.recipe.refusals import length_asked, length_of, validated
+from packwork.recipe.refusals import length_asked, length_of, parsed_by, validated
 from packwork.recipe.rules import (
     MAX_COUNT,
     ItemCount,
@@ -34,7 +33,7 @@ from packwork.recipe.rules import (
     Rule,
     Turns,
     as_text,
-    known_hero,
+    hero_rule,
     known_rotation,
     some_rules,
 )
@@ -48,7 +47,7 @@ from packwork.solve.options import (
 )
 from packwork.sources import MEMORY
 from packwork.start.options import LAYOUTS
-from packwork.units import CanvasSize, canvas_size, known_canvas, parse_share
+from packwork.units import CanvasSize, canvas_size, parse_share
 from packwork.writers.film.options import FilmOptions
 
 if TYPE_CHECKING:
@@ -74,6 +73,7 @@ DEFAULT_SMALLEST = "0.5%"
 
 
 _COLLAGES = Offer(verbs=Verbs.COLLAGES)
+_CANVAS = parsed_by(canvas_size)
 _HERO = replace(_COLLAGES, group=Group.ORDER, takes=str | Hero | None)
 _LEVELS = Offer(group=Group.SOLVED, verbs=Verbs.LEVELLED)
 _SAFE = Offer(group=Group.PRINTED, verbs=Verbs.COLLAGES)
@@ -130,7 +130,7 @@ class Recipe(
     Of words: how many at most, those of the largest weights; default 100. auto: as many as it
     takes for the container's shape to show."""
 
-    canvas: Annotated[str | float | None, AfterValidator(known_canvas)] = None
+    canvas: Annotated[str | float | None, _CANVAS] = None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
     200x150mm, A4 (A0 to A6, letter) or A4-landscape. Its unit is that of all results.
     Default: an SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""
@@ -172,7 +172,7 @@ class Recipe(
     ] = None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
-    hero: Annotated[str | None, AfterValidator(known_hero), _HERO] = None
+    hero: Annotated[str | None, parsed_by(hero_rule), _HERO] = None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
@@ -260,7 +260,7 @@ class Recipe(
     levels: Annotated[
         str | None,
         BeforeValidator(as_text),
-        AfterValidator(checked_levels),
+        parsed_by(parse_levels),
         replace(_LEVELS, takes=str | int | tuple[int, ...] | None),
     ] = None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of

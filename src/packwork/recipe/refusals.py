@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar, get_args
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ValidationError
@@ -170,5 +170,16 @@ def length_of(key: str, *, may_be_zero: bool = False) -> AfterValidator:
         if value is None or length_asked(key, value, "px", 1.0) > 0 or may_be_zero:
             return value
         raise RecipeError(key, f"must be more than nothing, not {value}")
+
+    return AfterValidator(check)
+
+
+def parsed_by(parse: Callable[[Any], object]) -> AfterValidator:
+    """Validator of a value that is kept as it is, if it can be parsed; None is kept, too."""
+
+    def check(value: Any) -> Any:
+        if value is not None:
+            parse(value)
+        return value
 
     return AfterValidator(check)

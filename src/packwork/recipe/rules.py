@@ -356,13 +356,6 @@ def hero_rule(text: str) -> Rule:
     return Rule(items=(name,), pin=pin)
 
 
-def known_hero(text: str | None) -> str | None:
-    """The same text, if it names a hero as :func:`hero_rule` has it, or None."""
-    if text is not None:
-        hero_rule(text)
-    return text
-
-
 def some_rules(value: object) -> object:
     """The same value, refused unless it can be a list of rules."""
     if not isinstance(value, list | tuple):

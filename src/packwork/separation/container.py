@@ -1,7 +1,6 @@
 """Parts of given size in a container that is made smaller: what raises one common scale of all.
 
 Nothing of the parts is drawn anew for that: only what stands round the container is scaled.
-
 The smallest square that holds all parts is found alike.
 """
 

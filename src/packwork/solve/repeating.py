@@ -20,7 +20,6 @@ from packwork.geometry.outline import Outline
 from packwork.losses.image import FUSED
 from packwork.losses.pose import Recall
 from packwork.losses.term import ImageLoss, SeenInColour
-from packwork.progress import ObjectiveTerms
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
@@ -129,16 +128,6 @@ class RepeatingLevel(Level):
     ) -> FloatArray:
         """Derivatives as without repeats; nothing calls items back."""
         return super().gradient(self._on_image(poses), weights, 0.0, force)
-
-    def objective(
-        self,
-        poses: Poses,
-        weights: Mapping[str | ImageLoss, float],
-        recall: float = 0.0,
-        force: float = 1.0,
-    ) -> ObjectiveTerms:
-        """Objective of :meth:`gradient`."""
-        return super().objective(poses, weights, 0.0, force)
 
     def density(self, poses: Poses) -> Image:
         """Density image of these poses and all that repeats of them."""

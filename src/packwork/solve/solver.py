@@ -182,7 +182,9 @@ class _Solve:
     ) -> tuple[dict[str | ImageLossFunction, float], float, float]:
         """Weights of losses, recall and forces at ``progress`` (0..1) through the run."""
         options = self._options
-        recall = options.recall * growth(options, progress)
+        # On the torus nothing is outside, to be called back.
+        is_bounded = self._container.lattice is None
+        recall = options.recall * growth(options, progress) if is_bounded else 0.0
         return weights_at(options, progress), recall, force_factor(progress)
 
     def _relocate(self, level: Level) -> list[Relocation]:

@@ -127,7 +127,7 @@ class Graphics:
 
     @property
     def text_paints(self) -> tuple[bool, bool]:
-        """Whether letters are filled and whether they are stroked."""
+        """Two claims about letters: they are filled, they are stroked."""
         return self.mode in _PAINTS[0], self.mode in _PAINTS[1]
 
 

@@ -108,13 +108,7 @@ def sound_weight(text: str) -> float:
     >>> sound_weight("2.5")
     2.5
     """
-    try:
-        weight = float(text)
-    except ValueError:
-        weight = math.nan
-    if not (math.isfinite(weight) and weight >= 0):
-        raise UnfitError(f"states the weight {text[:20]!r}, which is no number from 0")
-    return weight
+    return _sound_number(text, "weight", "no number from 0")
 
 
 def sound_gap(text: str) -> float:
@@ -125,13 +119,17 @@ def sound_gap(text: str) -> float:
     >>> sound_gap("0")
     0.0
     """
+    return _sound_number(text, "gap", "no length")
+
+
+def _sound_number(text: str, what: str, instead: str) -> float:
     try:
-        gap = float(text)
+        number = float(text)
     except ValueError:
-        gap = math.nan
-    if not (math.isfinite(gap) and gap >= 0):
-        raise UnfitError(f"states the gap {text[:20]!r}, which is no length")
-    return gap
+        number = math.nan
+    if not (math.isfinite(number) and number >= 0):
+        raise UnfitError(f"states the {what} {text[:20]!r}, which is {instead}")
+    return number
 
 
 def sound_outline(region: Region, what: str) -> Outline:

@@ -1,7 +1,4 @@
-"""Tables from files and from what Python programs hold; rows that are totals are found.
-
-Tables of pandas and its like become plain rows.
-"""
+"""Tables from files and from what Python programs hold; rows that are totals are found."""
 
 from __future__ import annotations
 
