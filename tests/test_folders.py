@@ -53,6 +53,28 @@ def test_what_was_not_used_for_longest_goes_first(place: Path) -> None:
     assert store.get("2") is not None
 
 
+def test_all_that_is_put_is_bounded_and_seldom_looked_through(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store, looks = Store("some", 64_000), list[int]()
+    shorten = Store._shorten
+
+    def counted(self: Store, folder: Path) -> int:
+        looks.append(shorten(self, folder))
+        return looks[-1]
+
+    monkeypatch.setattr(Store, "_shorten", counted)
+    sizes = list[int]()
+    for number in range(500):
+        store.put(str(number), bytes(300))
+        if number % 50 == 49:
+            sizes.append(sum(path.stat().st_size for path in (place / "packwork/some").iterdir()))
+    # With a digest each, and what is written before the next look.
+    assert max(sizes) < 1.2 * 64_000
+    assert store.get("499") is not None
+    assert len(looks) < 40
+
+
 def test_nothing_is_kept_where_that_is_switched_off(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(folders.VARIABLE, "off")
     assert private_folder("some") is None

@@ -42,9 +42,9 @@ Linux, of macOS. Windows has one for both."""
 DIGEST_BYTES = 32
 """Length of a SHA-256, which stands before each entry."""
 
-PUTS_BETWEEN = 256
-"""Entries written between two looks at the size of all. Larger overshoots, smaller spends time
-on looking. Chosen."""
+SHARE_BETWEEN = 1 / 64
+"""Share of the most that is written at least between two looks at the size of all. Larger
+overshoots, smaller spends time on looking. Chosen."""
 
 MOST_ON_THE_WAY = 200
 """Folders and links through which a path may lead: more go round in a circle. Derived."""
@@ -77,7 +77,8 @@ class Store:
 
     def __init__(self, name: str, most_bytes: int, variable: str | None = None) -> None:
         self._name, self._most, self._variable = name, most_bytes, variable
-        self._puts = 0
+        # Bytes that may be written before the next look at the size of all.
+        self._room = 0
 
     @property
     def folder(self) -> Path | None:
@@ -106,9 +107,11 @@ class Store:
         path = self._path(key)
         if path is None:
             return
-        if self._puts % PUTS_BETWEEN == 0:
-            self._shorten(path.parent)
-        self._puts += 1
+        if self._room <= 0:
+            # Other processes write, too.
+            left = self._most - self._shorten(path.parent)
+            self._room = max(left // 2, int(SHARE_BETWEEN * self._most))
+        self._room -= len(data)
         beside = path.with_name(f"{secrets.token_hex(8)}.part")
         try:
             beside.write_bytes(hashlib.sha256(data).digest() + data)
@@ -120,8 +123,11 @@ class Store:
         folder = self.folder
         return None if folder is None else folder / hashlib.sha256(key.encode()).hexdigest()
 
-    def _shorten(self, folder: Path) -> None:
-        """Remove what was not used for longest, until half of what there may be is left."""
+    def _shorten(self, folder: Path) -> int:
+        """Size of all entries, of which those that were not used for longest go if it is too much.
+
+        Half of what there may be is left.
+        """
         found: list[tuple[float, int, Path]] = []
         with contextlib.suppress(OSError):
             for path in folder.iterdir():
@@ -133,12 +139,13 @@ class Store:
                 _remove(path)
         total = sum(size for _, size, _ in found)
         if total <= self._most:
-            return
+            return total
         for _, size, path in sorted(found):
             if total <= self._most // 2:
                 break
             _remove(path)
             total -= size
+        return total
 
 
 def private_folder(name: str, variable: str | None = None, *, kind: Kind = "cache") -> Path | None:
