@@ -44,12 +44,11 @@ def arcs_through(points: FloatArray, tolerance: float, chord: float) -> ArcLine:
     begin = int(turns.argmax()) if turns.max() > STEEPEST else longest
     ring = np.roll(points, -begin, axis=0)
     ring = np.vstack([ring, ring[:1]])
-    starts, bulges, first = list[int](), list[float](), 0
+    kept, first = list[tuple[int, float]](), 0
     while first < len(points):
         last, bulge = first + 1, 0.0
-        step = 1
         # Twice as far as long as it fits, then half as far until the next corner does not.
-        grows = True
+        step, grows = 1, True
         while step and last < len(points):
             reach = min(last + step, len(points))
             found = _bulge_through(ring[first : reach + 1], tolerance, chord)
@@ -57,13 +56,11 @@ def arcs_through(points: FloatArray, tolerance: float, chord: float) -> ArcLine:
                 grows, step = False, step // 2
             else:
                 last, bulge, step = reach, found, 2 * step if grows else step // 2
-        starts.append(first)
-        bulges.append(bulge)
+        kept.append((first, bulge))
         first = last
-    line = ArcLine(ring[starts], np.array(bulges), is_closed=True)
-    return with_longest_arcs(line, tolerance) if any(bulges) else ArcLine(
-        points, np.zeros(len(points)), is_closed=True
-    )  # fmt: skip
+    starts, bulges = zip(*kept, strict=True)
+    line = ArcLine(ring[[*starts]], np.array(bulges), is_closed=True)
+    return with_longest_arcs(line, tolerance) if any(bulges) else line
 
 
 def _bulge_through(points: FloatArray, tolerance: float, chord: float) -> float | None:

@@ -74,7 +74,8 @@ def line_layers(
         head = {"transform": place + within, "stroke-width": width}
         artwork += _painted(item, k + 1, ids[k], place)
         if item not in paths:
-            paths[item] = path_data(item.ink, digits) if art is None else cut_path(art, digits)
+            arcs = "".join(arc_path_data(line, digits) for line in (art.cut if art else ()))
+            paths[item] = path_data(item.ink, digits) if art is None else art.path or arcs
         own = {"id": ids[k], "data-name": names[k], "data-weight": weights[k]}
         cut.append(_CutPart(own, place, within, width, paths[item], item.label))
         marks = defaultdict[tuple[str, str], str](str)
@@ -123,16 +124,11 @@ def _shared(parts: Sequence[_CutPart]) -> tuple[list[str], list[str]]:
         key = (one.within, one.width, one.path)
         if key not in names:
             names[key] = f"shape-{len(names) + 1}"
-            own = {"id": names[key], "data-lines": CUT, "transform": one.within}
-            shapes.append(one.drawn(own))
+            shapes.append(one.drawn(
+                {"id": names[key], "data-lines": CUT, "transform": one.within}))  # fmt: skip
         head = {**one.own, "xlink:href": f"#{names[key]}", "transform": one.place}
         drawn.append(labelled(f"<use{attributes(head)}/>", one.label))
     return ["<defs>", *shapes, "</defs>"], drawn
-
-
-def cut_path(art: LineArt, digits: int) -> str:
-    """SVG path data of what is cut of a drawing, in its units."""
-    return art.path or "".join(arc_path_data(line, digits) for line in art.cut)
 
 
 def _layer(name: str, label: str, more: Mapping[str, str], drawn: list[str]) -> list[str]:
