@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_600,
-    "lines of docstrings": 18_640,
+    "lines of code": 67_900,
+    "lines of docstrings": 18_700,
     "files": 587,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,

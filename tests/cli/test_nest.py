@@ -368,3 +368,23 @@ def test_a_unit_that_is_taken_is_told(shop: Path, packwork: Command, line: str, 
     told = " ".join(result.output.split())
     assert ("a px is taken for 1/96 inch" in told) is bool(said)
     assert said in told
+
+
+def test_a_part_is_as_large_as_is_asked_for(shop: Path, packwork: Command) -> None:
+    icon = BRACKET.replace(' width="80mm" height="50mm"', "")
+    (shop / "icon@2x.svg").write_text(icon, encoding="utf-8")
+    (shop / "list.csv").write_text("file;count;size\ndisc.svg;2;2,4 cm\nbracket.svg;1;\n", "utf-8")
+    line = "nest 300x200mm icon@2x.svg@60mm*3 list.csv --rotate none --passes 50 -o a.geojson"
+    result = packwork(line)
+    assert result.exit_code == 0, result.output
+    assert "no unit" not in " ".join(result.output.split())
+    layout = pw.Layout.load(shop / "a.geojson")
+    sides = [(one.name, round(one.outline.extent, 3)) for one in layout]
+    assert sorted(sides) == [("bracket", 80.0)] + [("disc", 24.0)] * 2 + [("icon@2x", 60.0)] * 3
+
+
+@pytest.mark.parametrize("side", ["0mm", "0"])
+def test_a_size_that_is_none_is_one_line(shop: Path, packwork: Command, side: str) -> None:
+    result = packwork(f"nest 300x200mm disc.svg@{side} --passes 5 -o a.svg")
+    assert result.exit_code == 2
+    assert "size: is a length above 0, as 80mm" in " ".join(result.output.split())

@@ -133,8 +133,9 @@ def nest(
         length, ``"hide.svg,600x400mm"``, an instance of strip packing (``.json``); or an outline or
         a :class:`Container`, of which there is one.
     parts, optional
-        Files, as ``"bracket.dxf*12"``, or outlines and items in memory, in units of the sheet; each
-        by itself or with a count, ``(outline, 12)``. Optional ones only fill what is left.
+        Files, as ``"bracket.dxf*12"`` or ``"icon.svg@80mm"``, or outlines and items in memory, in
+        units of the sheet; each by itself or with a count, ``(outline, 12)``. Optional ones only
+        fill what is left.
     rotate
         Allowed angles in degrees, as ``"0,180"``; ``"free"``, ``"none"``, or ``"30"``: up to that.
     mirror

@@ -103,9 +103,10 @@ def nest(
         list[str] | None,
         typer.Argument(
             metavar="PART...",
-            help="DXF or SVG files, folders; part.dxf*12 for twelve. Or a table of them, with the "
+            help="DXF or SVG files, folders; part.dxf*12 for twelve, icon.svg@80mm for one of that "
+            "longer side. Or a table of them, with the "
             "columns file, count and, where wanted, name, rotate, mirror, optional, priority, "
-            "together.",
+            "together, size.",
         ),
     ] = None,
     **asked: Any,

@@ -47,9 +47,10 @@ WITHIN_LIMIT = 4
 """Angles tried to each side where parts may turn within a limit."""
 
 _TIMES = re.compile(r"(?P<source>.+?)\s*\*\s*(?P<count>[0-9]{1,6})")
+_SIZED = re.compile(r"(?P<source>.+?)\s*@\s*(?P<side>[0-9.]+\s*[a-z]*)")
 
-RULES = ("rotate", "mirror", "optional", "priority", "together")
-"""Columns of a cut list that say how its parts may lie."""
+RULES = ("rotate", "mirror", "optional", "priority", "together", "size")
+"""Columns of a cut list that say how its parts may lie, and how large they are."""
 
 _YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
 
@@ -192,12 +193,11 @@ def check_told(sheets: Sequence[Sheet], parts: Sequence[SheetPart], engraving: E
     odd = [file for file in files if known.get(file) is in_px]
     if odd:
         named = enumerated(odd)
-        what = (
-            f"the sheet is in px, and {named} in real units; give it one, as 600x400mm"
-            if in_px
-            else (f"no unit is stated in {named}, and the sheet is in {sheets[0].unit}")
-        )
-        _LOG.warning("%s; a px is taken for 1/96 inch", what)
+        what, other = f"the sheet is in px, and {named} in real units", "give it one, as 600x400mm"
+        if not in_px:
+            what = f"no unit is stated in {named}, and the sheet is in {sheets[0].unit}"
+            other = f"give a longer side, as {Path(odd[0]).name}@80mm"
+        _LOG.warning("%s; a px is taken for 1/96 inch; %s", what, other)
 
 
 def read_parts(
@@ -205,6 +205,8 @@ def read_parts(
     engraving: Engraving | None = None, optional: bool = False,
 ) -> Iterator[SheetPart]:  # fmt: skip
     """Parts of a file, a folder or a cut list, as ``bracket.dxf*12``, on sheets of a unit.
+
+    Of ``gear.svg@80mm*12`` the longer side is 80 mm, whatever the file says.
 
     Parameters
     ----------
@@ -221,14 +223,16 @@ def read_parts(
     """
     usual = {"rotate": rotate, "mirror": "yes" if mirror else "no",
              "optional": "yes" if optional else "no"}  # fmt: skip
-    return _parts(text, usual, holes, engraving or Engraving(), convert(1.0, "px", unit))
+    return _parts(text, usual, holes, engraving or Engraving(), unit)
 
 
 def _parts(
-    text: str, usual: Mapping[str, str], holes: Holes, engraving: Engraving, scale: float
+    text: str, usual: Mapping[str, str], holes: Holes, engraving: Engraving, unit: Unit
 ) -> Iterator[SheetPart]:
     """Parts of a file, a folder or a cut list; rules that none of its rows has are the usual."""
     source, times = _counted(text)
+    if not exists(source) and (met := _SIZED.fullmatch(source)):
+        source, usual = met["source"], {**usual, "size": met["side"]}
     rows: Iterable[CutListRow] = [CutListRow(file=source)]
     if is_cut_list(source):
         rows = read_cut_list(source, RULES)
@@ -237,13 +241,17 @@ def _parts(
         try:
             angles, priority = angles_of(rules["rotate"]), _whole(rules.get("priority", "0"))
             mirrors, is_optional = (_is_yes(name, rules[name]) for name in ("mirror", "optional"))
+            side = _side(rules["size"], unit) if rules.get("size") else None
         except RecipeError as error:
             raise ReadError(source, f"{row.where}: {error}") if row.where else error from None
         items = read_items(row.file, holes=holes, engraving=engraving).items
+        if side is not None:
+            engraving.stated.update(dict.fromkeys((one.source for one in items), unit != "px"))
         sets = _sets(source, rules.get("together", ""), 1 if times is None else times)
         for k, item in enumerate(items, start=1):
             name = f"{row.name} {k}" if len(items) > 1 else row.name
             named = replace(item, name=name) if row.name else item
+            scale = convert(1.0, "px", unit) if side is None else side / item.outline.extent
             for together, copies in sets:
                 yield SheetPart(
                     item=named, count=row.count * copies, angles=angles, scale=scale,
@@ -268,6 +276,17 @@ def angles_of(rotate: str) -> tuple[float, ...] | None:
         return turned.choices
     steps = WITHIN_LIMIT if turned.limit > 0 else 0
     return tuple(turned.limit * k / max(steps, 1) for k in range(-steps, steps + 1))
+
+
+def _side(text: str, unit: Unit) -> float:
+    """Longer side of a part, in the sheet's unit."""
+    try:
+        side = parse_length(text.replace(" ", "").replace(",", "."), unit, math.nan)
+    except ValueError as error:
+        raise RecipeError("size", str(error)) from None
+    if not 0.0 < side < math.inf:
+        raise RecipeError("size", f"is a length above 0, as 80mm, not {text[:20]!r}")
+    return side
 
 
 def _whole(text: str) -> int:
