@@ -143,7 +143,7 @@ def spot_inks_in(palette: object) -> dict[str, str]:
     ({'#c8102e': 'PANTONE 186 C'}, {})
     """
     listed = palette if isinstance(palette, list | tuple) else ()
-    parts = _COMMA.split(palette) if isinstance(palette, str) else map(str, listed)
+    parts = _parts_of(palette) if isinstance(palette, str) else map(str, listed)
     spots = (part.strip() for part in parts if part.strip().lower().startswith(SPOT))
     inks = dict[str, str]()
     for part in spots:
