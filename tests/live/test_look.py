@@ -10,6 +10,7 @@ import pytest
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.face.exporting import check, layout_bytes
+from packwork.live.ground import gradient
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.readers.builtin import icon_names
@@ -148,3 +149,10 @@ def test_halos_follow_the_background_and_are_in_files(drawn: pw.Layout) -> None:
     assert session.document.poses is before
     with pytest.raises(RecipeError, match="choice"):
         session.do("halos", choice="most")
+
+
+def test_a_gradient_without_end_is_refused_before_it_is_parted() -> None:
+    # By the square of its commas this would take minutes.
+    container = pw.fill("circle", "star", count=1, **QUICK).container
+    with pytest.raises(RecipeError, match="a gradient takes 20,000 characters at most"):
+        gradient(f"linear-gradient({'red,' * 250_000}red)", container)

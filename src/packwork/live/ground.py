@@ -17,6 +17,7 @@ from packwork.readers.svg.art import KeptOriginal
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import Item, PhotoArt, VectorArt
+from packwork.scene.palette import LONGEST
 from packwork.uses.cutting import CutOriginal, Window
 
 MOST_PX = 2_400
@@ -43,6 +44,9 @@ def gradient(text: str, container: Container) -> Item | None:
     """
     if (met := _GRADIENT.fullmatch(text)) is None:
         return None
+    if len(text) > LONGEST:
+        many = f"{LONGEST:,} characters at most, not {len(text):,}"
+        raise RecipeError("background", f"a gradient takes {many}")
     parts = _COMMA.split(met[2])
     turn = _ANGLE.fullmatch(parts[0]) if met[1] == "linear" else None
     colours = [parse_colour("background", one.strip()) for one in parts[turn is not None :]]
