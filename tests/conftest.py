@@ -32,6 +32,10 @@ gc.set_threshold(50_000)
 SECONDS_BETWEEN = 0.2
 """Time between two looks whether the kernels are compiled. Chosen."""
 
+MOST_SECONDS = 180.0
+"""Time that is waited for them, for who compiles them may have been killed. Chosen: several times
+what it takes on two processors."""
+
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
@@ -46,15 +50,16 @@ def pytest_collection_finish() -> None:
 
 
 @pytest.fixture(scope="session", autouse=True)
-def _kernels(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> None:
+def _kernels(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Kernels that runs need, compiled by one worker, with a second process, for all of them."""
-    if worker_id == "master" or os.environ.get("NUMBA_DISABLE_JIT") == "1":
+    if "PYTEST_XDIST_WORKER" not in os.environ or os.environ.get("NUMBA_DISABLE_JIT") == "1":
         return
     claim = tmp_path_factory.getbasetemp().parent / "kernels"
     try:
         claim.mkdir()
     except FileExistsError:
-        while not (claim / "done").exists():
+        end = time.monotonic() + MOST_SECONDS
+        while not (claim / "done").exists() and time.monotonic() < end:
             time.sleep(SECONDS_BETWEEN)
         return
     try:

@@ -25,17 +25,25 @@ PATIENCE_SECONDS = 120.0
 """A first run compiles kernels, beside other tests."""
 
 WAITING = """() => new Promise((done, fail) => {
-  let looks = 0;
-  const look = () => {
+  let isOver = false;
+  const end = (isSo) => { isOver = true; done(isSo); };
+  const look = async () => {
     try {
-      const isSo = Boolean(%s);
-      if (isSo || ++looks === 100) done(isSo);
-      else setTimeout(look, 10);
+      if (await (%s)) end(true);
+      else if (!isOver) setTimeout(look, 10);
     } catch (error) { fail(error); }
   };
+  setTimeout(end, 1000, false);
   look();
 })"""
-"""Waits on the page until an expression is true, a second at most: cheaper than to ask for it."""
+"""Waits on the page until an expression, or what it promises, is true, a second at most: cheaper
+than to ask for it."""
+
+AS_NEW = {
+    "media": "null", "color_scheme": "light", "reduced_motion": "no-preference",
+    "forced_colors": "none", "contrast": "no-preference",
+}  # fmt: skip
+"""What a new page is told of screen and person, as Playwright has it."""
 
 
 def browser_path() -> str | None:
@@ -153,6 +161,9 @@ class Desk:
         for key in ("Shift", "Control", "Alt", "Meta"):
             self.page.keyboard.up(key)
         self.page.set_viewport_size(WIDE)
+        self.page.emulate_media(**AS_NEW)
+        self.page.unroute_all()
+        self.page.context.unroute_all()
         self.page.context.clear_permissions()
         for other in self.page.context.pages:
             if other is not self.page:

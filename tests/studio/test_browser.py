@@ -637,3 +637,23 @@ def test_what_is_drawn_anew_while_dragging_is_all_that_has_changed(browser: Any)
     assert off < 1e-3
     desk.page.close()
     server.stop()
+
+
+def test_a_page_is_waited_for_and_left_as_new(browser: Any, server: Server) -> None:
+    desk = Desk(browser.new_page(), server.address)
+    desk.settled()
+    told = ("print", "(prefers-color-scheme: dark)", "(prefers-reduced-motion: reduce)",
+            "(forced-colors: active)", "(prefers-contrast: more)")  # fmt: skip
+    fresh = desk.look(f"{json.dumps(told)}.map((one) => matchMedia(one).matches)")
+    desk.page.emulate_media(
+        media="print", color_scheme="dark", contrast="more", forced_colors="active",
+        reduced_motion="no-preference" if fresh[2] else "reduce",
+    )  # fmt: skip
+    desk.look("void (globalThis.looks = 0)")
+    desk.until("new Promise((done) => setTimeout(done, 1, ++looks === 3))")
+    assert desk.look("looks") == 3
+    desk.page.route("**/*", lambda route: route.abort())
+    desk.leave()
+    assert desk.look(f"{json.dumps(told)}.map((one) => matchMedia(one).matches)") == fresh
+    desk.page.goto(server.address)
+    desk.page.close()
