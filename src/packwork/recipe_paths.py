@@ -29,6 +29,8 @@ _SCHEME = re.compile(r"[A-Za-z]{2,}:")
 """Of names that are no path, as text:HELLO; one letter is a drive."""
 
 _ENDING = re.compile(r"\.[A-Za-z]\w*")
+_LIST_ENDING = re.compile(r".*\.(txt|text|lst|list|md|csv|tsv|json)", re.IGNORECASE)
+_PATH_START = re.compile(r"~|/|\.{1,2}[/\\]|[A-Za-z]:[/\\]")
 _LONGEST = 4_096
 """Characters of a path, on most systems."""
 
@@ -63,6 +65,22 @@ def split_words(text: str) -> list[str]:
     ['towards', 'my curves/arc.svg', 'strength=2']
     """
     return [word.strip('"') if word.startswith('"') else word for word in _WORD.findall(text)]
+
+
+def is_like_a_path(text: str) -> bool:
+    """Whether a text is meant as the name of a list's file, rather than as words, if none is there.
+
+    Examples
+    --------
+    >>> [is_like_a_path(text) for text in ("stop.txt", "./stop", "a.txt,b.txt", "no such/stop")]
+    [True, True, True, False]
+    >>> [is_like_a_path(text) for text in ("river,hands", "TCP/IP", "node.js", "Oslo, No.")]
+    [False, False, False, False]
+    """
+    if _PATH_START.match(text) or any(map(_LIST_ENDING.fullmatch, text.split(","))):
+        return True
+    path = Path(text)
+    return len(path.parts) > 1 and _is_there(path.parent)
 
 
 def with_paths(options: Mapping[str, Any], rename: Rename) -> dict[str, Any]:
@@ -236,7 +254,14 @@ def _renamed(key: str, value: Any, rename: Rename) -> Any:
     if key == "color_by" and not Path(value).suffix:
         return value  # a column
     renamed = rename(value)
+    if key == "stopwords" and not _is_list_file(value, renamed):
+        return value  # words
     return value if renamed.startswith(BUILTIN) and key not in _SHAPES else renamed
+
+
+def _is_list_file(*names: str) -> bool:
+    there = (name for name in names if _is_there(Path(name)))
+    return any(map(is_like_a_path, names)) or any(Path(name).is_file() for name in there)
 
 
 def _rule(rule: Any, rename: Rename) -> Any:

@@ -45,6 +45,7 @@ VERBS = [
     f"fill square icons star -n 3 --hero star=30% --palette red,blue --stretch 1.2 --apart {QUICK}",
     f"words circle words.csv --color-by kind --palette tol-bright {QUICK}",
     f"words circle text.txt --stopwords stops.txt -n 2 --color-by seen.png --add star {QUICK}",
+    f"words circle text.txt --stopwords stops.txt --stopwords icons,fox {QUICK}",
     f"chart circle table.csv --size-by kg --mark icons/dot.svg --label-by what {QUICK}",
     f"chart none table.csv --by what --title T {QUICK}",
     f"photos square seen.png -n 2 --border 4% --shape rounded {QUICK}",

@@ -415,8 +415,9 @@ class WordsKeywords(
     """Whose function words are left out: auto (the language of the text), codes such as en or
     en,de, or none. Default: 'auto'."""
 
-    stopwords: str | Path | Sequence[str] | AbstractSet[str] | None
-    """File of further words to leave out (in Python also a list of them)."""
+    stopwords: str | Path | Sequence[str | Path] | AbstractSet[str] | None
+    """Further words to leave out, with commas between them, or a file of them. A word that is left
+    out takes its plural and its other forms along."""
 
     min_word_length: int
     """Letters that a word of a text has at least; one syllable of Korean is a word anyway. Default:

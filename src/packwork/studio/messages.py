@@ -248,7 +248,8 @@ class Fill(PageRequest):
         if self.use == "words":
             source = importer.file(self.source) if self.source.startswith(FILES) else source
             options |= {"font": importer.font(self.font), "palette": self.palette}
-            options["stopwords"] = self.without or None
+            # One list, with a comma at the end: none of its words is taken for a file.
+            options["stopwords"] = ",".join((*self.without, "")) if self.without else None
         tab.workspace.fill(self.use, source, options)
 
 

@@ -20,7 +20,7 @@ from packwork.readers.words.tokens import guess_language, segments, sentences, s
 from packwork.recipe.refusals import validated
 
 
-def counted(text: str, **options) -> dict[str, float]:
+def counted(text: str | dict[str, float], **options) -> dict[str, float]:
     read = read_words(validated(WordOptions, {"source": text, **options}))
     return {word.text: word.weight for word in read}
 
@@ -92,6 +92,20 @@ def test_own_stop_words_and_least_counts(tmp_path: Path) -> None:
     text = "bear bear honey honey fox fox fly"
     assert counted(text, stopwords=str(file), min_count=2) == {"bear": 2.0}
     assert counted(text, stopwords=["honey"], min_count=2) == {"bear": 2.0, "fox": 2.0}
+    both = {"bear": 2.0, "fox": 2.0, "fly": 1.0}
+    assert counted(text, stopwords=(str(file), "bear")) == {"fly": 1.0}
+    assert counted(text, stopwords="Honey, owl") == both
+    with pytest.raises(ReadError, match="stop2.txt: there is no such file"):
+        counted(text, stopwords=str(tmp_path / "stop2.txt"))
+
+
+def test_a_stop_word_that_is_a_folder_or_has_a_comma_is_a_word(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bear").mkdir()
+    table = {"bear": 3.0, "TCP/IP": 2.0, "Oslo, Norway": 2.0, "fox": 1.0}
+    assert counted(table, stopwords=["bear", "tcp/ip", "Oslo, Norway"]) == {"fox": 1.0}
 
 
 def test_standard_input_is_read(monkeypatch: pytest.MonkeyPatch) -> None:

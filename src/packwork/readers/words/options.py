@@ -85,6 +85,16 @@ def _top_and_bottom(texts: Any) -> Any:
     return (texts,) if isinstance(texts, str) else texts
 
 
+def _texts(given: Any) -> Any:
+    """Texts of one, or of several; those of a set in an order of their own."""
+    if given is None or isinstance(given, str | Path):
+        given = () if given is None else (given,)
+    if not isinstance(given, Iterable):
+        raise ValueError(f"use a text or a list of them, not {given!r}")
+    texts = [str(one) if isinstance(one, Path) else one for one in given]
+    return sorted(texts) if isinstance(given, Set) else texts
+
+
 def _path_text(font: Any) -> Any:
     return str(font) if isinstance(font, Path) else font
 
@@ -121,9 +131,12 @@ class WordOptions(Options):
     or en,de, or none."""
 
     stopwords: Annotated[
-        str | tuple[str, ...] | None, Offer(takes=str | Path | tuple[str, ...] | Set[str] | None)
-    ] = None
-    """File of further words to leave out (in Python also a list of them)."""
+        tuple[str, ...],
+        BeforeValidator(_texts),
+        Offer(takes=str | Path | tuple[str | Path, ...] | Set[str] | None, metavar="WORDS|FILE"),
+    ] = ()
+    """Further words to leave out, with commas between them, or a file of them. A word that is left
+    out takes its plural and its other forms along."""
 
     min_word_length: Annotated[int, Field(ge=1)] = 2
     """Letters that a word of a text has at least; one syllable of Korean is a word anyway."""
@@ -231,13 +244,6 @@ class WordOptions(Options):
         if not isinstance(several, Iterable):
             raise ValueError(f"use a font or a list of them, not {fonts!r}")
         return [str(font) for font in several]
-
-    @field_validator("stopwords", mode="before")
-    @classmethod
-    def _stop_words_are_a_file_or_a_list(cls, words: Any) -> Any:
-        if isinstance(words, Path):
-            return str(words)
-        return sorted(words) if isinstance(words, set | frozenset) else words
 
     @field_validator("regexp")
     @classmethod

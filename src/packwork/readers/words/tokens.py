@@ -21,8 +21,9 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.offspring import END_WITH_PARENT
-from packwork.readers.files import read_text
+from packwork.readers.files import exists, is_folder, read_text
 from packwork.readers.words.options import sound
+from packwork.recipe_paths import is_like_a_path
 
 MAX_BYTES = 2_000_000
 """Size of a file of stop words. Chosen."""
@@ -87,19 +88,27 @@ def guess_language(counts: Counter[str]) -> str | None:
     return best if shares[best] >= LEAST_SHARE else None
 
 
-def own_stop_words(words: str | Iterable[str] | None) -> frozenset[str]:
-    """Stop words of a file, one or several a line, or of a list; case folded.
+def own_stop_words(texts: Iterable[str]) -> frozenset[str]:
+    """Stop words, case folded: of files, one or several a line, and of words with commas between.
+
+    Raises
+    ------
+    ReadError
+        If a file is not there that is like a path, or is no text.
 
     Examples
     --------
-    >>> sorted(own_stop_words(["Bear", "fox"]))
-    ['bear', 'fox']
+    >>> sorted(own_stop_words(["Polar bear", "fox,owl"]))
+    ['fox', 'fox,owl', 'owl', 'polar bear']
     """
-    if words is None:
-        return frozenset()
-    if isinstance(words, str):
-        words = read_text(words, MAX_BYTES).replace(",", " ").split()
-    return frozenset(word.casefold() for word in words)
+    return frozenset(word.casefold() for text in texts for word in _stop_words_of(text))
+
+
+def _stop_words_of(text: str) -> list[str]:
+    if (exists(text) and not is_folder(text)) or is_like_a_path(text):
+        return read_text(text, MAX_BYTES).replace(",", " ").split()
+    # A word of a table may have a comma in it.
+    return [text.strip(), *(word.strip() for word in text.split(",") if word.strip())]
 
 
 @cache
