@@ -95,8 +95,16 @@ def test_own_stop_words_and_least_counts(tmp_path: Path) -> None:
     both = {"bear": 2.0, "fox": 2.0, "fly": 1.0}
     assert counted(text, stopwords=(str(file), "bear")) == {"fly": 1.0}
     assert counted(text, stopwords="Honey, owl") == both
-    with pytest.raises(ReadError, match="stop2.txt: there is no such file"):
+    with pytest.raises(ReadError, match=r"stop2\.txt: there is no such file"):
         counted(text, stopwords=str(tmp_path / "stop2.txt"))
+
+
+@pytest.mark.parametrize("stop", ["hand", "Hands", "HAND"])
+def test_a_stop_word_is_left_out_with_the_forms_that_count_with_it(stop: str) -> None:
+    text = "a line by a hand. Hands remember. Hands of makers, a hand in the river"
+    assert counted(text, language="en")["hand"] == 4.0
+    assert not {"hand", "Hands"} & set(counted(text, language="en", stopwords=stop))
+    assert len(counted(text, language="en", stopwords=stop, plurals="keep")) == 5
 
 
 def test_a_stop_word_that_is_a_folder_or_has_a_comma_is_a_word(

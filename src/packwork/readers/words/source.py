@@ -70,20 +70,25 @@ def folded(forms: Counter[str]) -> tuple[Counter[str], dict[str, str]]:
     return counts, {key: form for key, (_, form) in best.items()}
 
 
-def without_plurals(counts: Counter[str]) -> Counter[str]:
+def without_plurals(counts: Counter[str], stops: frozenset[str] = frozenset()) -> Counter[str]:
     """Counts in which English plurals are added to their singular, if that is there.
+
+    A singular is left out with all its plurals where it or one of these is a stop word.
 
     Examples
     --------
     >>> dict(without_plurals(Counter(bear=2, bears=3, glass=1, berry=1, berries=1)))
     {'bear': 5, 'glass': 1, 'berry': 2}
+    >>> dict(without_plurals(Counter(hand=4, hands=3, river=2), frozenset({"hands"})))
+    {'river': 2}
     """
-    merged = Counter(counts)
+    merged, stopped = Counter(counts), set(stops)
     for word in counts:
         single = _singular(word, merged)
         if single is not None:
             merged[single] += merged.pop(word)
-    return merged
+            stopped |= {single} if word in stopped else set()
+    return Counter({word: n for word, n in merged.items() if word not in stopped})
 
 
 def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[str]:
@@ -262,11 +267,11 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
     if options.phrases > 1:
         several, forms = folded(phrases(found, options.phrases, stops))
         counts, written = without_parts(counts, several), written | forms
-    kept = Counter(
-        {word: n for word, n in counts.items() if word not in stops and _is_long(word, options)}
-    )
+    said_much = ((word, n) for word, n in counts.items() if word not in usual)
+    kept = Counter({word: n for word, n in said_much if _is_long(word, options)})
     if options.plurals == "merge" and ENGLISH in language.split(","):
-        kept = without_plurals(kept)
+        kept = without_plurals(kept, own)
+    kept = Counter({word: n for word, n in kept.items() if word not in own})
     words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
     if not words:
         raise ReadError(_name(options), _why_none(counts, kept, options))
