@@ -388,3 +388,20 @@ def test_a_size_that_is_none_is_one_line(shop: Path, packwork: Command, side: st
     result = packwork(f"nest 300x200mm disc.svg@{side} --passes 5 -o a.svg")
     assert result.exit_code == 2
     assert "size: is a length above 0, as 80mm" in " ".join(result.output.split())
+
+
+def test_more_sheets_than_the_parts_ask_for_are_told(shop: Path, packwork: Command) -> None:
+    line = "nest 300x200mm bracket.svg*17 disc.svg*14 --passes 1 -o a.dxf --report a.json"
+    result = packwork(line)
+    told = " ".join(result.output.split())
+    assert "but 3 sheets; their parts cover 70 % of one: more time may do with 1" in told, told
+    assert "(--passes 3)" in told
+    assert len(json.loads((shop / "a.json").read_text(encoding="utf-8"))["advice"]) == 1
+    assert "may do with 1" in packwork(f"{line} -q").stderr
+    # No two of these lie on one sheet, whatever their areas are.
+    (shop / "board.svg").write_text(
+        BRACKET.replace("M0 0h80v15h-60v35h-20z", "M0 0h80v25h-80z"), encoding="utf-8"
+    )
+    large = packwork("nest 99x40mm board.svg*2 --passes 20 -o a.dxf")
+    assert "2 sheets" in large.output
+    assert "may do" not in large.output

@@ -119,7 +119,7 @@ def nest(
     """
     with clear_errors():
         from packwork import writers
-        from packwork.cli.show import Paper
+        from packwork.cli.show import Paper, tell_advice
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
         from packwork.readers.engraving import Engraving
@@ -158,6 +158,7 @@ def nest(
             drawn += sessions
             writers.write_all(drawn)
         console.print(_summary(found, sheets[0], certified))
+        tell_advice(found.advice if certified else (), console)
         console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
         written = {path for path, _ in drawn}
         if older := [str(one) for path in files for one in _numbered(path) if one not in written]:

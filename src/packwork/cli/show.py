@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.table import Table
 
+from packwork.cli.terminal import say
 from packwork.errors import PackworkError, WriteError
 from packwork.phrasing import number_of
 
@@ -73,9 +74,17 @@ def show_results(
         console.print(pile_line(results["pile"]), style="dim")
     promised, certified = results["promised"], results["certified"]
     console.print(certificate_line(promised, certified, broken=results["broken"]))
-    for sentence in results["advice"]:
-        console.print(f"but {sentence}", soft_wrap=True)
+    tell_advice(results["advice"], console)
     console.print(f"wrote {', '.join(written)}", soft_wrap=True)
+
+
+def tell_advice(advice: Sequence[str], console: Console) -> None:
+    """Print what is poor and what would do; as warnings where nothing else is printed."""
+    for sentence in advice:
+        if console.quiet:
+            say(sentence)
+        else:
+            console.print(f"but {sentence}", soft_wrap=True)
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:

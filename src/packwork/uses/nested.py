@@ -139,13 +139,15 @@ class NestedSheet:
 class NestedSheets:
     """All sheets that are used, in their order.
 
-    ``unplaced``: parts that found no room, and how many of each; ``left``: optional ones.
+    ``unplaced``: parts that found no room, and how many of each; ``left``: optional ones;
+    ``advice``: sentences on what may do better.
     """
 
     sheets: tuple[NestedSheet, ...]
     unplaced: tuple[tuple[Item, int], ...]
     left: tuple[tuple[Item, int], ...]
     about: dict[str, Any]
+    advice: tuple[str, ...] = ()
 
     @property
     def length(self) -> float:
@@ -181,7 +183,7 @@ class NestedSheets:
             "density": self.density, "sheets": sheets,
             "unplaced": [{"part": item.name, "count": count} for item, count in self.unplaced],
             "optional_left": [{"part": item.name, "count": count} for item, count in self.left],
-            "faults": list(self.faults), "certified": self.certified,
+            "faults": list(self.faults), "certified": self.certified, "advice": list(self.advice),
         }  # fmt: skip
 
 

@@ -26,6 +26,7 @@ from packwork.separation.windows import (
     lay_on_sheets,
     lay_on_strip,
 )
+from packwork.uses.fewer_sheets import advice_on_sheets
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
 from packwork.uses.tool_reach import tell_unreached
 
@@ -129,7 +130,9 @@ def nest(
         tuple((parts[n].item, missing[n]) for n in sorted(missing) if parts[n].is_optional is left)
         for left in (False, True)
     )
-    return NestedSheets(tuple(found), unplaced, optional, about)
+    is_free = not unplaced and all(sheet.held is None for sheet in sheets)
+    advice = advice_on_sheets(found, gap, work) if is_free else ()
+    return NestedSheets(tuple(found), unplaced, optional, about, advice)
 
 
 def _lay_at_once(

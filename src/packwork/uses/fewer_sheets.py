@@ -1,0 +1,89 @@
+"""Whether the parts of a nest may do with fewer sheets than a search found."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from packwork.phrasing import number_of
+from packwork.separation.shapes import Floats
+from packwork.separation.strip import WorkBound
+from packwork.uses.nested import NestedSheet
+
+REACHED = 0.75
+"""Share of sheets that parts of most shapes cover, their gaps counted to them. Larger advises less
+often, smaller where more time gains nothing. Chosen."""
+
+LONGER = 3
+"""Times the work that is advised. Chosen."""
+
+
+def advice_on_sheets(
+    found: Sequence[NestedSheet], gap: float, work: WorkBound
+) -> tuple[str, ...]:  # fmt: skip
+    """A sentence where all parts may do with fewer sheets, the first ones; nothing elsewhere.
+
+    Parameters
+    ----------
+    found
+        The sheets that are taken, of finite length.
+    gap
+        Distance of parts, in the sheets' unit.
+    work
+        What the search was allowed.
+    """
+    grounds = [one.layout.container.outline.region for one in found]
+    regions = [outline.region for one in found for outline in one.layout.outlines]
+    if len(grounds) < 2 or not regions:
+        return ()
+    room = np.cumsum(shapely.area(grounds))
+    taken = float(shapely.area(regions).sum() + gap / 2.0 * shapely.length(regions).sum())
+    fewer = max(
+        int(np.searchsorted(REACHED * room, taken)) + 1,
+        _that_exclude_each_other(_radii(found), max(grounds, key=shapely.area).bounds),
+    )
+    if fewer >= len(grounds):
+        return ()
+    share = float(shapely.area(regions).sum()) / float(room[fewer - 1])
+    longer = (
+        f"--time {LONGER * work.seconds:.3g}"
+        if math.isinf(work.passes)
+        else f"--passes {LONGER * work.passes:.0f}"
+    )
+    of = "one" if fewer == 1 else f"{fewer}"
+    return (
+        f"{number_of(len(grounds), 'sheet')}; their parts cover {100 * share:.0f} % of {of}: "
+        f"more time may do with {fewer} ({longer})",
+    )
+
+
+def _radii(found: Sequence[NestedSheet]) -> Floats:
+    """``(n,)`` of the largest circle in each part, the largest first."""
+    own = dict[tuple[int, float], float]()
+    radii = list[float]()
+    for one in found:
+        for item, scale, outline in zip(
+            one.layout.items, one.layout.poses.scale, one.layout.outlines, strict=True
+        ):
+            key = (id(item.outline), float(scale))
+            if key not in own:
+                own[key] = float(shapely.maximum_inscribed_circle(outline.region).length)
+            radii.append(own[key])
+    return np.sort(radii)[::-1]
+
+
+def _that_exclude_each_other(radii: Floats, bounds: tuple[float, float, float, float]) -> int:
+    """Number of the largest parts no two of which have room on one sheet.
+
+    Two circles of a rectangle have their centres apart by its sides less both radii, at most.
+
+    >>> _that_exclude_each_other(np.array([30.0, 30.0, 30.0, 5.0]), (0, 0, 100, 100))
+    3
+    """
+    x0, y0, x1, y1 = bounds
+    both = radii[:-1] + radii[1:]
+    room = np.hypot(np.maximum(x1 - x0 - both, 0.0), np.maximum(y1 - y0 - both, 0.0))
+    return int(np.argmin(np.append(room < both, False))) + 1
