@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import tracemalloc
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +17,14 @@ import shapely
 
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
+from packwork.geometry.arcs import ArcLine
+from packwork.geometry.outline import Outline
 from packwork.live import edits
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Move
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.exporting import kept_bytes, layout_bytes
+from packwork.live.file.machine_lines import LineRoom
 from packwork.live.file.session_file import packed, read_session, unpacked
 from packwork.live.file.values import text_of
 from packwork.live.nested_again import nested_again
@@ -189,6 +194,90 @@ def test_lines_that_leave_their_part_are_refused(tmp_path: Path) -> None:
         spoilt = packed({**parts, name: json.dumps(record).encode()})
         with pytest.raises(ReadError):
             read_session(spoilt, "a.packwork")
+
+
+def test_arcs_are_bounded_before_a_map_stretches_them() -> None:
+    drawn = np.column_stack([np.linspace(0.0, 1e11, 100), np.zeros(100)])
+    line = ArcLine(drawn, np.full(100, 0.5))
+    outline = Outline.from_region(shapely.box(-1, -1, 1, 1))
+    tracemalloc.start()
+    assert not LineRoom(outline, np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])).holds(line)
+    # Arcs that lie in the part, too many to be looked at closely.
+    many = ArcLine(np.tile([[-0.4, 0.0], [0.4, 0.0]], (30_000, 1)), np.ones(60_000), True)
+    assert not LineRoom(outline, np.eye(2, 3)).holds(many)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 100e6
+
+
+SHAPE = """<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30">
+<linearGradient id="g"/>{}</svg>"""
+CURVES = '<path d="M2 2h20c9 3 9 16 0 20H2z"/>'
+SCORED = """<g fill="none" stroke="#000" stroke-width=".1"><path d="M2 2h20v20H2z"/>
+<path d="M4 4h9" stroke="url(#g)" stroke-dasharray="1"/></g>"""
+
+
+def through_a_session(part: Path) -> tuple[LineArt, LineArt]:
+    """Lines of a part, and as a session of its nest has them."""
+    layout = pw.nest("1200x800mm", [str(part)], passes=2).layouts[0]
+    return of_session(layout)
+
+
+def of_session(layout: pw.Layout) -> tuple[LineArt, LineArt]:
+    read, _ = read_session(kept_bytes(session_of(layout).kept()), "a.packwork")
+    art, kept = layout.items[-1].art, read.document.items[-1].art
+    assert isinstance(art, LineArt)
+    assert isinstance(kept, LineArt)
+    return art, kept
+
+
+def test_curves_stay_what_they_are_in_a_session(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text(SHAPE.format(CURVES), encoding="utf-8")
+    art, kept = through_a_session(tmp_path / "a.svg")
+    assert "C" in art.path
+    assert kept.path == art.path
+
+
+def test_a_mark_with_a_gradient_goes_into_a_session_without_it(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text(SHAPE.format(SCORED), encoding="utf-8")
+    _, kept = through_a_session(tmp_path / "a.svg")
+    assert [one.colour for one in kept.engraved] == [""]
+
+
+def test_marks_of_a_small_part_keep_to_it_beside_a_large_one(tmp_path: Path) -> None:
+    drawing = ezdxf.new(units=4)
+    space = drawing.modelspace()
+    for x, side in ((0, 1000), (1100, 20)):
+        space.add_lwpolyline([(x, 0), (x + side, 0), (x + side, side / 2), (x, side / 2)],
+                             close=True)  # fmt: skip
+        end = x + side + (0.03 if x else -10)
+        space.add_line((x + 5, 5), (end, 5), dxfattribs={"layer": "engrave"})
+    drawing.saveas(tmp_path / "a.dxf")
+    _, kept = through_a_session(tmp_path / "a.dxf")
+    (line,) = kept.engraved
+    assert np.ptp(line.points[:, 0]) == pytest.approx(15 * 96 / 25.4, abs=0.01)
+
+
+def test_marks_that_left_their_part_are_left_out_of_a_session_and_told(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    layout = pw.nest("100x80mm", [str(_round_part(tmp_path))], passes=2).layouts[0]
+    (item,) = layout.items
+    assert isinstance(item.art, LineArt)
+    (mark,) = item.art.engraved
+    away = (mark, replace(mark, points=mark.points + 80.0))
+    for art, left, told in (
+        (replace(item.art, engraved=away), 1, "without 1 engraved line"),
+        (replace(item.art, path="M0 0C900 0 900 9 9 9Z"), 1, ""),
+    ):
+        moved = replace(layout, items=(replace(item, art=art),))
+        _, kept = of_session(moved)
+        assert (len(kept.engraved), kept.path) == (left, "")
+        assert told in caplog.text
+    moved = replace(layout, items=(replace(item, art=replace(item.art, cut=away)),))
+    read, _ = read_session(kept_bytes(session_of(moved).kept()), "a.packwork")
+    assert not isinstance(read.document.items[0].art, LineArt)
+    assert "keeps the outline" in caplog.text
 
 
 def test_no_two_parts_of_a_moved_nest_are_nearer_than_the_tool() -> None:

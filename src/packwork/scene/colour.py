@@ -52,6 +52,22 @@ def css_colour(text: str) -> Colour:
     return (*channels[:3], channels[3] if len(channels) == 4 else 255)
 
 
+def known_colour(text: str) -> str:
+    """The same colour, each stretch of white space in it one space; empty if the text is none.
+
+    Examples
+    --------
+    >>> known_colour(" rgb(1,  2 3)"), known_colour("url(#g)")
+    ('rgb(1, 2 3)', '')
+    """
+    word = " ".join(text.split())
+    try:
+        css_colour(word)
+    except ValueError:
+        return ""
+    return word
+
+
 def parse_colour(key: str, text: str) -> Colour:
     """Colour that an option names, as :func:`css_colour` reads it.
 

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 
 from packwork.geometry.arcs import ArcLine
-from packwork.scene.colour import css_colour, hex_colour
+from packwork.scene.colour import css_colour, hex_colour, known_colour
 from packwork.scene.item import VectorArt
 
 CUT, ENGRAVE = "cut", "engrave"
@@ -26,7 +26,8 @@ _NOT_IN_NAMES = re.compile(r"[<>/\\\":;?*|=`,\x00-\x1f\x7f]")
 class EngravedLine(ArcLine):
     """A line that a machine does not cut through.
 
-    ``colour``: any CSS colour, ``layer``: a name; each empty where the drawing gives it none.
+    ``colour``: any CSS colour, ``layer``: a name; each empty where the drawing gives it none. What
+    is no colour, as a gradient, counts for none.
 
     Examples
     --------
@@ -37,10 +38,16 @@ class EngravedLine(ArcLine):
     >>> line = EngravedLine(np.eye(2), np.zeros(2), False, "#f01010", "cut")
     >>> line.own_colour, line.own_layer
     ('', 'engrave')
+    >>> EngravedLine(np.eye(2), np.zeros(2), False, "url(#sunset)").colour
+    ''
     """
 
     colour: str = ""
     layer: str = ""
+
+    def __post_init__(self) -> None:
+        # Files keep colours, and refuse what is none.
+        object.__setattr__(self, "colour", known_colour(self.colour))
 
     @property
     def own_colour(self) -> str:
@@ -48,10 +55,7 @@ class EngravedLine(ArcLine):
 
         Black is how all lines are drawn, and a red one would be cut.
         """
-        try:
-            *rgb, opacity = css_colour(self.colour)
-        except ValueError:
-            return ""
+        *rgb, opacity = css_colour(self.colour or "none")
         is_red = max(255 - rgb[0], *rgb[1:]) <= _NEAR_RED
         is_plain = is_red or not opacity or set(rgb) in ({0}, {255})
         return "" if is_plain else hex_colour((*rgb, 255))

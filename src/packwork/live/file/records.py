@@ -21,6 +21,12 @@ FARTHEST = 1e12
 MOST_LINES = 100_000
 """Walls of a container, or runs and advances of a word, at most. Chosen."""
 
+MOST_PATH = 4_000_000
+"""Characters of path data of one part's lines at most. Chosen: 40,000 curves of ten digits."""
+
+PATH = r"^[MmLlHhVvCcSsQqTtAaZz0-9eE .,+-]*$"
+"""Path data, which is written as it is: nothing else may stand in it."""
+
 MOST_CELLS = 10_000
 """Cells of one row of a table at most. Chosen."""
 
@@ -126,6 +132,8 @@ class LineRecord(VectorRecord):
     cut: Annotated[tuple[ArcLineRecord, ...], Field(max_length=MOST_LINES)]
     engraved: Annotated[tuple[EngravedRecord, ...], Field(max_length=MOST_LINES)]
     is_painted: bool = False
+    path: Annotated[str, Field(pattern=PATH, max_length=MOST_PATH)] | None = None
+    """Path data of what is cut, where it has other curves than arcs."""
 
 
 class PictureRecord(Options):
@@ -177,7 +185,7 @@ class WordRecord(Options):
     """Text of a word, beside the curves that draw it."""
 
     runs: Annotated[tuple[RunRecord, ...], Field(max_length=MOST_LINES)]
-    path: Annotated[str, Field(pattern=r"^[MmLlHhVvCcSsQqTtAaZz0-9eE .,+-]*$")]
+    path: Annotated[str, Field(pattern=PATH)]
     language: Annotated[str, Field(pattern="^[A-Za-z0-9-]{0,40}$")] = ""
 
 

@@ -120,7 +120,7 @@ def item_record(item: Item, things: Things) -> ItemRecord:
         source=kept_text(item.source),
         outline=outline,
         ink=None if ink == outline else ink,
-        art=art_record(item.art, item.outline.extent),
+        art=art_record(item.art, item.outline, item.name),
         label=LabelRecord(
             name=kept_text(label.name), link=kept_text(label.link), title=kept_text(label.title)
         ),
@@ -128,7 +128,7 @@ def item_record(item: Item, things: Things) -> ItemRecord:
         halo=item.halo,
         datum=None if datum is None else _datum_record(datum),
         weight=item.weight,
-        own_art=None if own is None else art_record(own, item.outline.extent),
+        own_art=None if own is None else art_record(own, item.outline, item.name),
         parts=() if item.parts is None else _part_records(item.parts, things),
         coarseness=item.coarseness,
     )

@@ -7,23 +7,18 @@ from __future__ import annotations
 
 import base64
 import binascii
-from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
-import shapely
 from shapely import LinearRing
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
-from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered, valid
+from packwork.geometry.overlay import valid
+from packwork.live.file.machine_lines import lines_of, lines_record
 from packwork.live.file.records import (
     FARTHEST,
-    ArcLineRecord,
     ArtRecord,
-    EngravedRecord,
     FlatRecord,
     LineRecord,
     Matrix,
@@ -31,7 +26,6 @@ from packwork.live.file.records import (
     PhotoRecord,
     PictureRecord,
     VectorRecord,
-    kept_text,
 )
 from packwork.readers.budget.crossings import Allowance, check_nesting
 from packwork.readers.gate.door import MAX_BYTES
@@ -41,11 +35,8 @@ from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.scene.colour import css_colour
 from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
-from packwork.scene.line_art import EngravedLine, LineArt
+from packwork.scene.line_art import LineArt
 from packwork.uses.cutting import cropped
-
-LINES_OFF = 1e-4
-"""How far lines for a machine may lie beyond their part's outline, as a share of its extent."""
 
 SAME = 1e-9
 """By how much, relatively, two ways to compute one area may differ. Derived: rounding."""
@@ -117,28 +108,16 @@ HALVES = 4
 """How often a photograph whose file would be too large is halved at most. Chosen."""
 
 
-def art_record(art: Art, extent: float) -> ArtRecord:
-    """An art as plain values.
-
-    ``extent``: longer side of the item, in its own units.
-    """
+def art_record(art: Art, outline: Outline, name: str) -> ArtRecord:
+    """An art as plain values; ``outline`` and ``name``: of its item."""
     if isinstance(art, FlatArt):
         return FlatRecord(fill=art.fill)
     if isinstance(art, LineArt):
-        drawn = _vector_record(art).model_dump(exclude={"kind"})
-        return LineRecord(
-            **drawn, is_painted=art.is_painted,
-            cut=tuple(ArcLineRecord(**_arcs_fields(line)) for line in art.cut),
-            engraved=tuple(
-                EngravedRecord(**_arcs_fields(line), colour=line.colour,
-                               layer=kept_text(line.layer))
-                for line in art.engraved
-            ),
-        )  # fmt: skip
+        return lines_record(art, _vector_record(art), outline, name, text_of)
     if isinstance(art, VectorArt):
         return _vector_record(art)
     if isinstance(art, PhotoArt):
-        return photo_record(art, extent)
+        return photo_record(art, outline.extent)
     png = base64.b64encode(art.png).decode("ascii")
     return PictureRecord(
         png=png, width=art.width, height=art.height,
@@ -167,16 +146,7 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
     if isinstance(record, FlatRecord):
         return FlatArt(colour_of(record.fill))
     if isinstance(record, LineRecord):
-        art = _vector_of(record)
-        cut = tuple(ArcLine(*_arcs_of(one)) for one in record.cut)
-        engraved = tuple(
-            EngravedLine(*_arcs_of(one), one.colour and colour_of(one.colour), one.layer)
-            for one in record.engraved
-        )
-        _check_inside((*cut, *engraved), art.matrix, outline)
-        return LineArt(
-            art.markup, art.matrix, art.is_traced, cut, engraved, is_painted=record.is_painted
-        )
+        return lines_of(record, _vector_of(record), outline, points_of)
     if isinstance(record, VectorRecord):
         return _vector_of(record)
     if isinstance(record, PhotoRecord):
@@ -188,35 +158,6 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
             raise UnfitError("holds a picture that is not the PNG it is said to be")
     matrix = matrix_of(record.matrix)
     return PictureArt(png, record.width, record.height, matrix, record.is_traced)
-
-
-def _arcs_fields(line: ArcLine) -> dict[str, Any]:
-    bulges = tuple(line.bulges.tolist())
-    return {"points": text_of(line.points), "bulges": bulges, "is_closed": line.is_closed}
-
-
-def _arcs_of(record: ArcLineRecord) -> tuple[FloatArray, FloatArray, bool]:
-    points, bulges = points_of(record.points), np.array(record.bulges, dtype=np.float64)
-    if len(points) != len(bulges) or len(points) < 2:
-        raise UnfitError("holds a line whose arcs do not fit its points")
-    return points, bulges, record.is_closed
-
-
-def _check_inside(lines: Sequence[ArcLine], matrix: FloatArray, outline: Outline) -> None:
-    """Refuse lines that would be cut or engraved beyond what is certified."""
-    if sum(len(line.points) for line in lines) > MAX_POINTS:
-        raise UnfitError("holds too many points of lines for a machine")
-    room = buffered(outline.region, LINES_OFF * outline.extent)
-    shapely.prepare(room)
-    for line in (one.mapped(matrix, LINES_OFF * outline.extent) for one in lines):
-        bulges = np.maximum(np.abs(line.bulges), 1.0)
-        chords = np.hypot(*(np.roll(line.points, -1, axis=0) - line.points).T)
-        # More than half a circle lies in the part only where the circle is no larger.
-        if (chords * bulges > 4.0 * outline.extent).any():
-            raise UnfitError("holds lines for a machine that leave their part")
-        points = line.flattened(LINES_OFF * outline.extent)
-        if not shapely.covers(room, shapely.points(points)).all():
-            raise UnfitError("holds lines for a machine that leave their part")
 
 
 def photo_of(record: PhotoRecord) -> PhotoArt:

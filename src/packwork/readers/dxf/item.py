@@ -31,7 +31,7 @@ from packwork.readers.dxf.entities import (
     CadLine,
     read_drawing,
 )
-from packwork.readers.dxf.rings import RingPart, nested, place, rings_of, size_of
+from packwork.readers.dxf.rings import RingPart, nested, place, rings_of
 from packwork.readers.engraving import Engraving
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pages import Read
@@ -226,19 +226,23 @@ def engraved_in(
     left_out: Counter[str],
 ) -> list[list[EngravedLine]]:
     """Lines that go with each part; what lies beyond its edges is cut off."""
-    slack = FLATTENING * size_of([*engraved, *loose])
     regions = [
         Polygon(part.outer.polygon.exterior, [hole.polygon.exterior for hole in part.holes])
         for part in parts
+    ]
+    # By its own size: a small part next to a large one has no more room about it.
+    slacks = [
+        FLATTENING * float(np.ptp(shapely.get_coordinates(one), axis=0).max()) for one in regions
     ]
     tree = shapely.STRtree(regions)
     found: list[list[EngravedLine]] = [[] for _ in parts]
     every = (*engraved, *(replace(one, layer="") for one in loose))
     for number, piece in enumerate(every, start=-len(engraved)):
-        points = piece.line.flattened(slack or 1e-9)
-        line = LineString(np.vstack([points, points[:1]]) if piece.line.is_closed else points)
-        near = [int(k) for k in tree.query(line, predicate="dwithin", distance=slack)]
-        inside = [k for k in near if buffered(regions[k], 2 * slack).covers(line)]
+        coarse = _drawn(piece.line, max(slacks))
+        around = tree.query(coarse, predicate="dwithin", distance=3 * max(slacks))
+        fine = {int(k): _drawn(piece.line, slacks[k]) for k in around}
+        near = [k for k, line in fine.items() if line.dwithin(regions[k], slacks[k])]
+        inside = [k for k in near if buffered(regions[k], 2 * slacks[k]).covers(fine[k])]
         if inside:
             found[inside[0]].append(_mark(piece.line, piece))
         elif number >= 0:
@@ -248,10 +252,15 @@ def engraved_in(
         else:
             left_out["engraved beyond an edge"] += 1
             for k in near:
-                found[k] += [_mark(part, piece) for part in _inside(line, regions[k])]
+                found[k] += [_mark(part, piece) for part in _inside(fine[k], regions[k])]
     if loose:
         notice(f"{number_of(len(loose), 'open line')} inside parts will be engraved")
     return found
+
+
+def _drawn(line: ArcLine, tolerance: float) -> LineString:
+    points = line.flattened(tolerance)
+    return LineString(np.vstack([points, points[:1]]) if line.is_closed else points)
 
 
 def _mark(line: ArcLine, piece: CadLine) -> EngravedLine:
@@ -326,8 +335,7 @@ def line_art(
 
 def _shown(line: ArcLine, room: Region, width: float, digits: int) -> Iterator[str]:
     """Paths of an engraved line where it lies in a region."""
-    points = line.flattened(width / 10)
-    whole = LineString(np.vstack([points, points[:1]]) if line.is_closed else points)
+    whole = _drawn(line, width / 10)
     if room.contains(whole):
         yield arc_path_data(line, digits)
     else:
