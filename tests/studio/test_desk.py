@@ -6,6 +6,7 @@ import asyncio
 import importlib.util
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from packwork.live import edits
 from packwork.live.face import exporting
 from packwork.live.face.opening import Opening, opening_of
 from packwork.live.session import Session
+from packwork.scene.item import FlatArt
 from packwork.studio import wire
 from packwork.studio.files import Exporter
 from packwork.studio.view import Scenes, View
@@ -391,7 +393,40 @@ def test_drawings_of_long_ago_are_forgotten(opening: Opening) -> None:
         assert set(scene.shapes) <= set(scenes.shapes)
     assert len(scenes.shapes) <= 2 * len(session.document)
     session.undo()
-    assert set(scenes.of(View.of_document(session.document)).shapes) <= set(scenes.shapes)
+    view = View.of_document(session.document)
+    assert set(scenes.of(view).shapes) <= set(scenes.shapes)
+    # Where nothing is shown nothing is kept, once the scene before must have come.
+    bare = replace(view, items=(), ids=view.ids[:0], weights=view.weights[:0], poses=None)
+    for title in ("one", "two"):
+        scenes.of(replace(bare, title=title))
+    assert scenes.shapes == {}
+
+
+def test_a_page_on_a_slow_line_passes_over_a_scene_of_which_nothing_is_kept(play) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        draw, later = desk.scene, [f"#0000{k:02x}" for k in range(10)]
+
+        async def overtaken(view: View) -> wire.Scene:
+            scene = await draw(view)
+            while scene.version > 1 and later:
+                art = FlatArt(later.pop())
+                items = {one: replace(one, art=art) for one in view.items}
+                desk.shapes.of(replace(view, items=tuple(items[one] for one in view.items)))
+            return scene
+
+        desk.scene = overtaken
+        ids = [item["id"] for item in page.last("scene")["items"]]
+        command = {"kind": "recolour", "items": ids, "colour": "#1f6f78"}
+        page.tell(type="do", n=1, command=command)
+        await page.until(lambda: page.done == 1 and page.is_certified)
+        assert later == []
+        shapes = {one["key"]: one for said in page.said("shapes") for one in said["shapes"]}
+        fills = {shapes[item["shape"]]["fill"] for item in page.last("scene")["items"]}
+        assert fills == {"#1f6f78ff"}
+
+    play(scenario)
 
 
 def test_nothing_is_called_certified_that_the_page_does_not_show(play) -> None:

@@ -40,6 +40,9 @@ def test_undo_in_a_field_is_of_what_is_typed_then_of_the_document(
     desk.settled()
     keys.press("End")
     keys.type("77")
+    for redo in ("Control+Shift+z", "Control+y"):
+        keys.press(redo)
+        assert shown(desk, "x") == 31077
     keys.press("Control+z")
     assert shown(desk, "x") == 310
     assert desk.look("studio.collage.state.can_undo")

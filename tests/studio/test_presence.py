@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
-from packwork.studio.app import GRACE_SECONDS, Presence
+import pytest
+from starlette.websockets import WebSocket
+
+from packwork.live.face.opening import Opening
+from packwork.studio.app import GRACE_SECONDS, Presence, Studio
+from packwork.studio.files import Uploads
+from packwork.studio.proof import Secret
+from packwork.studio.tab import Tab
+from packwork.studio.workspace import Workspace
 from studio.browsing import PHONE, Desk, Server, in_browser
 
 
@@ -28,6 +37,41 @@ def test_pages_that_do_not_say_whose_they_are_keep_nobody_out() -> None:
     assert seats.take("")
     assert seats.take("ann")
     assert seats.take("")
+
+
+class OpenSocket:
+    """A page that says nothing, and stays."""
+
+    scope: dict[str, Any]
+
+    def __init__(self) -> None:
+        self.scope = {"subprotocols": ["packwork", "person.ann"]}
+
+    async def accept(self, protocol: str) -> None:
+        """Nothing is sent by it."""
+
+    async def receive(self) -> dict[str, str]:
+        await asyncio.Event().wait()
+        return {}
+
+
+def test_a_page_to_which_nothing_can_be_sent_is_let_go(
+    opening: Opening, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def fails(_: Tab) -> None:
+        await asyncio.sleep(0)
+        raise KeyError("a drawing")
+
+    async def scenario() -> None:
+        uploads, socket = Uploads(), cast(WebSocket, OpenSocket())
+        studio = Studio(Workspace(opening), uploads, Secret("127.0.0.1:1"))
+        route = next(one for one in studio.routes if getattr(one, "path", "") == "/socket")
+        with pytest.raises(KeyError, match="a drawing"):
+            await asyncio.wait_for(cast(Any, route).endpoint(socket), 60.0)
+        uploads.close()
+
+    monkeypatch.setattr(Tab, "send", fails)
+    asyncio.run(scenario())
 
 
 @in_browser[0]

@@ -8,7 +8,7 @@ import time
 from base64 import b64encode
 from collections import Counter
 from collections.abc import AsyncIterator, Callable, Iterable
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from dataclasses import asdict
 from functools import cache
 from importlib import resources
@@ -133,17 +133,19 @@ class Studio:
             return
         tab = Tab(self._workspace, socket, self._importer)
         self._tabs.add(tab)
-        sending = asyncio.create_task(tab.send())
+        # Whichever ends first ends the other: a page to which nothing is sent must come anew.
+        both = [asyncio.create_task(one) for one in (tab.send(), _receive(socket, tab))]
         try:
-            with suppress(WebSocketDisconnect):
-                while True:
-                    await _received(socket, tab)
+            await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._tabs.discard(tab)
             self._presence.leave(person)
-            sending.cancel()
-            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
-                await sending
+            for one in both:
+                one.cancel()
+            ended = await asyncio.gather(*both, return_exceptions=True)
+        for found in ended:
+            if isinstance(found, Exception) and not isinstance(found, GONE):
+                raise found
 
 
 @cache
@@ -156,12 +158,14 @@ def page_text() -> str:
     return page.replace('<link rel="modulepreload" href="/static/main.js">', "\n".join(links))
 
 
-async def _received(socket: WebSocket, tab: Tab) -> None:
-    message = await socket.receive()
-    if message["type"] == "websocket.disconnect":
-        raise WebSocketDisconnect(message.get("code", 1000))
-    text = message.get("text")
-    tab.receive("" if text is None else text)
+GONE = (WebSocketDisconnect, RuntimeError)
+"""Raised where a socket is used whose page is gone."""
+
+
+async def _receive(socket: WebSocket, tab: Tab) -> None:
+    while (message := await socket.receive())["type"] != "websocket.disconnect":
+        text = message.get("text")
+        tab.receive("" if text is None else text)
 
 
 async def _body(request: Request, most: int) -> bytes:

@@ -79,7 +79,9 @@ class Tab:
             if self._scene is not None:
                 # What was said of the scene before does not hold of this one.
                 await self._send_state(_unsettled(state))
-            await self._send_scene(scene)
+            if not await self._send_scene(scene):
+                self.wake()
+                return
             self._seen = None
         is_late = await self._send_frame(view, shown.done, scene.version, state.moving)
         # What is said of a layout waits until that layout is what the page shows.
@@ -101,14 +103,19 @@ class Tab:
     def _is_seen(self, poses: Poses, done: int) -> bool:
         return self._seen is not None and self._seen[0] is poses and self._seen[1] == done
 
-    async def _send_scene(self, scene: Scene) -> None:
+    async def _send_scene(self, scene: Scene) -> bool:
+        """Send a scene, and what it shows first; False where a newer one has taken its place."""
+        known = self.workspace.shapes.shapes
         keys = [key for key in scene.shapes if key not in self._known]
+        if any(key not in known for key in keys):
+            # While an older message was on its way, others drew two scenes more.
+            return False
         self._known.update(keys)
         if keys:
-            known = self.workspace.shapes.shapes
             await self._say(Shapes(shapes=tuple(known[key] for key in keys)))
         self._scene = scene
         await self._say(scene)
+        return True
 
     async def _send_state(self, state: State) -> None:
         before, now = self._state, time.monotonic()

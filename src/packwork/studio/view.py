@@ -203,7 +203,8 @@ class Scenes:
         )
         # The scene before may still be on its way; of what was wanted longer ago little is kept.
         keys = {*scene.shapes, *([] if self._last is None else self._last[1].shapes)}
-        self._drawings = dict(list(self._drawings.items())[-2 * len(scene.items) :])
+        longest_ago = max(len(self._drawings) - 2 * len(scene.items), 0)
+        self._drawings = dict(list(self._drawings.items())[longest_ago:])
         keys.update(one.key for one in self._drawings.values())
         self.shapes = {key: self.shapes[key] for key in keys}
         self._last = (view, scene)

@@ -213,13 +213,13 @@ export class Gestures {
     const [xs, ys] = [[doing.from.x, at.x].sort((a, b) => a - b), [doing.from.y, at.y].sort((a, b) => a - b)];
     this.stage.marquee = [xs[0], ys[0], xs[1], ys[1]];
     const [a, b] = [this.view.toCanvas(xs[0], ys[0]), this.view.toCanvas(xs[1], ys[1])];
-    doing.base ??= doing.adds ? [...this.choice.ids] : [];
+    doing.before ??= [...this.choice.ids];
     const { collage } = this.stage;
     const inside = collage.items.filter((_, k) => {
       const [x, y] = collage.shown.subarray(4 * k, 4 * k + 2);
       return x >= a.x && x <= b.x && y >= a.y && y <= b.y;
     });
-    this.choice.set([...doing.base, ...inside.map((item) => item.id)]);
+    this.choice.set([...(doing.adds ? doing.before : []), ...inside.map((item) => item.id)]);
   }
 
   /** @param {PointerEvent} event */
@@ -290,11 +290,11 @@ export class Gestures {
     this.doing = null;
   }
 
-  /** Leave off a frame that is drawn; whether one was. */
+  /** Leave off a frame that is drawn: what was chosen before is chosen again; whether one was. */
   leaveMarquee() {
     const { doing, stage } = this;
     const was = stage.marquee !== null;
-    if (was) this.choice.set(doing?.base ?? []);
+    if (was) this.choice.set((doing?.before ?? []).filter((id) => stage.collage.rows.has(id)));
     stage.marquee = null;
     return was;
   }
@@ -375,7 +375,7 @@ export class Gestures {
 
 /**
  * @typedef {{act: "pan" | "draw" | "crop" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
- *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, base?: number[],
+ *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, before?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */
 

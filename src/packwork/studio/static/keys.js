@@ -77,14 +77,14 @@ export function isTypedIn(field) {
 }
 
 /**
- * Whether a key in a number field is for the document: it undoes what is typed there first.
+ * Whether a key in a number field is for the document: undo takes back what is typed there first.
  * @param {KeyboardEvent} event
  */
 function leaps(event) {
   const field = event.target;
   if (!(field instanceof HTMLInputElement) || field.type !== "number" || !LEAPS.has(keyOf(event))) return false;
   const typed = before.get(field);
-  if (typed === undefined) return true;
+  if (typed === undefined || keyOf(event) !== "Mod+Z") return typed === undefined;
   event.preventDefault();
   field.value = typed;
   before.delete(field);
