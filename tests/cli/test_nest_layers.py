@@ -17,6 +17,7 @@ from typer.testing import Result
 import packwork as pw
 from packwork.readers.gate.door import parse_xml
 from packwork.readers.layouts.lines import arc_lines_of
+from packwork.readers.reading import UnfitError
 from packwork.scene.line_art import LineArt
 
 Command = Callable[..., Result]
@@ -121,7 +122,9 @@ def test_paths_too_many_to_be_read_again_are_shared(
     shop: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert packwork(f"{LINE} -o a.svg").exit_code == 0
-    monkeypatch.setattr("packwork.writers.svg_lines.MOST_IN_FULL", 10)
+    # Engraved lines count: the lines to cut alone would stand in full.
+    most = sum(len(one.get("d", "")) for one in layers(shop / "a.svg")["cut"])
+    monkeypatch.setattr("packwork.writers.svg_lines.MOST_IN_FULL", most)
     assert packwork(f"{LINE} -o b.svg -o b.pdf").exit_code == 0
     text = (shop / "b.svg").read_text(encoding="utf-8")
     assert (text.count("<use"), text.count(' id="shape-')) == (4, 3)
@@ -143,6 +146,117 @@ def test_a_layer_that_lost_a_part_is_told(shop: Path, packwork: Command) -> None
     said = " ".join(packwork("measure a.svg").output.split())
     assert "engraved lines of 1 part that is not there are left out" in said
     assert "not certified" in said
+
+
+ENGRAVED = '<g id="engrave-1" data-lines="engrave"'
+
+
+def changed_by(shop: Path, *edits: tuple[str, str]) -> tuple[list[str], list[list[str]]]:
+    """What is said of a nest that was edited, and colours of the lines engraved on each part."""
+    text = (shop / "a.svg").read_text(encoding="utf-8")
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new, 1)
+    (shop / "b.svg").write_text(text, "utf-8")
+    found = pw.Layout.load(shop / "b.svg")
+    arts = [item.art for item in found.items if isinstance(item.art, LineArt)]
+    colours = [[line.colour for line in art.engraved] for art in arts]
+    return found.manifest["changed"], colours
+
+
+def test_edits_of_what_goes_with_parts_are_followed_or_told(shop: Path, packwork: Command) -> None:
+    assert packwork("nest 120x110mm plate.dxf*2 --passes 20 -o a.svg").exit_code == 0
+    assert changed_by(shop) == ([], [["#00ff00", ""]] * 2)
+    text = (shop / "a.svg").read_text(encoding="utf-8")
+    _, other = re.findall(r'<path data-item="item-1"[^>]*/>', text)
+    cut = re.findall(r'<path id="item-1"[^>]*/>', text)[0]
+    off = "2 engraved lines that leave their parts are left out"
+    moved = cut.replace('transform="', 'transform="translate(3 300)')
+    assert changed_by(shop, (cut, moved)) == ([off], [[], ["#00ff00", ""]])
+    away = f'{ENGRAVED} transform="translate(300 0)"'
+    assert changed_by(shop, (ENGRAVED, away)) == ([off], [[""]] * 2)
+    together = '<g id="items" transform="translate(9 0)"'
+    assert len(changed_by(shop, ('<g id="items"', together))[0]) == 1
+    assert changed_by(
+        shop, ('<g id="items"', together), (ENGRAVED, f'{ENGRAVED} transform="translate(9 0)"'),
+        ('<g id="engrave-2"', '<g id="engrave-2" transform="translate(9 0)"'),
+    ) == ([], [["#00ff00", ""]] * 2)  # fmt: skip
+    grouped = f'<g stroke="#ff00ff"><g id="g3">{other}</g></g>'
+    assert changed_by(shop, (other, grouped)) == ([], [["#00ff00", "#ff00ff"], ["#00ff00", ""]])
+    styled = other.replace("<path", '<path style="stroke:#00ffff;stroke-dasharray:none"')
+    assert changed_by(shop, (other, styled)) == ([], [["#00ff00", "#00ffff"], ["#00ff00", ""]])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('<path data-item="item-1"', '<circle cx="9" cy="9" r="4"/><path data-item="item-1"',
+         "1 <circle> beside the lines to cut, of no part, left out"),
+        ('<path data-item="item-1"', '<path d="M0 0L90 90"/><path data-item="item-1"',
+         "1 <path> beside the lines to cut, of no part, left out"),
+        ("</svg>", '<g data-lines="artwork"><rect width="900" height="900"/></g></svg>',
+         "1 <rect> beside the lines to cut, of no part, left out"),
+        ("</svg>", '<g data-lines="artwork"><g data-item="item-9"/></g></svg>',
+         "artwork of 1 part that is not there is left out"),
+        ('<path data-item="item-1"', '<path style="stroke-width:90" data-item="item-1"',
+         "1 engraved line is filled, or wider than 1 mm, which is not measured"),
+        ('<path data-item="item-1"', '<path style="fill:red" data-item="item-1"',
+         "1 engraved line is filled, or wider than 1 mm, which is not measured"),
+        ('<path data-item="item-1"', '<path style="transform:scale(3)" data-item="item-1"',
+         "what goes with a part: style (transform) changes what is drawn, and is not measured"),
+        ('id="item-2"', 'id="item-1"',
+         "1 id is that of several items, so that what goes with each is not known"),
+    ],
+)  # fmt: skip
+def test_what_is_not_followed_beside_the_lines_to_cut_is_told(
+    shop: Path, packwork: Command, old: str, new: str, told: str
+) -> None:
+    assert packwork("nest 120x110mm plate.dxf*2 --passes 2 -o a.svg").exit_code == 0
+    assert told in changed_by(shop, (old, new))[0]
+    assert "not certified" in packwork("measure b.svg").output
+
+
+def test_layers_of_nests_are_strange_in_other_files(folder: Path, packwork: Command) -> None:
+    assert packwork("fill square circle -n 3 --effort draft -o a.svg").exit_code == 0
+    text = (folder / "a.svg").read_text(encoding="utf-8")
+    beside = '<g data-lines="artwork"><rect width="900" height="900"/></g></svg>'
+    (folder / "a.svg").write_text(text.replace("</svg>", beside), encoding="utf-8")
+    said = " ".join(packwork("measure a.svg").output.split())
+    assert "1 drawing outside the group items is not measured" in said
+
+
+def test_engraved_lines_of_a_dxf_that_leave_their_part_are_told(
+    shop: Path, packwork: Command
+) -> None:
+    assert packwork("nest 120x110mm plate.dxf*2 --passes 2 -o a.dxf").exit_code == 0
+    assert "not certified" not in packwork("measure a.dxf").output
+    document = ezdxf.readfile(shop / "a.dxf")
+    document.modelspace().query('CIRCLE[layer=="Score"]')[0].dxf.radius = 50
+    document.saveas(shop / "a.dxf")
+    found = pw.Layout.load(shop / "a.dxf")
+    assert found.manifest["changed"] == ["1 engraved line that leaves its part is left out"]
+    assert "not certified" in packwork("measure a.dxf").output
+
+
+def test_coordinates_beyond_all_sheets_are_refused() -> None:
+    with pytest.raises(UnfitError, match="numbers up to"):
+        list(arc_lines_of(f"M0 0L{'9' * 14} 0", 1e-6))
+    with pytest.raises(UnfitError, match="numbers up to"):
+        list(arc_lines_of(f"M0 0A1{'0' * 14} 1{'0' * 14} 0 0 1 1{'0' * 14} 0", 1e-6))
+
+
+def test_curves_of_a_small_part_are_as_many_arcs_when_it_is_read_again(
+    shop: Path, packwork: Command
+) -> None:
+    small = CURVED.replace('width="40mm" height="30mm"', 'width="4mm" height="3mm"')
+    (shop / "small.svg").write_text(small, encoding="utf-8")
+    assert packwork("nest 9x9mm small.svg --passes 2 -o a.svg -o a.dxf").exit_code == 0
+    assert packwork("nest a.svg small.svg --passes 2 -o b.dxf").exit_code == 0
+    first, again = (
+        max(len(one) for one in ezdxf.readfile(shop / name).modelspace().query("LWPOLYLINE"))
+        for name in ("a.dxf", "b.dxf")
+    )
+    assert again == first
 
 
 @pytest.mark.parametrize(
@@ -212,9 +326,9 @@ def test_holes_that_nothing_lies_in_are_cut_in_every_file(shop: Path, packwork: 
 
 
 def test_arcs_of_a_path_are_read_as_they_were_written() -> None:
-    (slot,) = arc_lines_of("M0 0L9 0A4 4 0 0 1 9 8L0 8Z", 10.0)
+    (slot,) = arc_lines_of("M0 0L9 0A4 4 0 0 1 9 8L0 8Z", 1e-6)
     assert slot.bulges == pytest.approx([0, 1, 0, 0])
-    (open_,) = arc_lines_of("M0 0A5 5 0 0 0 5 5", 5.0)
+    (open_,) = arc_lines_of("M0 0A5 5 0 0 0 5 5", 1e-6)
     assert not open_.is_closed
     assert open_.bulges[0] == pytest.approx(-np.tan(np.pi / 8))
 
@@ -222,10 +336,10 @@ def test_arcs_of_a_path_are_read_as_they_were_written() -> None:
 @pytest.mark.parametrize("odd", ["M1.2.3 4", "M1", "M1 2A3 4", "M1 2A1 1 0 0 1 - 3Z", "M1 1L..Z"])
 def test_a_path_that_no_writer_of_ours_wrote_is_read_as_any(odd: str) -> None:
     good = "M0 0L9 0L9 9Z"
-    assert len([*arc_lines_of(good, 9.0)]) == 1
-    assert len([*arc_lines_of(good + odd, 9.0)]) >= 1
+    assert len([*arc_lines_of(good, 1e-6)]) == 1
+    assert len([*arc_lines_of(good + odd, 1e-6)]) >= 1
 
 
 def test_arcs_of_large_radii_are_arcs() -> None:
-    (made,) = arc_lines_of("M0 0A1.5e+06 1.5e+06 0 0 1 100 0L50 80Z", 100.0)
+    (made,) = arc_lines_of("M0 0A1.5e+06 1.5e+06 0 0 1 100 0L50 80Z", 1e-5)
     assert made.bulges[0] == pytest.approx(100 / 1.5e6 / 4, rel=1e-6)

@@ -288,7 +288,9 @@ def faults_in(
 def on_trust_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
     """Parts of the files that are not held against what was measured, a sentence each."""
     return [
-        f"{path.name}: {one}" for path, _ in drawn for one in verify.on_trust_in_file(path, layout)
+        f"{path.name}: {one}"
+        for path, data in drawn
+        for one in verify.on_trust_in_file(path, layout, len(data))
     ]
 
 

@@ -138,13 +138,22 @@ def _beyond_paths(layout: Layout) -> set[str]:
     return {tag for tag in _BEYOND_PATHS for markup in markups if f"<{tag}" in markup}
 
 
-def on_trust_in_file(path: str | Path, layout: Layout) -> tuple[str, ...]:
-    """Warning of parts of a file not held against what was measured, a sentence or none.
+def on_trust_in_file(path: str | Path, layout: Layout, size: int = 0) -> tuple[str, ...]:
+    """Warning of a file, or parts of one, not held against what was measured, a sentence or none.
+
+    ``size``: the file's, in bytes.
 
     >>> from packwork.scene.layout import blank
     >>> on_trust_in_file("layout.pdf", blank())
     ()
+    >>> on_trust_in_file("layout.svg", blank(), 30_000_000)
+    ('its 30 MB are more than the 20 MB that are read back: what it draws is taken on trust',)
     """
+    if Path(path).suffix.lower() in ENDINGS and size > MAX_BYTES:
+        return (
+            f"its {size / 1e6:.3g} MB are more than the {MAX_BYTES / 1e6:g} MB that are read back: "
+            "what it draws is taken on trust",
+        )
     beyond = _beyond_paths(layout) if Path(path).suffix.lower() == ".pdf" else set()
     if not beyond:
         return ()

@@ -36,7 +36,8 @@ HAIRLINE_IN = 0.001
 NAMESPACE = ' xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 
 MOST_IN_FULL = 10_000_000
-"""Characters of paths beyond which parts that are alike share one: half of what is read. Chosen."""
+"""Characters of all that is drawn beyond which lines to cut that are alike share one: half of what
+is read. Chosen."""
 
 SEEN = (
     "<style>@supports (vector-effect:non-scaling-stroke){@media screen{[data-lines=cut] path,"
@@ -89,7 +90,8 @@ def line_layers(
         stroke = {"fill": "none", "stroke": ENGRAVED_COLOUR}
         layers.append(_layer(f"{ENGRAVE}-{number}", layer, stroke, drawn_lines))
     stroke = {"fill": "none", "stroke": CUT_COLOUR, **promise}
-    is_in_full = sum(len(one.path) for one in cut) <= MOST_IN_FULL
+    beside = sum(len(one) for drawn in (artwork, *engraved.values()) for one in drawn)
+    is_in_full = beside + sum(len(one.path) for one in cut) <= MOST_IN_FULL
     shared, drawn = ([], [one.in_full for one in cut]) if is_in_full else _shared(cut)
     layers.append(_layer("items", CUT, stroke, drawn))
     return [SEEN, *shared, *(line for one in layers for line in one)]

@@ -27,6 +27,7 @@ from packwork.readers.layouts.assembly import (
     sound_outline,
     sound_weight,
 )
+from packwork.readers.layouts.marks import Room, left_out
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.item import Item
@@ -248,7 +249,7 @@ def layout_of_dxf(text: str, name: str, *, outlines_only: bool = False) -> Layou
         line for line in lines
         if line.layer == layer or (line.is_engraved and not outlines_only)
     ]  # fmt: skip
-    items = _items(kept, paper, plain=outlines_only)
+    items, lost = _items(kept, paper, plain=outlines_only)
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -258,7 +259,7 @@ def layout_of_dxf(text: str, name: str, *, outlines_only: bool = False) -> Layou
         areas_in_shares=shares,
         items=items,
         walls=tuple(paper.down(wall.line) for wall in seen) if room else None,
-        said={"not_kept": [LINES_ALONE], "changed": _lost(walls[0], items)},
+        said={"not_kept": [LINES_ALONE], "changed": [*_lost(walls[0], items), *left_out(lost)]},
     )
     return assembled(sheet, name)
 
@@ -307,8 +308,11 @@ class _Paper:
         return line.mapped(np.array([[1.0, 0.0, 0.0], [0.0, -1.0, self.height]]), 0.0)
 
 
-def _items(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> list[FoundItem]:
-    """Items in the order of their numbers; each may have several lines, then engraved ones."""
+def _items(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[list[FoundItem], int]:
+    """Items in the order of their numbers, and the number of engraved lines that leave theirs.
+
+    Each may have several lines, then engraved ones.
+    """
     together: dict[str, list[DxfLine]] = {}
     number = ""
     for line in lines:
@@ -317,24 +321,29 @@ def _items(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> list[Foun
                 raise UnfitError(f"has lines on the layer cut that name no item, {_NOT_OURS}")
             number = line.said[0]
         together.setdefault(number, []).append(line)
-    return [_item(own, paper, plain=plain) for own in together.values() if own[0].said]
+    found = [_item(own, paper, plain=plain) for own in together.values() if own[0].said]
+    return [item for item, _ in found], sum(lost for _, lost in found)
 
 
-def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> FoundItem:
+def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[FoundItem, int]:
     number, name, weight = lines[0].said
     around = [line for line in lines if not line.is_engraved]
     shape = paper.region(around)
     if plain or not (len(around) < len(lines) or any(one.line.bulges.any() for one in around)):
-        return FoundItem(name, shape, sound_weight(weight))
+        return FoundItem(name, shape, sound_weight(weight)), 0
     outline = sound_outline(shape, f"item {number} ({name})")
     cut = tuple(paper.turned(one.line) for one in around)
+    marks = [one for one in lines if one.is_engraved]
+    room = Room(outline.region, outline.extent) if marks else None
     engraved = tuple(
         EngravedLine(drawn.points, drawn.bulges, drawn.is_closed, one.colour, one.layer)
-        for one in lines if one.is_engraved and (drawn := paper.turned(one.line))
-    )  # fmt: skip
+        for one in marks
+        if (drawn := paper.turned(one.line)) and room and room.holds(drawn, affine.identity())
+    )
     art = line_art(cut, engraved, outline.extent, outline.region, paper.pixel)
     x, y = outline.centroid.tolist()
     back = affine.similarity(-x, -y, 0.0, 1.0)
     own = outline.mapped(back)
     item = Item(name, name, own, own, replace(art, matrix=back))
-    return FoundItem(name, item, sound_weight(weight), affine.similarity(x, y, 0.0, 1.0))
+    place = affine.similarity(x, y, 0.0, 1.0)
+    return FoundItem(name, item, sound_weight(weight), place), len(marks) - len(engraved)

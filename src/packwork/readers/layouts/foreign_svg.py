@@ -27,7 +27,8 @@ OWN = frozenset(
 
 
 _BESIDE_CUTS = frozenset({"engrave", "artwork"})
-"""Groups of a nest that go with its parts and are not cut."""
+"""Groups of a nest that go with its parts and are not cut: they are looked through by themselves.
+In other files they are strange like all else."""
 
 LOST_ITEMS = (
     "has no group named items any more: each drawing counts as an item, and what was promised is "
@@ -45,6 +46,40 @@ def tag(element: ET.Element) -> str:
 def group_named(root: ET.Element, name: str) -> ET.Element | None:
     """The first group of that name at the top; None if there is none."""
     return next((e for e in root if e.get("id") == name and tag(e) == "g"), None)
+
+
+def is_of_lines(items: ET.Element | None) -> bool:
+    """Whether a group of items is one of lines for a machine."""
+    return items is not None and items.get("data-lines") == "cut"
+
+
+def layers_beside(root: ET.Element) -> list[ET.Element]:
+    """Groups at the top of a nest that go with its parts: artwork, and what is engraved.
+
+    Examples
+    --------
+    >>> text = '<svg><g data-lines="engrave"/><g id="items" data-lines="cut"/></svg>'
+    >>> len(layers_beside(ET.fromstring(text)))
+    1
+    >>> len(layers_beside(ET.fromstring(text.replace("cut", ""))))
+    0
+    """
+    if not is_of_lines(group_named(root, "items")):
+        return []
+    return [e for e in root if tag(e) == "g" and e.get("data-lines") in _BESIDE_CUTS]
+
+
+def declared(element: ET.Element) -> dict[str, str]:
+    """Properties in an element's ``style``.
+
+    Examples
+    --------
+    >>> declared(ET.fromstring('<g style="Fill: red !important;;x"/>'))
+    {'fill': 'red', 'x': ''}
+    """
+    parts = (part.partition(":") for part in element.get("style", "").split(";"))
+    return {key.strip().lower(): value.replace("!important", "").strip()
+            for key, _, value in parts if key.strip()}  # fmt: skip
 
 
 def unmeasured(root: ET.Element) -> tuple[str, ...]:
@@ -74,11 +109,12 @@ def strange(root: ET.Element, known: Set[str]) -> int:
     2
     """
     met: set[str] = set()
+    beside = layers_beside(root)
     count = 0
     for element in root:
         name = element.get("id", "")
-        is_lines = tag(element) == "g" and element.get("data-lines") in _BESIDE_CUTS
-        if tag(element) in PAINTED and not is_lines and (name not in known or name in met):
+        is_strange = name not in known or name in met
+        if tag(element) in PAINTED and is_strange and element not in beside:
             count += 1
         met.add(name)
     return count

@@ -39,11 +39,12 @@ from packwork.readers.layouts.assembly import (
 from packwork.readers.layouts.foreign_svg import (
     OWN,
     group_named,
+    is_of_lines,
     loose_items,
     strange,
     tag,
 )
-from packwork.readers.layouts.lines import LineParts, is_of_lines
+from packwork.readers.layouts.lines import LineParts
 from packwork.readers.layouts.sheet import (
     backdrop_of,
     drawing_of,
@@ -154,7 +155,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
             "recipe": limits_of(said),
             **({} if parts is None else {"nest": {"rotate": said.get("data-rotate", "none")}}),
             "drawing": drawing_of(root, is_in_full and arts.texts < len(drawn)),
-            "changed": [*changed, *([] if parts is None else parts.lost(ids))],
+            "changed": [*changed, *([] if parts is None else parts.changes(ids))],
             "not_kept": _not_kept(root, items, arts.texts),
         },
     )

@@ -23,11 +23,13 @@ from packwork.readers.layouts.arts import LINK
 from packwork.readers.layouts.foreign_svg import (
     LOST_CONTAINER,
     LOST_ITEMS,
+    declared,
     group_named,
+    is_of_lines,
+    layers_beside,
     tag,
     unmeasured,
 )
-from packwork.readers.layouts.lines import is_of_lines
 from packwork.readers.layouts.sheet import tile_of
 from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform, view_box
 from packwork.readers.svg_syntax.vocabulary import ATTRIBUTES, ELEMENTS, PROPERTIES, RENAMED
@@ -43,8 +45,10 @@ _OF_ROOT = frozenset(
 )  # fmt: skip
 _OF_LINKS = frozenset({"href", "target", "rel", "type", "download", "hreflang"})
 _OF_LINES = frozenset(
-    {"stroke", "stroke-width", "stroke-opacity", "stroke-linejoin", "fill-rule", "d", "points"}
-)
+    {"stroke", "stroke-width", "stroke-opacity", "stroke-linejoin", "stroke-linecap",
+     "stroke-miterlimit", "stroke-dasharray", "stroke-dashoffset", "paint-order", "fill-rule", "d",
+     "points"}
+)  # fmt: skip
 _LONG = frozenset({"d", "points"})
 _OF_DRAWINGS = ATTRIBUTES | _HARMLESS | {"href", "unicode-bidi"}
 _MOVING = frozenset(
@@ -167,7 +171,7 @@ def believed(root: ET.Element) -> list[str]:
     """
     styles = [_text(e) for e in root.iter() if tag(e) == "style"]
     found = [_MOTION] if any(_OWN_MOTION.fullmatch(text) for text in styles) else []
-    if any("filter" in e.attrib or "filter" in _declared(e) for e in root.iter()):
+    if any("filter" in e.attrib or "filter" in declared(e) for e in root.iter()):
         found.append(_FILTERS)
     items = group_named(root, "items")
     said = {} if items is None else items.attrib
@@ -210,6 +214,12 @@ def _of_frame(root: ET.Element) -> Iterator[Met]:
         for line in () if hides else group:
             if tag(line) not in _SILENT:
                 yield from _odd(line, _COLOURING | more, "the container's line", hides=False)
+    for layer in layers_beside(root):
+        is_engraved = layer.get("data-lines") == "engrave"
+        for one in layer.iter() if is_engraved else (layer, *layer):
+            where = "a layer of the nest" if one is layer else "what goes with a part"
+            if tag(one) in {"g", "path"}:
+                yield from _odd(one, _COLOURING | _OF_LINES | {"transform"}, where)
     if tile_of(root) and all(group.get("id") != "images" for group in root):
         yield "the lack of the group images", "the file"
     for group in root:
@@ -290,7 +300,7 @@ def _of_drawing(source: ET.Element, first: Mapping[str, ET.Element]) -> Iterator
     name = tag(source)
     if name not in _SOURCES:
         yield f"the <{name}>"
-    for key in _declared(source).keys() & _MOVING:
+    for key in declared(source).keys() & _MOVING:
         yield f"style ({key})"
     for key in source.attrib.keys() & (_MOVING - {"transform"}):
         yield key
@@ -310,7 +320,7 @@ def _of_drawing(source: ET.Element, first: Mapping[str, ET.Element]) -> Iterator
                 is_read = key in _OF_DRAWINGS or _is_foreign(key) or key[:2] == "on"
             if not is_read:
                 yield key
-        for key, value in _declared(element).items():
+        for key, value in declared(element).items():
             if not _is_colour_only(key, value) and not (
                 key in PROPERTIES and safe_value(value) is not None
             ):
@@ -330,7 +340,7 @@ def _odd(
         is_known = bare in known | _HARMLESS or _is_foreign(key) or bare[:2] == "on"
         if not (is_known or (bare in {"x", "y"} and parse_length(value, 0.0) == 0)):
             yield bare, where
-    for key, value in _declared(element).items():
+    for key, value in declared(element).items():
         if key not in known & (_COLOURING | _OF_LINES) and not _is_colour_only(key, value):
             yield f"style ({key})", where
     if hides and _hides(element):
@@ -353,16 +363,10 @@ def _is_foreign(key: str) -> bool:
 
 def _hides(element: ET.Element) -> bool:
     """Whether an element itself, or its style, lets nothing be seen."""
-    looks = {**element.attrib, **_declared(element)}
+    looks = {**element.attrib, **declared(element)}
     if tag(element) not in {"path", "use"} or "stroke" in looks:
         looks.pop("fill", None)
     return any(rule.fullmatch(looks.get(key, "").strip()) for key, rule in _HIDING.items())
-
-
-def _declared(element: ET.Element) -> dict[str, str]:
-    parts = (part.partition(":") for part in element.get("style", "").split(";"))
-    return {key.strip().lower(): value.replace("!important", "").strip()
-            for key, _, value in parts if key.strip()}  # fmt: skip
 
 
 def _targets(element: ET.Element) -> Iterator[str]:
