@@ -6,6 +6,7 @@ import base64
 import io
 import logging
 import resource
+import tracemalloc
 import zlib
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from packwork.errors import ReadError
 from packwork.readers.items import read_items
 from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Layout, sheet
+from packwork.verify.near_trim import ending_near
 from packwork.verify.pdf_fonts import FontWidths
 from packwork.verify.pdf_objects import check_size
 from packwork.verify.preflight import MAX_CONTENT, Check, preflight, preflight_of
@@ -202,7 +204,59 @@ def test_composite_fonts_list_widths_of_characters_and_of_ranges() -> None:
     found = FontWidths.of(font)
     codes = b"".join(code.to_bytes(2) for code in (1, 2, 3, 10, 12, 13))
     assert found.width([String(codes)]) == pytest.approx(0.25 + 0.5 + 0.9 + 0.75 + 0.75 + 0.9)
-    assert len(found.known) < 300_000
+    assert found.count == 4
+
+
+def test_ranges_of_many_fonts_are_no_numbers_apiece() -> None:
+    with pikepdf.open(io.BytesIO(made(b""))) as pdf:
+        fonts = Dictionary()
+        for k in range(20):
+            drawn = Dictionary(W=Array([k, 10**8, 500]))
+            made_font = Dictionary(Subtype=Name.Type0, DescendantFonts=Array([drawn]))
+            fonts[f"/F{k}"] = pdf.make_indirect(made_font)
+        pdf.pages[0].obj.Resources = Dictionary(Font=fonts)
+        shown = " ".join(f"/F{k} 9 Tf <0101> Tj" for k in range(20))
+        pdf.pages[0].contents_add(f"BT 99 99 Td {shown} ET".encode())
+        pdf.save(written := io.BytesIO())
+    tracemalloc.start()
+    assert by_name(preflight_of(written.getvalue(), "a.pdf"))["text"].found == "smallest 9.0 pt"
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 20e6
+
+
+def test_widths_of_a_file_have_one_budget() -> None:
+    simple = Dictionary(Subtype=Name.Type1, FirstChar=1, Widths=Array([250] * 9))
+    many = Dictionary(
+        Subtype=Name.Type0, DescendantFonts=Array([Dictionary(W=Array([*range(99)]))])
+    )
+    assert [FontWidths.of(font, 5).count for font in (simple, many)] == [5, 5]
+
+
+def test_what_goes_on_beyond_the_trim_is_what_covers_all_of_an_end() -> None:
+    random, trim = np.random.default_rng(3), np.array([[0.0, 0.0], [99.0, 99.0]])
+    for _ in range(20):
+        low = random.integers(-2, 8, (60, 2)) * 12.375
+        boxes = np.stack([low, low + random.integers(1, 5, (60, 2)) * 12.375], axis=1)
+        assert ending_near(boxes, trim) == sum(
+            any(stops_at(boxes, box, trim, axis, end) for axis in (0, 1) for end in (0, 1))
+            for box in boxes
+            if (np.minimum(box[1], 99) - np.maximum(box[0], 0) > 0.1).all()
+        )
+
+
+def stops_at(boxes: np.ndarray, box: np.ndarray, trim: np.ndarray, axis: int, end: int) -> bool:
+    """Whether a box ends on one side of the trim, with nothing beyond that adjoins all of it."""
+    sign = 1 if end else -1
+    if box[end, axis] != trim[end, axis]:
+        return False
+    return not any(
+        other[end, axis] * sign > trim[end, axis] * sign + 0.1
+        and other[1 - end, axis] * sign <= trim[end, axis] * sign + 0.1
+        and other[0, 1 - axis] < box[0, 1 - axis] + 0.1
+        and other[1, 1 - axis] > box[1, 1 - axis] - 0.1
+        for other in boxes
+    )
 
 
 @pytest.mark.parametrize("unit", [1.0, 2.5])

@@ -29,7 +29,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.verify.preflight import preflight_of
 from packwork.verify.text import faults_in_file
-from packwork.writers import encoded, write_options
+from packwork.writers import encoded, pdf_unseen_text, write_options
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.svg import SvgOptions
 from printed import pdf_pixels
@@ -220,3 +220,15 @@ def test_a_word_without_extent_is_left_out(placed: MakeLayout) -> None:
     layout = placed(word("office"), word("bear"))
     tiny = Poses(layout.poses.x, layout.poses.y, 0.0, np.array([0.05, 1e-12]))
     assert by_pdfium(pdf_bytes(replace(layout, poses=tiny), LIVE)) == ["office"]
+
+
+def test_words_without_characters_and_those_beyond_all_codes_are_left_out(
+    placed: MakeLayout, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blank = word("blank")
+    assert blank.text is not None
+    runs = tuple(replace(run, text="", steps=()) for run in blank.text.runs)
+    layout = placed(replace(blank, text=replace(blank.text, runs=runs)), word("office"), word("x"))
+    assert by_pdfium(pdf_bytes(layout, LIVE)) == ["office", "x"]
+    monkeypatch.setattr(pdf_unseen_text, "_MOST_CODES", 6)
+    assert by_pdfium(pdf_bytes(placed(word("off"), word("bear"), word("off")), LIVE)) == ["off"] * 2

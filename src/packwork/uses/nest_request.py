@@ -46,11 +46,14 @@ MOST_DIGITS = 9
 WITHIN_LIMIT = 4
 """Angles tried to each side where parts may turn within a limit."""
 
-_TIMES = re.compile(r"(?P<source>.+?)\s*\*\s*(?P<count>[0-9]{1,6})")
+_TIMES = re.compile(r"(?P<source>.+?)\s*\*\s*(?P<count>[0-9]+)")
 _SIZED = re.compile(r"(?P<source>.+?)\s*@\s*(?P<side>[0-9.]+\s*[a-z]*)")
 
 RULES = ("rotate", "mirror", "optional", "priority", "together", "size")
 """Columns of a cut list that say how its parts may lie, and how large they are."""
+
+_COUNT_DIGITS = 6
+"""Digits of a count at most."""
 
 _YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
 
@@ -68,6 +71,9 @@ def length_of(option: str, text: str, sheet: Sheet) -> float:
 def _counted(text: str) -> tuple[str, int | None]:
     """Source and count of ``part.svg*12``; None where no count is given."""
     met = None if exists(text) else _TIMES.fullmatch(text)
+    if met and len(met["count"]) > _COUNT_DIGITS:
+        count = met["count"][:20]
+        raise ReadError(met["source"], f"a count has {_COUNT_DIGITS} digits at most, not {count}")
     return (met["source"], int(met["count"])) if met else (text, None)
 
 
@@ -93,6 +99,9 @@ def read_sheets(text: str) -> list[Sheet]:
     found = list[Sheet]()
     for one in [text] if exists(text) else text.split(","):
         source, count = _counted(one.strip())
+        if not source:
+            raise RecipeError("sheet", f"{text[:40]!r} names an empty one; write it as 600x400mm,"
+                              "hide.svg")  # fmt: skip
         if exists(source) and _is_nest(source):
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
@@ -118,6 +127,9 @@ def read_sheets(text: str) -> list[Sheet]:
             )  # fmt: skip
             continue
         if source == SQUARE:
+            if count is not None and count != 1:
+                raise ReadError(source, "is one sheet, the smallest that holds all; take the count "
+                                "away")  # fmt: skip
             found.append(Sheet(height=math.inf, unit="mm", name=SQUARE))
             continue
         try:

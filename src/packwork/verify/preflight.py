@@ -29,7 +29,7 @@ from packwork.scene.layout import Layout
 from packwork.units import convert
 from packwork.verify.graphics_state import NOWHERE, Graphics, corners, matrix_of, scale_of
 from packwork.verify.near_trim import HAIR_PT, NEAR_MM, SEEN_PT, ending_near
-from packwork.verify.pdf_fonts import FontWidths
+from packwork.verify.pdf_fonts import MOST_WIDTHS, FontWidths
 from packwork.verify.pdf_objects import TOO_MUCH, check_size, listed, space_name
 
 MAX_BYTES = 500_000_000
@@ -152,6 +152,7 @@ class _Content:
         self._clear: Counter[str] = Counter()
         self._painted_boxes: list[FloatArray] = []
         self._fonts: dict[tuple[int, int], FontWidths] = {}
+        self._widths_left = MOST_WIDTHS
         self._inked = np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
         self._left = MAX_CONTENT
         if "/Contents" in page.obj:
@@ -343,7 +344,9 @@ class _Content:
         """Widths of a font, read once; usual ones of what stands in the resources themselves."""
         key = getattr(font, "objgen", (0, 0))
         if key not in self._fonts:
-            self._fonts[key] = FontWidths.of(font) if key[0] else FontWidths()
+            found = FontWidths.of(font, self._widths_left) if key[0] else FontWidths()
+            self._widths_left -= found.count
+            self._fonts[key] = found
         return self._fonts[key]
 
     def _tiled(self, pattern: Any, resources: Any, depth: int) -> None:

@@ -150,9 +150,13 @@ class _TextWriter:
 
     def add(self, to_page: FloatArray, runs: Sequence[TextRun], language: str) -> None:
         """Add a word, a span of the document; ``to_page`` maps its units to points."""
+        if not any(run.text.strip() for run in runs):
+            return
         place, text, ends = straight_run(runs)
         matrix = affine.compose(to_page, place)
         if not text.strip() or abs(float(np.linalg.det(matrix[:, :2]))) < 10.0 ** (-2 * _DIGITS):
+            return
+        if (shown := self._shown(text, ends)) is None:
             return
         mark = len(self._marked)
         element = self._pdf.make_indirect(
@@ -165,7 +169,7 @@ class _TextWriter:
         self._marked.append(element)
         self._document.K.append(element)
         numbers = " ".join(number(float(v), _DIGITS) for v in matrix.T.ravel())
-        shown = f"{numbers} Tm [{self._shown(text, ends)}] TJ"
+        shown = f"{numbers} Tm [{shown}] TJ"
         is_plain = not self._takes_apart(matrix, ends) or any(run.is_leftward for run in runs)
         said = "" if is_plain else f" /ActualText <{_hex(text)}>"
         self._content += [f"/Span <</MCID {mark}{said}>> BDC", f"BT {shown} ET", "EMC"]
@@ -178,17 +182,19 @@ class _TextWriter:
         is_inside = bool(((sides > low) & (sides < high)).all())
         return not is_inside or bool(along.min() > _LEVEL * along.max())
 
-    def _shown(self, text: str, ends: FloatArray) -> str:
-        """Codes of characters, and by how much each is wider than up to the next."""
+    def _shown(self, text: str, ends: FloatArray) -> str | None:
+        """Codes of characters, and by how much each is wider than up to the next.
+
+        None where the font has no room for them: words that would be read wrong are left out.
+        """
         steps = np.clip(np.rint((ends[:, 1] - ends[:, 0]) * _EM / _STEP), 1, _WIDEST).astype(int)
-        codes = [self._code(*one) for one in zip(text, steps.tolist(), strict=True)]
+        wanted = list(zip(text, steps.tolist(), strict=True))
+        if len(self._codes) + len({*wanted} - self._codes.keys()) > _MOST_CODES:
+            return None
+        codes = [self._codes.setdefault(one, len(self._codes) + 1) for one in wanted]
         over = steps[:-1] * _STEP - np.diff(ends[:, 0]) * _EM
         parts = [f"<{code:04X}>{number(v, 0)}" for code, v in zip(codes, over, strict=False)]
         return " ".join([*parts, f"<{codes[-1]:04X}>"])
-
-    def _code(self, character: str, steps: int) -> int:
-        code = min(len(self._codes) + 1, _MOST_CODES)
-        return self._codes.setdefault((character, steps), code)
 
     def finish(self) -> None:
         """Put the words on the page, on top of all."""
