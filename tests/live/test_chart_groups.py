@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import shapely
 
 import packwork as pw
 from packwork.errors import RecipeError
@@ -26,6 +29,17 @@ def chart() -> pw.Layout:
         "circle", ROWS, size_by="cups", label_by="land", by="part",
         effort="draft", levels="50,100", seed=1,
     )  # fmt: skip
+
+
+def lies_at_home(session: Session) -> bool:
+    """Whether marks of each group lie in another part of the container than those of all others."""
+    parts = [part.buffer(1e-6) for part in session.layout.container.outline.region.geoms]
+    poses, names = session.document.poses, list(session.document.chart_groups)
+    for name, rows in session.document.chart_groups.items():
+        room = shapely.union_all(np.array_split(parts, len(names))[names.index(name)])
+        if not shapely.contains_xy(room, poses.x[rows], poses.y[rows]).all():
+            return False
+    return True
 
 
 def spread(session: Session) -> dict[str, float]:
@@ -70,3 +84,79 @@ def test_groups_keep_their_containers(chart: pw.Layout) -> None:
         session.set_container("heart")
     with pytest.raises(RecipeError, match="container"):
         session.do("place_container", x=30)
+
+
+@pytest.mark.parametrize("more", [
+    {"kind": "remove", "items": (5,)},
+    {"kind": "duplicate", "item": 5},
+    {"kind": "duplicate", "item": 4},
+])  # fmt: skip
+@pytest.mark.parametrize("is_together", [True, False], ids=["together", "apart"])
+def test_a_mark_goes_back_though_others_come_or_go(
+    chart: pw.Layout, more: dict[str, object], *, is_together: bool
+) -> None:
+    session = chart.edit()
+    there = session.document.poses
+    move = {"kind": "move", "item": 6, "x": float(there.x[4]), "y": float(there.y[4]) + 60}
+    commands = [{"kind": "together", "commands": [move, more]}] if is_together else [move, more]
+    for command in commands:
+        session.do(**command)
+    session.finish()
+    assert any("taken back, for Vietnam belongs to Asia" in one for one in session.advice)
+    assert lies_at_home(session)
+    home = float(there.x[6]), float(there.y[6])
+    session.do("move", item=6, x=home[0] + 3, y=home[1])
+    session.finish()
+    assert not any("taken back" in one and "belongs" in one for one in session.advice)
+    assert lies_at_home(session)
+
+
+def test_a_copy_that_is_taken_to_another_group_goes_to_its_own(chart: pw.Layout) -> None:
+    session = chart.edit()
+    there = session.document.poses
+    session.do("duplicate", item=6)
+    session.do("move", item=7, x=float(there.x[4]), y=float(there.y[4]) + 60)
+    session.finish()
+    assert any("Vietnam belongs to Asia" in one for one in session.advice)
+    assert lies_at_home(session)
+
+
+def test_copies_for_which_their_group_has_no_room_go_nowhere_else(chart: pw.Layout) -> None:
+    session = chart.edit()
+    there = session.document.poses
+    for _ in range(3):
+        session.do("duplicate", item=0)
+    session.do("move", item=6, x=float(there.x[4]), y=float(there.y[4]) + 60)
+    session.finish()
+    assert session.is_certified
+    assert lies_at_home(session)
+    assert any("taken back, for Finland belongs to Europe" in one for one in session.advice)
+    assert np.array_equal(session.document.poses.x, there.x)
+
+
+def test_groups_keep_all_islands_of_their_containers(tmp_path: Path) -> None:
+    (tmp_path / "two.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
+        '<path d="M5 5H45V95H5ZM55 5H95V95H55Z"/></svg>',
+        encoding="utf-8",
+    )
+    layout = pw.chart(
+        str(tmp_path / "two.svg"), ROWS, size_by="cups", label_by="land", by="part",
+        effort="draft", levels="50", seed=1,
+    )  # fmt: skip
+    assert layout.manifest["groups"] == ["Europe", "America", "Asia"]
+    session = layout.edit()
+    assert lies_at_home(session)
+    for seed in (1, 2):
+        session.apply(poured_again(session.document, seed, lambda _: None))
+        session.finish()
+        assert session.is_certified
+        assert lies_at_home(session)
+    # Either island of its own is a mark's home, though no mark lies there.
+    islands = list(layout.container.outline.region.geoms)[-2:]
+    for island in islands:
+        session.do("move", item=6, x=island.centroid.x, y=island.centroid.y)
+        session.finish()
+        assert not any("belongs" in one for one in session.advice)
+        x, y = (float(value[6]) for value in (session.document.poses.x, session.document.poses.y))
+        assert island.contains(shapely.Point(x, y))

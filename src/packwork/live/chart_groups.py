@@ -24,14 +24,24 @@ if TYPE_CHECKING:
 
 
 def stray(before: Document, now: Document) -> str:
-    """Sentence about the first mark that has come into another group's part; empty if none has."""
-    if not now.chart_groups:
-        return ""
-    was, lies = _parts_of(before), _parts_of(now)
-    for name, rows in now.chart_groups.items():
-        for k in rows[~np.isin(lies[rows], was[rows])][:1]:
-            return f"{now.items[k].name} belongs to {name}"
-    return ""
+    """Sentence about the first mark that is in another group's part; empty if none is."""
+    found = _strays(before, now)
+    return f"{now.items[found[0]].name} belongs to {_group(now, found[0])}" if found else ""
+
+
+def sent_home(before: Document, now: Document) -> Document:
+    """Marks that have come into another group's part where they lay before; itself if none has.
+
+    New ones go to where a mark of their group lay.
+    """
+    poses = now.poses
+    for k in _strays(before, now):
+        rows = before.chart_groups.get(_group(now, k))
+        known = before.index(int(now.ids[k]))
+        if rows is not None:
+            home = before.poses.subset(rows[:1] if known is None else np.array([known]))
+            poses = poses.with_some(np.array([k]), replace(home, scale=poses.scale[[k]]))
+    return now if poses is now.poses else now.with_poses(poses)
 
 
 def poured_by_group(
@@ -61,12 +71,49 @@ def region_of_one(document: Document) -> Region:
 
 def _each(document: Document) -> Iterator[tuple[IntArray, Document]]:
     """Rows of each group, and its marks alone in its part of the container."""
-    parts, lies = polygon_parts(document.container.outline.region), _parts_of(document)
-    for rows in document.chart_groups.values():
+    parts, rooms = polygon_parts(document.container.outline.region), _rooms(document)
+    for name, rows in document.chart_groups.items():
         others = np.setdiff1d(np.arange(len(document)), rows)
-        own = shapely.MultiPolygon([parts[k] for k in np.unique(lies[rows])])
+        own = shapely.MultiPolygon([parts[k] for k in rooms[name]])
         room = replace(document.container, outline=Outline.from_region(own), walls=None)
         yield rows, replace(without(document, others), container=room, notes=())
+
+
+def _rooms(document: Document) -> dict[str, IntArray]:
+    """Numbers of those parts of the container that are each group's, by its name.
+
+    They follow each other as the manifest, which may hold anything, names the groups; of charts
+    whose manifest does not, they are those in which marks lie.
+    """
+    count = len(polygon_parts(document.container.outline.region))
+    said, lies = document.manifest.get("groups"), _parts_of(document)
+    names = said if isinstance(said, list | tuple) and said else ()
+    each = 0 if not names or count % len(names) else count // len(names)
+    there = np.arange(each * len(names)).reshape(len(names), each)
+    stated = {name: there[k] for k, name in enumerate(names) if isinstance(name, str)}
+    groups = document.chart_groups.items()
+    return {
+        name: stated[name] if each and name in stated else np.unique(lies[rows])
+        for name, rows in groups
+    }
+
+
+def _strays(before: Document, now: Document) -> list[int]:
+    """Rows of marks that are in another group's part."""
+    if not now.chart_groups:
+        return []
+    rooms, lies = _rooms(before), _parts_of(now)
+    return [
+        int(k)
+        for name, rows in now.chart_groups.items()
+        if name in rooms
+        for k in rows[~np.isin(lies[rows], rooms[name])]
+    ]
+
+
+def _group(document: Document, k: int) -> str:
+    datum = document.items[k].datum
+    return "" if datum is None else datum.group
 
 
 def _parts_of(document: Document) -> IntArray:

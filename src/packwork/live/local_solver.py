@@ -19,7 +19,7 @@ from packwork.live.neighbourhood.flow import LINGER, Flow
 from packwork.live.neighbourhood.places import brought_inside
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
 from packwork.live.nested_again import separated, ways_apart
-from packwork.live.refilling import is_other_cloud, refilled, taken_back
+from packwork.live.refilling import is_other_cloud, refilled, sent_back, taken_back
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop
 from packwork.scene.pose import Poses
@@ -177,13 +177,14 @@ class LocalSolver:
     def finish(self, stop: Stop) -> Settlement:
         """Finish exactly what was touched, and certify the whole."""
         before = self.document
-        near = self._put_back()
-        wrong = self.violations
+        if home := sent_back(self.base, before):
+            self.take(home.document)
+        near, wrong = self._put_back(), self.violations
         # What is in conflict is touched, whenever that came about.
         self.marks.touched |= beyond(wrong, near)
         if self.marks.touched and not stop():
             self._flow.begin()
-            self.news = ()
+            self.news = (home.message,) if home else ()
             self._finish_touched(near, len(wrong), stop)
         if self.document.options.force and self.document is not self.base and not stop():
             loose = self._rows(self.marks.touched)
@@ -192,9 +193,9 @@ class LocalSolver:
         if back := None if is_over else taken_back(self.base, self.document, is_wrong=is_wrong):
             self.news = (back.message,)
             self._turn_to(back.document)
-        moved = differing(before.poses, self.document.poses)
+        moved = self.document.rows_moved_from(before)
         self.marks.unpolished |= set(self.document.ids[moved].tolist())
-        return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
+        return Settlement(self.is_certified, self.in_the_way, len(moved))
 
     def settled(self) -> None:
         """Note that all that was touched is finished; items of a mosaic take its colours there."""

@@ -9,7 +9,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.certificate import Certificate, promise_of
-from packwork.live.chart_groups import stray
+from packwork.live.chart_groups import sent_home, stray
 from packwork.live.commands.command import Library
 from packwork.live.document import Document
 from packwork.live.macros import word_rows
@@ -39,9 +39,13 @@ MOST_NEW = 0.5
 several runs, and leaves all of them small. Chosen."""
 
 
+OF_ITEMS = ("items", "ids", "poses", "weights", "smallest", "largest", "held")
+"""Names of what a document has for each item."""
+
+
 @dataclass(frozen=True)
 class Refilled:
-    """A cloud that was poured anew."""
+    """What was poured anew or taken back."""
 
     document: Document
     message: str
@@ -105,20 +109,34 @@ def refilled(
     return Refilled(kept, message)
 
 
+def sent_back(before: Document, asked: Document) -> Refilled | None:
+    """Marks of a chart in other groups' parts put back, where items came or went; else None.
+
+    Where none did, all of them are taken back once they are settled.
+    """
+    if not _has_others(before, asked) or (home := sent_home(before, asked)) is asked:
+        return None
+    return Refilled(home, f"taken back, for {stray(before, asked)}")
+
+
 def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled | None:
     """Layout without a gesture for which all items would become much smaller; None if none would.
 
     Marks of a chart do not become smaller at all, for their keys say how large they are. Where
-    items that keep their sizes find no room (``is_wrong``), that is taken back too.
+    items that keep their sizes find no room (``is_wrong``), that is taken back too. Where a mark
+    is left in another group's part although items came or went, these do not either.
     """
     has_no_room = is_wrong and now.kind.keeps_all
     is_shared = now.options.sizes == "shared"
     if not (is_shared or has_no_room) or before.container is not now.container:
         return None
-    # Other letters do not lie where those before did.
-    if _has_other_outlines(before, now) or not np.array_equal(before.ids, now.ids):
-        return None
-    share, elsewhere = [100 * covered(one) for one in (before, now)], stray(before, now)
+    elsewhere = stray(before, now)
+    if _has_others(before, now):
+        # Other letters do not lie where those before did.
+        columns = {name: getattr(before, name) for name in OF_ITEMS}
+        message = f"taken back, for {elsewhere}"
+        return Refilled(replace(now, **columns), message) if elsewhere else None
+    share = [100 * covered(one) for one in (before, now)]
     least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
     if share[1] >= share[0] * least and not (has_no_room or elsewhere):
         return None
@@ -152,6 +170,11 @@ def _advice_on_shape(document: Document) -> tuple[str, ...]:
 def covered(document: Document) -> float:
     """Share of the container that items cover."""
     return float(document.areas.sum()) / document.container.outline.area
+
+
+def _has_others(before: Document, now: Document) -> bool:
+    """Whether items came, went or changed their outlines."""
+    return not np.array_equal(before.ids, now.ids) or _has_other_outlines(before, now)
 
 
 def _has_other_outlines(before: Document, now: Document) -> bool:

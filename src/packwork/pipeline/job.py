@@ -65,6 +65,11 @@ class Use(ABC):
         """Those of the items that are read as words."""
         return ()
 
+    @property
+    def stated(self) -> Mapping[str, Any]:
+        """What the manifest says besides, plain values."""
+        return {}
+
     def subset(self, kept: IntArray) -> Use:
         """The same of some of the items, by their indices ``(m,)``."""
         del kept

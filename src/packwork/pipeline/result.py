@@ -221,4 +221,4 @@ def manifest(state: RunState) -> dict[str, Any]:
         said["pile"] = dict(state.pile)
     if layout.ground:
         said["ground"] = layout.ground
-    return said
+    return {**said, **job.use.inner.stated}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import final
+from typing import Any, final
 
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
@@ -80,6 +80,11 @@ class ChartUse(Use):
         """
         shows_shape = not self.chart.cells
         return [*reporting(job, is_dressed=True, shows_shape=shows_shape), Annotate()]
+
+    @property
+    def stated(self) -> Mapping[str, Any]:
+        """Groups by their names, in the order in which the container has the rooms of each."""
+        return {"groups": [cell.name for cell in self.chart.cells]} if self.chart.cells else {}
 
     def subset(self, kept: IntArray) -> ChartUse:
         """The same of some of the marks."""
