@@ -76,8 +76,17 @@ def test_few_words_are_set_in_turn_until_the_limb_is_full() -> None:
     said = [one for one in done.remarks if "set again" in one]
     assert said == [
         f"{len(layout.items) - 6} words are set again, until the line is full; "
-        f"{len(layout.items)} would fill it once, and --repeat auto what lies beside it"
+        f"{len(layout.items)} different ones would fill it, and --repeat auto what lies beside it"
     ]
+
+
+def test_words_that_would_fill_a_line_are_counted_without_the_cloud_beside_it() -> None:
+    words = {"solo": 9.0, "chord": 7.0, "fret": 6.0, "bass": 5.0, "tone": 4.0}
+    done = run(read(words_recipe("seahorse", words, along="limbs", effort="draft")))
+    upright = (np.abs(done.layout.poses.angle) < 1e-9).sum()
+    assert upright > 1
+    said = next(one for one in done.remarks if "set again" in one)
+    assert f"; {len(done.layout.items) - upright} different ones would fill it" in said
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])

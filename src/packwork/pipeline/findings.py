@@ -97,7 +97,7 @@ class Sentence(Enum):
     )
     SET_AGAIN = (
         Told.REMARK,
-        "{many} set again, until the line is full; {count} would fill it once{elsewhere}",
+        "{many} set again, until the line is full; {count} different ones would fill it{elsewhere}",
     )
     THIN = Told.PART, "the container is thin"
     LEFT_BARE = Told.PART, "in proportion they would leave it bare"

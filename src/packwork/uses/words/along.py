@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, final
+from typing import final
 
 import numpy as np
 from shapely.geometry import Polygon
@@ -33,9 +33,6 @@ from packwork.uses.words.copies import words_of
 from packwork.uses.words.graded import LEGIBLE, can_give_way, unheeded
 from packwork.uses.words.line_of_words import SLACK, LineOfWords
 from packwork.uses.words.sizes import Letters, without
-
-if TYPE_CHECKING:
-    pass
 
 WIDE = 0.05
 """Share of a container that is a cloud of its own where it is no limb. Smaller puts words into
@@ -255,7 +252,10 @@ def _subset(read: WordsRead, rows: Sequence[int], items: Sequence[Item]) -> Word
 def _joined(
     inner: RunState, job: Job, rows: Sequence[int], items: Sequence[Item], poses: Sequence[Poses]
 ) -> RunState:
-    """State of words in place, each with what was asked of its word; ``inner`` is of a cloud."""
+    """State of words in place, each with what was asked of its word; ``inner`` is of a cloud.
+
+    The last of ``poses`` are those on lines.
+    """
     use = words_of(job)
     kept = set(rows)
     gone = [item for k, item in enumerate(use.read.items) if k not in kept]
@@ -278,4 +278,5 @@ def _joined(
         return found
     many = number_of(len(rows) - len(kept), "word is", "words are")
     elsewhere = "" if use.options.repeat == "auto" else ", and --repeat auto what lies beside it"
-    return found.with_finding(Sentence.SET_AGAIN, many=many, count=len(rows), elsewhere=elsewhere)
+    once = len(poses[-1])
+    return found.with_finding(Sentence.SET_AGAIN, many=many, count=once, elsewhere=elsewhere)
