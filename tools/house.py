@@ -61,9 +61,9 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 67_900,
-    "lines of docstrings": 18_700,
-    "files": 587,
+    "lines of code": 68_400,
+    "lines of docstrings": 18_900,
+    "files": 594,
     "functions of the road in one plain fill": 86,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,

@@ -13,6 +13,7 @@ from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.plan.limits import check_padding
+from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.uses import fill, words_recipe
@@ -82,3 +83,19 @@ def test_wide_paddings_work_on_coarse_outlines() -> None:
     run = fill(words_recipe("circle", WORDS, padding="10%", effort="draft", count=9))
     assert run.certified
     assert run.metrics.exact.min_gap >= 60
+
+
+def test_neighbours_of_one_colour_that_touch_are_told(tmp_path: Path) -> None:
+    for name, path in (("bar", "M0 0H9V3H0Z"), ("block", "M0 0H5V5H0Z")):
+        svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="{path}"/></svg>'
+        (tmp_path / f"{name}.svg").write_text(svg, encoding="utf-8")
+
+    def told(**more: object) -> bool:
+        recipe = make_recipe(
+            container="circle", items=[str(tmp_path)], count=12, effort="draft", levels="50", **more
+        )
+        return any("one colour and touch" in one for one in fill(recipe).advice)
+
+    assert told()
+    assert not told(padding="1%")
+    assert not told(palette="okabe-ito")

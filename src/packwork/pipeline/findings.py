@@ -79,6 +79,10 @@ class Sentence(Enum):
         Told.ADVICE,
         "the picture shows to {percent:.0f} % only; {remedy} would show it",
     )
+    RUN_TOGETHER = (
+        Told.ADVICE,
+        "neighbours have one colour and touch; --padding 0.5% or --palette would tell them apart",
+    )
     FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
     COUNT = Told.REMARK, "auto chose {many}"

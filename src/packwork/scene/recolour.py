@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -70,6 +71,27 @@ def has_one_colour(art: Art) -> bool:
         return len(set(_channels(root, _FIRST, named))) == 1
     except ValueError:  # a paint that is no colour
         return False
+
+
+ALIKE = 0.9
+"""Share of the items in one colour from which a layout counts as of one colour. Chosen."""
+
+
+def are_of_one_colour(items: Sequence[Item]) -> bool:
+    """Whether different drawings have nearly all one colour: neighbours that touch run together.
+
+    Examples
+    --------
+    >>> from packwork.readers.builtin import builtin_item
+    >>> are_of_one_colour([builtin_item("star"), builtin_item("star")])
+    False
+    """
+    arts = Counter(item.art for item in items)
+    colours = Counter[tuple[int, int, int, int]]()
+    for art, count in arts.items():
+        if (colour := one_colour(art)) is not None:
+            colours[colour] += count
+    return len(arts) > 1 and max(colours.values(), default=0) >= ALIKE * len(items)
 
 
 def one_colour(art: Art) -> tuple[int, int, int, int] | None:

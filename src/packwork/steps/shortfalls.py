@@ -22,6 +22,7 @@ from packwork.pipeline.plan.plan import VoidPlan
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.scene.layout import Layout
+from packwork.scene.recolour import are_of_one_colour
 
 _LOG = logging.getLogger("packwork")
 
@@ -129,12 +130,14 @@ def specks(layout: Layout) -> tuple[Finding, ...]:
 
 @final
 class Advise(RunStep):
-    """Advice on a layout that does not show the container's shape."""
+    """Advice on a layout that does not show the container's shape, or whose items run together."""
 
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the advice."""
         layout, metrics = state.measured
         seen = metrics.seen
+        if state.job.plan.gap == 0.0 and are_of_one_colour(layout.items):
+            state = state.with_finding(Sentence.RUN_TOGETHER)
         if seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE:
             return state
         found = advice(state.job, len(layout.items), seen)

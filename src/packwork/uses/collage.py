@@ -151,10 +151,10 @@ def reporting(
         steps.append(TellCoarse())
     if job.plan.keeps_apart:
         steps.append(CountBeside())
-    if shows_shape:
-        steps.append(Advise())
     if is_dressed or job.plan.palette or any(one.values for one in job.asked):
         steps.append(Dress())
+    if shows_shape:
+        steps.append(Advise())
     if job.target is not None:
         steps.append(ShowPicture(job.target, judge))
     if job.container.backdrop is not None:
