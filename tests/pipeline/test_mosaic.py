@@ -19,6 +19,7 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.target import read_target
 from packwork.recipe import make_recipe
 from packwork.scene import swatch
+from packwork.scene.colour import css_colour
 from packwork.scene.contrast import channels_of
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.swatch import mean_lights
@@ -81,6 +82,17 @@ def test_items_take_on_the_colours_of_the_picture(halves: str) -> None:
     left, right = _sides(layout)
     assert left.min() > 0 > right.max()
     assert layout.ground
+
+
+@pytest.mark.parametrize("light", [0.02, 0.5, 0.9])
+def test_seams_of_tiles_are_like_the_picture(light: float) -> None:
+    light_of_all = np.full((40, 40, 3), light)
+    light_of_all[:10] = 0.3
+    target = TargetPicture(light_of_all, 1.0)
+    seams = css_colour(best_ground(target, 0.9998))[0] / 255
+    assert abs(seams - float(channels_of(np.array([light]))[0])) < 0.05
+    # Where there are gaps, items stand out from them.
+    assert abs(css_colour(best_ground(target, 0.8))[0] / 255 - seams) > 0.1
 
 
 def test_icons_lie_as_they_do_without_a_picture(halves: str) -> None:

@@ -49,6 +49,11 @@ NEAR, HIDDEN = 0.1, 0.12
 the picture that is taken so that no item be hidden. Larger ones show items and the container
 better, the picture worse. Chosen by eye."""
 
+SEAMS = 0.1
+"""Share of gaps below which items are seen less and less by them: of tiles side by side they are
+seams, and are to be like the picture. Larger lets photographs with narrow gaps lie on a pale
+ground, smaller shows seams. Chosen by eye."""
+
 READ = 1.6
 """Least contrast of a word with the ground, as WCAG counts it. Larger lets dark parts of a picture
 fade, smaller hides words. Chosen by eye."""
@@ -101,19 +106,23 @@ def best_ground(target: TargetPicture, covered: float) -> str:
     >>> dark = np.zeros((20, 20, 3)); dark[:10, :10] = 0.05
     >>> best_ground(TargetPicture(dark, 1.0), 0.8)
     '#000000'
+    >>> best_ground(TargetPicture(np.full((20, 20, 3), 0.2), 1.0), 0.9998)
+    '#7c7c7c'
     """
     seen = blurred(target.light, 1.0, 1_000)[::SPARSE, ::SPARSE].reshape(-1, 3)
     greys = np.repeat(np.linspace(0, 1, GREYS)[:, None], 3, axis=1)
     own = np.quantile(channels_of(seen), np.linspace(0, 1, SHADES), axis=0)
     grounds = np.vstack([greys, own, channels_of(seen.mean(axis=0))[None]])
     labs = oklabs_of_light(seen)
+    hidden = HIDDEN * min((1 - covered) / SEAMS, 1.0)
 
     def missed(ground: FloatArray) -> float:
         floor = (1 - covered) * light_of(ground)
         shown = np.clip(seen, floor, floor + covered)
         away = np.linalg.norm(oklabs_of_light(shown) - labs, axis=1)
-        near = np.linalg.norm(labs - oklabs_of_light(light_of(ground)[None]), axis=1) / NEAR
-        return float((away + HIDDEN * np.exp2(-(near**2))).mean())
+        off = np.linalg.norm(labs - oklabs_of_light(light_of(ground)[None]), axis=1)
+        lost = hidden * np.exp2(-((off / NEAR) ** 2)) + (HIDDEN - hidden) * off
+        return float((away + lost).mean())
 
     return _hex(light_of(min(grounds, key=missed)))
 
