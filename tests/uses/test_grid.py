@@ -160,6 +160,28 @@ def test_a_picture_finer_than_the_tiles_is_told(album: Path, tmp_path: Path, str
     assert not any("hard to recognise" in one for one in enough)
 
 
+def test_photos_that_lack_the_colours_of_a_picture_are_no_want_of_tiles(
+    album: Path, tmp_path: Path
+) -> None:
+    """One photograph shows nothing, in tiles as small as they may be."""
+    stripes = np.repeat([0, 255] * 5, 32).astype(np.uint8)
+    Image.fromarray(np.tile(stripes, (320, 1))).save(tmp_path / "stripes.png")
+    few, many = (
+        " ".join(
+            fill(
+                make_recipe(
+                    container="square", photos={"sources": [str(album / "p00.png")]}, grid=True,
+                    picture=str(tmp_path / "stripes.png"), count=side**2,
+                )
+            ).advice
+        )
+        for side in (9, 10)
+    )  # fmt: skip
+    assert "with --tint 50% or more photographs, of its colours, would do" in few
+    assert "--tint 50% or more photographs, of its colours, would show it" in many
+    assert "-n" not in many
+
+
 def test_fewer_tiles_than_asked_are_told(album: Path, ramp: np.ndarray, tmp_path: Path) -> None:
     Image.fromarray((255 * ramp).astype(np.uint8)).save(tmp_path / "ramp.png")
     asked, met = (

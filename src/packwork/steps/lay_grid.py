@@ -26,7 +26,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import patch_of
 from packwork.scene.target import TargetPicture, blurred
-from packwork.steps.mosaic import too_fine, unrecognised
+from packwork.steps.mosaic import MORE_PHOTOS, too_fine, unrecognised
 
 TILES = 1_500
 """Tiles where no number is asked for: at so many a face is recognised. Measured: decision 0053."""
@@ -180,8 +180,13 @@ class LayGrid(RunStep):
 
 def hardly_shown(job: Job, target: TargetPicture, layout: Layout) -> Finding | None:
     """Finding of a picture that is finer than the tiles, or that these photos do not show."""
-    found = too_fine(target, layout.container, len(layout.items), "tile")
-    return found or unrecognised(job, target, layout)
+    fine = too_fine(target, layout.container, len(layout.items), "tile")
+    hidden = unrecognised(job, target, layout)
+    if fine is None or hidden is None or job.tints.mean() >= 0.5:
+        return fine or hidden
+    # Smaller tiles alone would not do: of these photographs they do not show it either.
+    remedy = f"{fine.values['remedy']} with {MORE_PHOTOS}"
+    return replace(fine, values={**fine.values, "remedy": remedy})
 
 
 def _features(colours: FloatArray) -> FloatArray:

@@ -231,6 +231,9 @@ COUNTS = (100, 200, 300, 500, 700, 1_000, 1_500, 2_000, 3_000, 5_000, 7_000, 10_
 HALF = "50%"
 """Tint that shows a picture by photographs of any colours. By eye."""
 
+MORE_PHOTOS = f"--tint {HALF} or more photographs, of its colours,"
+"""What shows a picture where photographs lack its colours."""
+
 
 Judge: TypeAlias = Callable[[Job, TargetPicture, Layout], Finding | None]
 """What tells that a layout does not show a picture."""
@@ -241,13 +244,29 @@ def unrecognised(job: Job, target: TargetPicture, layout: Layout) -> Finding | N
     found = correlation_with(layout, target) if layout.items else LEAST
     if found >= LEAST:
         return None
-    needed = len(layout.items) * ((1 - found) / (1 - LEAST)) ** 2
+    are_photos = any(isinstance(one.art, PhotoArt) for one in layout.items)
+    remedy = None
+    if job.tints.mean() < 0.5 and are_photos:
+        # Of tiles that blend no number shows what no photograph has.
+        remedy = MORE_PHOTOS if _would_show(target, layout) else None
+    remedy = remedy or _more_items(job, found, len(layout.items))
+    percent = max(100 * found, 0)
+    return Finding(Sentence.PICTURE_HIDDEN, {"percent": percent, "remedy": remedy})
+
+
+def _would_show(target: TargetPicture, layout: Layout) -> bool:
+    """Whether as many items would show a picture, had they its colours."""
+    side = float(np.sqrt(layout.container.outline.area / len(layout.items)))
+    thumbs = _thumb(_in_squares(target, side)), _thumb(target.light)
+    return _correlation(*thumbs, _inside(layout, target)) >= LEAST
+
+
+def _more_items(job: Job, found: float, count: int) -> str:
+    needed = count * ((1 - found) / (1 - LEAST)) ** 2
     more = [f"-n {count:,}".replace(",", "") for count in COUNTS if count >= needed][:1]
     if job.tints.mean() < 0.5:
         more.append(f"--tint {HALF}")
-    remedy = " or ".join(more) or "a plainer picture"
-    percent = max(100 * found, 0)
-    return Finding(Sentence.PICTURE_HIDDEN, {"percent": percent, "remedy": remedy})
+    return " or ".join(more) or "a plainer picture"
 
 
 def too_fine(target: TargetPicture, container: Container, count: int, what: str) -> Finding | None:
@@ -281,6 +300,16 @@ def structure_in_squares(target: TargetPicture, side: float) -> float:
     >>> structure_in_squares(lines, 1.0), round(structure_in_squares(lines, 2.0))
     (1.0, 0)
     """
+    return structural_similarity(
+        *(
+            np.ascontiguousarray(_thumb(one)[..., 0])
+            for one in (target.light, _in_squares(target, side))
+        )
+    )
+
+
+def _in_squares(target: TargetPicture, side: float) -> FloatArray:
+    """Light of a picture in squares of its mean colours; ``side``: in canvas units."""
     squares = target.light
     for axis in (0, 1):
         cell = (np.arange(squares.shape[axis]) / (side * target.px_per_cu)).astype(np.int64)
@@ -288,9 +317,7 @@ def structure_in_squares(target: TargetPicture, side: float) -> float:
         sums = np.add.reduceat(squares, firsts, axis)
         sizes = np.diff(firsts, append=len(cell))
         squares = np.repeat(sums / np.expand_dims(sizes, (1 - axis, 2)), sizes, axis)
-    return structural_similarity(
-        *(np.ascontiguousarray(_thumb(one)[..., 0]) for one in (target.light, squares))
-    )
+    return squares
 
 
 def _seen(layout: Layout, target: TargetPicture) -> FloatArray:
