@@ -146,6 +146,8 @@ def test_a_layer_that_lost_a_part_is_told(shop: Path, packwork: Command) -> None
     said = " ".join(packwork("measure a.svg").output.split())
     assert "engraved lines of 1 part that is not there are left out" in said
     assert "not certified" in said
+    said = " ".join(packwork("nest a.svg badge.svg --passes 2 -o b.packwork").output.split())
+    assert "a.svg: engraved lines of 1 part that is not there are left out" in said
 
 
 ENGRAVED = '<g id="engrave-1" data-lines="engrave"'

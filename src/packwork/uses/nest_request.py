@@ -13,6 +13,7 @@ from typing import Literal, TypeAlias, get_args
 import numpy as np
 
 from packwork.errors import ReadError, RecipeError
+from packwork.metrics.certificate import changed_since
 from packwork.phrasing import enumerated
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
@@ -106,6 +107,8 @@ def read_sheets(text: str) -> list[Sheet]:
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
             layout = read_written(source)
+            for sentence in changed_since(layout.manifest):
+                _LOG.warning("%s: %s", source, sentence)
             if Path(source).suffix.lower() not in {".dxf", SESSION} and any(
                 map(_has_lines_to_lose, layout.items)
             ):
