@@ -218,6 +218,17 @@ def test_what_is_not_followed_beside_the_lines_to_cut_is_told(
     assert "not certified" in packwork("measure b.svg").output
 
 
+def test_artwork_that_leaves_its_part_is_told(shop: Path, packwork: Command) -> None:
+    assert packwork("nest 120x110mm badge.svg --passes 2 -o a.svg").exit_code == 0
+    assert changed_by(shop)[0] == []
+    told, _ = changed_by(shop, ('<rect width="40"', '<rect width="60"'))
+    assert told == ["artwork of 1 part that it leaves is left out"]
+    picture = '<image width="900" height="9" href="data:image/png;base64,"/><rect'
+    assert changed_by(shop, ("<rect", picture))[0] == []
+    said = " ".join(packwork("measure b.svg").output.split())
+    assert "what pictures, filters and masks paint on 1 part is not measured" in said
+
+
 def test_layers_of_nests_are_strange_in_other_files(folder: Path, packwork: Command) -> None:
     assert packwork("fill square circle -n 3 --effort draft -o a.svg").exit_code == 0
     text = (folder / "a.svg").read_text(encoding="utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import final
@@ -17,10 +18,11 @@ from packwork.geometry.arcs import ArcLine, with_longest_arcs
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region
 from packwork.geometry.polygon import silhouette
+from packwork.phrasing import number_of
 from packwork.readers.dxf.item import line_art
 from packwork.readers.layouts.arts import Arts, place_and_art
 from packwork.readers.layouts.assembly import sound_outline
-from packwork.readers.layouts.marks import Beside, Room, inverse, left_out
+from packwork.readers.layouts.marks import Beside, Room, inverse, left_out, paint_of
 from packwork.readers.line_drawings import CURVES_PX, arc_line
 from packwork.readers.svg_syntax.coordinates import checked
 from packwork.readers.svg_syntax.path_data import parse_path
@@ -43,9 +45,9 @@ class LineParts:
     def __init__(self, root: ET.Element, px_cu: float) -> None:
         """``px_cu``: length of a px in the units of the file."""
         self._px_cu = px_cu
-        self._items: dict[tuple[object, ...], tuple[Item, int]] = {}
+        self._items: dict[tuple[object, ...], tuple[Item, Counter[str]]] = {}
         self._beside = Beside(root, px_cu)
-        self._left_out = 0
+        self._met = Counter[str]()
 
     @property
     def artwork(self) -> list[ET.Element]:
@@ -54,7 +56,19 @@ class LineParts:
 
     def changes(self, ids: Sequence[str]) -> list[str]:
         """Sentences about what goes with no part, or leaves its own; ``ids`` are of all parts."""
-        return [*self._beside.changes(ids), *left_out(self._left_out)]
+        beyond = number_of(self._met["beyond"], "part that it leaves", "parts that it leaves")
+        return [
+            *self._beside.changes(ids),
+            *left_out(self._met["lines"]),
+            *([f"artwork of {beyond} is left out"] if self._met["beyond"] else []),
+        ]
+
+    @property
+    def on_trust(self) -> list[str]:
+        """That pictures on parts are not measured, if there are any."""
+        many = number_of(self._met["pictures"], "part")
+        told = f"what pictures, filters and masks paint on {many} is not measured"
+        return [told] if self._met["pictures"] else []
 
     def item(
         self, drawn: ET.Element, source: ET.Element, label: Label, ink: Region, arts: Arts,
@@ -79,12 +93,13 @@ class LineParts:
             scale = abs(float(np.linalg.det(affine.compose(place, own)[:, :2]))) ** 0.5
             pixel = self._px_cu / scale
             cut = tuple(arc_lines_of(path, CURVES_PX * pixel))
-            room = Room(whole.region, whole.extent) if marks else None
-            engraved, lost = list[EngravedLine](), 0
+            is_bare = not marks and artwork is None
+            room = None if is_bare else Room(whole.region, whole.extent)
+            engraved, met = list[EngravedLine](), Counter[str]()
             for one, map_ in zip(marks, moved, strict=True):
                 for made in arc_lines_of(one.data, CURVES_PX * pixel):
                     if room is None or not room.holds(made, map_):
-                        lost += 1
+                        met["lines"] += 1
                         continue
                     line = EngravedLine(
                         made.points, made.bulges, made.is_closed, one.colour, one.layer
@@ -94,23 +109,26 @@ class LineParts:
             # Curves go into another SVG as they are.
             kept = path if "C" in path.upper() and _KEPT.fullmatch(path) else ""
             art = replace(made_art, matrix=own, path=kept)
-            if artwork is not None:
-                art = _painted(art, artwork, arts, affine.compose(back, art_place), pixel)
-            self._items[key] = Item(name, name, outline, seen, art, label), lost
-        item, lost = self._items[key]
-        self._left_out += lost
+            if artwork is not None and room is not None:
+                markup, matrix = arts.fragment(artwork).markup, affine.compose(back, art_place)
+                paint = paint_of(artwork, markup)
+                if paint is None or room.holds_paint(paint, matrix):
+                    met["pictures"] += paint is None
+                    art = _painted(art, markup, matrix, pixel)
+                else:
+                    met["beyond"] += 1
+            self._items[key] = Item(name, name, outline, seen, art, label), met
+        item, met = self._items[key]
+        self._met += met
         return item
 
 
-def _painted(
-    art: LineArt, artwork: ET.Element, arts: Arts, matrix: FloatArray, pixel: float
-) -> LineArt:
+def _painted(art: LineArt, markup: str, matrix: FloatArray, pixel: float) -> LineArt:
     """The same lines on what is painted; ``matrix`` maps that to the lines' units."""
     to_markup = inverse(matrix)
     fine = CURVES_PX * pixel * abs(float(np.linalg.det(to_markup[:, :2]))) ** 0.5
     cut = tuple(line.mapped(to_markup, fine) for line in art.cut)
     engraved = tuple(line.mapped(to_markup, fine) for line in art.engraved)
-    markup = arts.fragment(artwork).markup
     place = affine.compose(art.matrix, matrix)
     is_same = np.allclose(matrix, affine.identity(), rtol=0, atol=1e-9)
     path = art.path if is_same else ""

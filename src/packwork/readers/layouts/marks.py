@@ -22,6 +22,7 @@ from packwork.geometry.arcs import ArcLine
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.phrasing import number_of
+from packwork.readers.cache import followed_once
 from packwork.readers.layouts.foreign_svg import (
     PAINTED,
     declared,
@@ -30,6 +31,9 @@ from packwork.readers.layouts.foreign_svg import (
     tag,
 )
 from packwork.readers.reading import UnfitError
+from packwork.readers.regions import clean_union
+from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.svg.ink import PaintedInk
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE, parse_length, parse_transform
 from packwork.scene.line_art import ENGRAVED_COLOUR
 from packwork.units import convert
@@ -41,6 +45,11 @@ session's file. Chosen: above rounding, below what is seen."""
 WIDEST_MM = 1.0
 """Width of a stroke from which it is no line. Chosen: that of drawings that are read."""
 
+PAINT_OFF = 1e-3
+"""How far artwork may be painted beyond its part's outline, as a share of its extent. Chosen: it is
+followed anew, and nothing is cut there."""
+
+_SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 _FLAT = 1e-200
 _LOOKS = ("stroke", "stroke-width", "fill")
 _PLAIN: Mapping[str, str] = {"stroke": "", "stroke-width": "1", "fill": "black"}
@@ -186,6 +195,40 @@ class Room:
         flat = line.mapped(matrix, tolerance).flattened(tolerance)
         whole = LineString(np.vstack([flat, flat[:1]]) if line.is_closed else flat)
         return bool(self._region.covers(whole))
+
+    def holds_paint(self, paint: Region, matrix: FloatArray) -> bool:
+        """Whether what is painted lies in it and no more than ``PAINT_OFF`` beyond it."""
+        if not (np.abs(matrix) <= MAX_COORDINATE).all():
+            return False
+        region = shapely.transform(paint, lambda points: affine.apply(matrix, points))
+        return bool(buffered(self._region, PAINT_OFF * self._extent).covers(region))
+
+
+def paint_of(artwork: ET.Element, markup: str) -> Region | None:
+    """Region that artwork paints, in its own units; None where that cannot be told from its paths.
+
+    ``markup`` is what of the element is kept.
+
+    Examples
+    --------
+    >>> paint_of(ET.Element("g"), '<rect width="2" height="3"/>').area
+    6.0
+    >>> paint_of(ET.fromstring("<g><image/></g>"), '<rect width="2" height="3"/>') is None
+    True
+    """
+    if any(tag(one) == "image" for one in artwork.iter()):
+        return None
+    try:
+        return followed_once(f"<svg {_SPACES}>{markup}</svg>".encode(), PAINT_OFF, _painted)
+    except UnfitError:
+        return None
+
+
+def _painted(data: bytes) -> Region:
+    ink = read_drawing(data).ink
+    if not isinstance(ink, PaintedInk):
+        raise UnfitError("has paint that paths do not tell")
+    return clean_union(ink.body)
 
 
 def left_out(count: int) -> list[str]:

@@ -145,7 +145,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         gap=None if gap is None else sound_gap(gap),
         areas_in_shares=said.get("data-in-shares") == "true",
         items=found,
-        on_trust=(*drawings.on_trust, *unseen),
+        on_trust=(*drawings.on_trust, *unseen, *([] if parts is None else parts.on_trust)),
         walls=None if walls is None else _walls(walls, walled),
         tile=tile_of(root),
         backdrop=None if outlines_only else backdrop_of(root, arts, to_canvas),

@@ -281,6 +281,9 @@ def _of_items(
     for outer in () if group is None else group:
         if outer not in drawn and tag(outer) == "a":
             yield from _odd(outer, _OF_LINKS, "a link")
+    for layer in layers_beside(root):
+        for one in layer if layer.get("data-lines") == "artwork" else ():
+            yield from ((what, "artwork of a part") for what in _of_drawing(one, first))
     seen: set[ET.Element] = set()
     for number, (one, source) in enumerate(zip(drawn, sources, strict=True), start=1):
         name = one.get("data-name", "")
