@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.copies import Cast, expand_copies, turns
+from packwork.pipeline.plan.copies import Cast, RuleSource, expand_copies, matching, turns
 from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from scenes import disc, flat_item
@@ -105,6 +105,17 @@ def test_a_hero_stands_alone_where_others_can_stand_in() -> None:
     assert names(made(hero="owl", count=9)).count("owl") == 1
     assert names(made({"items": "owl", "count": 3}, hero="owl", count=9)).count("owl") == 3
     assert names(made(items=ITEMS[:1], hero="bear", count=9)) == ["bear"] * 9
+
+
+@pytest.mark.parametrize("hero", ["x/owl.svg", "/my art@home/owl.svg", "owl.svg"])
+def test_a_hero_may_be_called_by_its_path(hero: str) -> None:
+    assert names(made(hero=f"{hero}@50%,50%=35%", count=9)).count("owl") == 1
+
+
+def test_of_many_names_the_nearest_are_told() -> None:
+    known = [f"icon-{k}" for k in range(40)] + ["crow-black"]
+    with pytest.raises(RecipeError, match="'rook'; there are 41, the nearest crow-black, icon"):
+        matching(["rook"], RuleSource("hero"), known)
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,9 @@ UPRIGHT = 30.0
 """Degrees from upright within which things with an up still look upright. Larger fills a little
 more, smaller costs coverage. By eye: docs/decisions/0025-upright.md."""
 
-_HERO = re.compile(r"(?P<name>[^@=]+)(?:@(?P<x>[^,@=]+),(?P<y>[^,@=]+))?(?:=(?P<size>[^@=]+))?")
+_HERO = re.compile(
+    r"(?P<name>[^@=]+|.*[/\\\\][^@=]+)(?:@(?P<x>[^,@=]+),(?P<y>[^,@=]+))?(?:=(?P<size>[^@=]+))?"
+)
 
 
 def checked_length(value: object) -> object:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import os
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.phrasing import number_of
+from packwork.phrasing import MOST_NAMED, number_of
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.recipe import Recipe
@@ -118,24 +119,55 @@ def rules_by_source(recipe: Recipe) -> list[tuple[RuleSource, Rule]]:
     return said if recipe.hero is None else [*said, (RuleSource("hero"), hero_rule(recipe.hero))]
 
 
-def matching(patterns: Sequence[str], source: RuleSource, names: Sequence[str]) -> list[int]:
-    """Indices of the names that match one of the patterns.
+MOST_LISTED = 12
+"""Names up to which all are listed where one is not known; of more, the nearest. Chosen."""
+
+
+def matching(
+    patterns: Sequence[str],
+    source: RuleSource,
+    names: Sequence[str],
+    paths: Sequence[str] = (),
+) -> list[int]:
+    """Indices of the names that match one of the patterns; a pattern may be a path, too.
+
+    ``paths``: of the items, as they were given. One that none of them has counts by its stem.
 
     Examples
     --------
     >>> matching(["b*"], RuleSource("force"), ["bear", "fox", "bee"])
     [0, 2]
+    >>> matching(["b/fox.svg"], RuleSource("hero"), ["fox", "fox"], ["a/fox.svg", "./b/fox.svg"])
+    [1]
     """
     found: set[int] = set()
     for pattern in patterns:
         hits = {k for k, name in enumerate(names) if fnmatchcase(name, pattern)}
+        hits = hits or {k for k, path in enumerate(paths) if _is_path(path, pattern)}
+        hits = hits or {k for k, name in enumerate(names) if name == _stem(pattern)}
         if not hits:
-            known = sorted(set(names))
-            close = difflib.get_close_matches(pattern, known, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(known[:12])}"
+            hint = _names_like(_stem(pattern), sorted(set(names)))
             raise source.error(f"no item is called {pattern!r}; {hint}")
         found |= hits
     return sorted(found)
+
+
+def _is_path(path: str, asked: str) -> bool:
+    return bool(path) and os.path.abspath(path) == os.path.abspath(asked)  # noqa: PTH100 - no disk
+
+
+def _stem(pattern: str) -> str:
+    return PurePath(pattern).stem if PurePath(pattern).suffix else PurePath(pattern).name
+
+
+def _names_like(asked: str, known: Sequence[str]) -> str:
+    close = difflib.get_close_matches(asked, known, n=1)
+    if close:
+        return f"did you mean {close[0]}?"
+    if len(known) <= MOST_LISTED:
+        return f"there are {', '.join(known)}"
+    near = difflib.get_close_matches(asked, known, n=MOST_NAMED, cutoff=0.0)
+    return f"there are {len(known)}, the nearest {', '.join(near)}"
 
 
 WIDEST_WEIGHTS = 1e6
@@ -256,7 +288,7 @@ def item_weights(
     for name, weight in table.items():
         if name not in names | files:
             raise RecipeError(
-                "weights", f"no item is called {name!r}; there are {', '.join(sorted(names)[:12])}"
+                "weights", f"no item is called {name!r}; {_names_like(name, sorted(names))}"
             )
         if not (np.isfinite(weight) and weight > 0):
             raise RecipeError("weights", f"the weight of {name} must be positive, not {weight}")
@@ -272,7 +304,8 @@ def kinds(items: Sequence[Item]) -> IntArray:
 
 
 def _members(rule: Rule, source: RuleSource, items: Sequence[Item]) -> list[int]:
-    members = matching(rule.items, source, [item.name for item in items])
+    names, paths = [item.name for item in items], [item.source for item in items]
+    members = matching(rule.items, source, names, paths)
     if source.key != "hero":
         return members
     if len({items[k].name for k in members}) > 1:
