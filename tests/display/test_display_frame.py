@@ -107,8 +107,8 @@ def test_a_layout_that_is_no_chart_has_poses_alone() -> None:
 @pytest.mark.parametrize(
     ("show", "message"),
     [
-        ("to_dataframe", r"needs pandas.* pip install pandas"),
-        ("plot", r"needs matplotlib.* pip install matplotlib"),
+        ("to_dataframe", r'needs pandas.* pip install "packwork\[data\]"'),
+        ("plot", r'needs matplotlib.* pip install "packwork\[plot\]"'),
     ],
 )
 def test_what_is_not_installed_is_named(

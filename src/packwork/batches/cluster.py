@@ -88,9 +88,7 @@ def _quiet() -> Iterator[None]:
 
 
 def _connected(address: str) -> Any:
-    distributed = import_extra(
-        "distributed", "leave --scheduler out (or pip install packwork[cluster])"
-    )
+    distributed = import_extra("distributed", "leave --scheduler out")
     try:
         client = distributed.Client(address, timeout=LOST_SECONDS, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:

@@ -18,6 +18,12 @@ from packwork.readers.tables.cells import as_number, is_missing, is_numeric
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import representative_colour
 
+EXTRAS = {
+    "pandas": "data", "matplotlib": "plot", "geopandas": "geo", "anywidget": "notebook",
+    "traitlets": "notebook", "distributed": "cluster",
+}  # fmt: skip
+"""Extra of ours that brings a package."""
+
 
 def import_extra(module: str, otherwise: str) -> Any:
     """Module that is an extra of ours.
@@ -33,6 +39,7 @@ def import_extra(module: str, otherwise: str) -> Any:
     pip install no_such_package, or save a picture
     """
     package = module.partition(".")[0]
+    asked = f'"packwork[{EXTRAS[package]}]"' if package in EXTRAS else package
     try:
         importlib.import_module(package)
         return importlib.import_module(module)
@@ -41,7 +48,7 @@ def import_extra(module: str, otherwise: str) -> Any:
             raise
         raise PackworkError(
             f"this needs {package}, which is not installed; install it: "
-            f"pip install {package}, or {otherwise}"
+            f"pip install {asked}, or {otherwise}"
         ) from None
 
 
