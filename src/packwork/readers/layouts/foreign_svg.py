@@ -25,6 +25,9 @@ OWN = frozenset(
 )
 """Names of what our files hold at their top."""
 
+_BEHIND = frozenset({"background", "backdrop", "halos"})
+"""Those that lie below all items, and above them hide what is measured."""
+
 
 _BESIDE_CUTS = frozenset({"engrave", "artwork"})
 """Groups of a nest that go with its parts and are not cut: they are looked through by themselves.
@@ -107,13 +110,16 @@ def strange(root: ET.Element, known: Set[str]) -> int:
     --------
     >>> strange(ET.fromstring('<svg><g id="items"/><g id="cut"/><rect/></svg>'), OWN)
     2
+    >>> strange(ET.fromstring('<svg><g id="items"/><rect id="background"/></svg>'), OWN)
+    1
     """
     met: set[str] = set()
     beside = layers_beside(root)
     count = 0
     for element in root:
         name = element.get("id", "")
-        is_strange = name not in known or name in met
+        is_above = name in _BEHIND and "items" in met
+        is_strange = name not in known or name in met or is_above
         if tag(element) in PAINTED and is_strange and element not in beside:
             count += 1
         met.add(name)
