@@ -180,7 +180,11 @@ def test_colours_that_may_mean_something_are_told(
 
 
 def test_an_open_outline_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match=r"the path at \(0, 80\) is open; the next end is 20"):
+    told = (
+        r"a\.svg: the path in (\S+) at \(0, 0\) mm is open; the next end is 20 mm away; "
+        r"close it, or engrave it: --engrave '?\1'?$"
+    )
+    with pytest.raises(ReadError, match=told):
         parts(tmp_path, f'<path d="M0 0h30v20h-30" {HAIRLINE}/>')
 
 

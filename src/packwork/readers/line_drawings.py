@@ -160,7 +160,7 @@ def _lines_to_cut(drawing: PaintedDrawing, engraved: Sequence[Painted]) -> CadDr
         for one, shape in zip(is_line, drawing.shapes, strict=True)
     ):
         return None
-    # As messages name them: mm from the page's lower left corner.
+    # In mm from the page's lower left corner.
     height = 0.0 if drawing.page is None else drawing.page.height
     up = _PX_MM * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, height]])
     found, colours = list[CadLine](), Counter[str]()
@@ -169,7 +169,8 @@ def _lines_to_cut(drawing: PaintedDrawing, engraved: Sequence[Painted]) -> CadDr
         is_cut = is_cut and not shape.painting.pen.dashes
         layer = _paint_of(shape) if is_cut else ENGRAVED
         colours[layer] += is_cut
-        found += _cad_lines(shape, drawing, layer, up)
+        lines = _cad_lines(shape, drawing, layer, up)
+        found += [replace(one, page_height=_PX_MM * height) for one in lines]
     if len(+colours) > 1:
         told = ", ".join(f"{colour} ({count})" for colour, count in colours.most_common() if count)
         notice(f"has lines in several colours: {told}; outlines of all are cut, but for colours "

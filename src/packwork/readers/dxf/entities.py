@@ -72,13 +72,15 @@ class CadLine:
     """A line of a drawing, in its units, y up.
 
     ``kind`` is the entity that it was; ``colour`` is empty of layer 0, whose place in a block that
-    of the insert takes, and ``BY_BLOCK`` where it is that of the insert itself.
+    of the insert takes, and ``BY_BLOCK`` where it is that of the insert itself. ``page_height``, in
+    mm, is that of an SVG, whose lines are called by their colour and their places from the top.
     """
 
     line: ArcLine
     layer: str
     kind: str
     colour: str = ""
+    page_height: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+import shlex
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -31,7 +32,7 @@ from packwork.readers.dxf.entities import (
     CadLine,
     read_drawing,
 )
-from packwork.readers.dxf.rings import RingPart, nested, place, rings_of
+from packwork.readers.dxf.rings import RingPart, called, nested, place, rings_of
 from packwork.readers.engraving import Engraving
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pages import Read
@@ -197,7 +198,7 @@ def _why_none(
     if cut:
         first = cut[0]
         return (
-            f"layer {first.layer[:40]!r}: the {first.kind} at {place(first.line.points[0])} has no "
+            f"{called(first)} at {place(first.line.points[0], first.page_height)} has no "
             "area, and there is no other outline"
         )
     others = ", ".join(f"{count} {kind}" for kind, count in sorted(left_out.items()))
@@ -213,9 +214,12 @@ def _open_at(loose: Sequence[CadLine], piece: CadLine) -> str:
     gaps = KDTree(ends).query(own, k=min(3, len(ends)))[0]
     # The nearest of those is the end itself; what it meets is no gap.
     free = max(range(2), key=lambda k: gaps[k][1])
+    height = piece.page_height
+    away = f"{gaps[free][1]:.3g}{'' if height is None else ' mm'}"
+    name = piece.layer if height is None else piece.colour
     return (
-        f"layer {piece.layer[:40]!r}: the {piece.kind} at {place(own[free])} is open; "
-        f"the next end is {gaps[free][1]:.3g} away"
+        f"{called(piece)} at {place(own[free], height)} is open; the next end is {away} away; "
+        f"close it, or engrave it: --engrave {shlex.quote(name[:40])}"
     )
 
 
@@ -284,9 +288,9 @@ def cad_part(
     millimetres = convert(size, "px", "mm")
     if not LEAST_MM <= millimetres <= MOST_MM:
         ring = part.outer
-        layer = f"layer {ring.layer[:40]!r}: " if ring.layer else ""
+        name = called(ring) if ring.layer else f"the {ring.kind}"
         raise UnfitError(
-            f"{layer}the {ring.kind} at {place(ring.line.points[0])} is a part of "
+            f"{name} at {place(ring.line.points[0], ring.page_height)} is a part of "
             f"{millimetres:.3g} mm; take it out, or state the drawing's true unit"
         )
     tolerance = FLATTENING * size

@@ -43,6 +43,7 @@ class Ring:
     layer: str
     kind: str
     polygon: Polygon
+    page_height: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +60,24 @@ def size_of(pieces: Sequence[CadLine]) -> float:
     return float(np.ptp(np.concatenate(points), axis=0).max()) if points else 0.0
 
 
-def place(point: FloatArray | Sequence[float]) -> str:
-    """A point as messages name it.
+def place(point: FloatArray | Sequence[float], page_height: float | None = None) -> str:
+    """A point as messages name it: of an SVG in mm from the left and the top.
 
-    >>> place((2.0, 1 / 3))
-    '(2, 0.333333)'
+    >>> place((2.0, 1 / 3)), place((2.0, 5.0), 80.0)
+    ('(2, 0.333333)', '(2, 75) mm')
     """
-    return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
+    if page_height is None:
+        return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
+    across, down = (round(float(v), 6) + 0.0 for v in (point[0], page_height - point[1]))
+    return f"({across:.6g}, {down:.6g}) mm"
+
+
+def called(one: CadLine | Ring, what: str = "") -> str:
+    """A line, or ``what`` stands for several, as messages call it: by its layer, or its colour."""
+    what = what or f"the {one.kind}"
+    if one.page_height is None:
+        return f"layer {one.layer[:40]!r}: {what}"
+    return f"{what} in {one.layer[:40]}"
 
 
 def rings_of(pieces: Sequence[CadLine]) -> tuple[list[Ring], list[CadLine]]:
@@ -106,13 +118,15 @@ def _ring(piece: CadLine) -> Ring | None:
     polygon = Polygon(points)
     if not polygon.is_valid:
         why, _, where = shapely.is_valid_reason(polygon).partition("[")
-        at = place([float(v) for v in where.rstrip("]").split()[:2]]) if where else "somewhere"
+        at = "somewhere"
+        if where:
+            at = place([float(v) for v in where.rstrip("]").split()[:2]], piece.page_height)
         what = "crosses or meets itself" if "ntersection" in why else "is no outline"
-        raise UnfitError(f"layer {piece.layer[:40]!r}: the {piece.kind} {what} at {at}")
+        raise UnfitError(f"{called(piece)} {what} at {at}")
     if polygon.area <= SAME * tolerance:
         return None
     return Ring(line if signed_area(points) > 0 else line.reversed(), piece.layer, piece.kind,
-                polygon)  # fmt: skip
+                polygon, piece.page_height)  # fmt: skip
 
 
 def _joined(pieces: Sequence[CadLine], tolerance: float) -> tuple[list[CadLine], list[CadLine]]:
@@ -127,8 +141,9 @@ def _joined(pieces: Sequence[CadLine], tolerance: float) -> tuple[list[CadLine],
             first = members[0]
             at = ends.reshape(-1, 2, 2)[first][int(nodes[first, 0] != node)]
             raise UnfitError(
-                f"layer {pieces[first].layer[:40]!r}: {len(members)} lines meet at "
-                f"{place(at)}, so that no outline is clear; draw each one closed by itself"
+                f"{called(pieces[first], f'{len(members)} lines')} meet at "
+                f"{place(at, pieces[first].page_height)}, so that no outline is clear; draw each "
+                "one closed by itself"
             )
     rings = list(_cycles(pieces, nodes, kept, meeting))
     used = set(kept)
@@ -202,7 +217,7 @@ def _cycles(
         line = joined_lines(chain, is_closed=True)
         if len(line.points) > 2 or line.bulges.any():
             kind = pieces[first].kind if len(chain) == 1 else f"outline of {len(chain)} pieces"
-            yield CadLine(line, pieces[first].layer, kind)
+            yield replace(pieces[first], line=line, kind=kind, colour="")
 
 
 def nested(rings: Sequence[Ring]) -> tuple[list[RingPart], int]:
@@ -264,8 +279,10 @@ def _relation(large: Ring, small: Ring) -> str:
         return "apart"
     met = intersection(large.polygon.exterior, small.polygon.exterior)
     at = shapely.get_coordinates(met)
-    where = place(at[0]) if len(at) else place(shapely.get_coordinates(small.polygon)[0])
+    point = at[0] if len(at) else shapely.get_coordinates(small.polygon)[0]
+    where = place(point, small.page_height)
+    on = f"layer {large.layer[:40]!r}" if large.page_height is None else large.layer[:40]
     raise UnfitError(
-        f"layer {small.layer[:40]!r}: the {small.kind} crosses another one, on layer "
-        f"{large.layer[:40]!r}, at {where}"
+        f"{called(small)} crosses another one, {'in' if large.page_height is not None else 'on'} "
+        f"{on}, at {where}"
     )
