@@ -64,7 +64,7 @@ LIMITS = {
     "lines of code": 68_400,
     "lines of docstrings": 18_900,
     "files": 594,
-    "functions of the road in one plain fill": 86,
+    "functions of the road in one plain fill": 88,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,

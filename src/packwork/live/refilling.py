@@ -45,7 +45,7 @@ OF_ITEMS = ("items", "ids", "poses", "weights", "smallest", "largest", "held")
 
 @dataclass(frozen=True)
 class Refilled:
-    """What was poured anew or taken back."""
+    """Document that was poured anew, or whose step was taken back, and what is said of it."""
 
     document: Document
     message: str

@@ -67,7 +67,7 @@ class Use(ABC):
 
     @property
     def stated(self) -> Mapping[str, Any]:
-        """What the manifest says besides, plain values."""
+        """Plain values that the manifest has besides."""
         return {}
 
     def subset(self, kept: IntArray) -> Use:

@@ -1,4 +1,4 @@
-"""Whether the parts of a nest may do with fewer sheets than a search found."""
+"""Advice on the parts of a nest that may do with fewer sheets than a search found."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
+from packwork.geometry.outline import Outline
 from packwork.phrasing import number_of
 from packwork.separation.shapes import Floats
 from packwork.separation.strip import WorkBound
@@ -62,13 +63,13 @@ def advice_on_sheets(
 
 def _radii(found: Sequence[NestedSheet]) -> Floats:
     """``(n,)`` of the largest circle in each part, the largest first."""
-    own = dict[tuple[int, float], float]()
+    own = dict[tuple[Outline, float], float]()
     radii = list[float]()
     for one in found:
         for item, scale, outline in zip(
             one.layout.items, one.layout.poses.scale, one.layout.outlines, strict=True
         ):
-            key = (id(item.outline), float(scale))
+            key = (item.outline, float(scale))
             if key not in own:
                 own[key] = float(shapely.maximum_inscribed_circle(outline.region).length)
             radii.append(own[key])

@@ -48,7 +48,7 @@ def ending_near(boxes: FloatArray, trim: FloatArray) -> int:
 
 
 def _go_on(boxes: FloatArray, gaps: FloatArray, shapes: IntArray, side: int) -> BoolArray:
-    """Whether something beyond one side of the trim adjoins all of shapes that end there.
+    """Flags of shapes that end at one side of the trim: something beyond adjoins all of each.
 
     Asked of the shapes from the shortest inwards, with all beyond that reach no farther in than
     these; its work grows with the number of shapes and its logarithm.

@@ -102,7 +102,7 @@ def lines_of(
 
 @final
 class LineRoom:
-    """Where lines of a part may lie, and the map ``(2, 3)`` from their units to its outline's.
+    """Room for the lines of a part, and the map ``(2, 3)`` from their units to its outline's.
 
     Examples
     --------

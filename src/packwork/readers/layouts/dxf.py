@@ -27,7 +27,7 @@ from packwork.readers.layouts.assembly import (
     sound_outline,
     sound_weight,
 )
-from packwork.readers.layouts.marks import Room, left_out
+from packwork.readers.layouts.marks import MarkRoom, left_out
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.item import Item
@@ -334,7 +334,7 @@ def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[Foun
     outline = sound_outline(shape, f"item {number} ({name})")
     cut = tuple(paper.turned(one.line) for one in around)
     marks = [one for one in lines if one.is_engraved]
-    room = Room(outline.region, outline.extent) if marks else None
+    room = MarkRoom(outline.region, outline.extent) if marks else None
     engraved = tuple(
         EngravedLine(drawn.points, drawn.bulges, drawn.is_closed, one.colour, one.layer)
         for one in marks

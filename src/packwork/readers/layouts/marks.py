@@ -1,4 +1,4 @@
-"""What lies beside the lines to cut of a nest that was written as SVG: engraved lines and artwork.
+"""Engraved lines and artwork beside the lines to cut of a nest that was written as SVG.
 
 Each says to which part it goes. What other programs put there besides is named, and so is what
 leaves its part: neither was measured.
@@ -162,8 +162,8 @@ def inverse(matrix: FloatArray) -> FloatArray:
 
 
 @final
-class Room:
-    """Where the lines of a part may be engraved: in its outline, but for rounding."""
+class MarkRoom:
+    """Room of a part for engraved lines: its outline, but for rounding."""
 
     def __init__(self, region: Region, extent: float) -> None:
         """``extent``: the part's size, in the units of its region."""
@@ -176,7 +176,7 @@ class Room:
 
         Examples
         --------
-        >>> room = Room(shapely.box(0, 0, 9, 9), 9.0)
+        >>> room = MarkRoom(shapely.box(0, 0, 9, 9), 9.0)
         >>> line = ArcLine(np.array([[1.0, 1.0], [8.0, 8.0]]), np.zeros(2))
         >>> room.holds(line, affine.identity()), room.holds(line, 2.0 * affine.identity())
         (True, False)
