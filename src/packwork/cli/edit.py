@@ -363,7 +363,7 @@ def _written(
         names = ", ".join(printable(str(path)) for path, _ in files)
         console.print(f"wrote {names}", soft_wrap=True)
     on_trust = on_trust_in(files, made) if certified else []
-    for line in (*done.in_the_way, *faults, *on_trust, *session.advice):
+    for line in (*done.in_the_way, *faults, *on_trust, *(() if quiet else session.advice)):
         say(line)
     return certified
 

@@ -106,7 +106,7 @@ class Terminal(Options):
     offers = Offer(verbs=Verbs.EVERY)
 
     quiet: Annotated[bool, Offer(flags="-q --quiet")] = False
-    """Print nothing but warnings and errors."""
+    """Print nothing but warnings and errors; advice on what came of a run is in --report."""
 
 
 Command = Callable[..., None]

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.table import Table
 
-from packwork.cli.terminal import say
 from packwork.errors import PackworkError, WriteError
 from packwork.phrasing import number_of
 
@@ -79,12 +78,9 @@ def show_results(
 
 
 def tell_advice(advice: Sequence[str], console: Console) -> None:
-    """Print what is poor and what would do; as warnings where nothing else is printed."""
+    """Print what is poor and what would do, as a part of what came of a run."""
     for sentence in advice:
-        if console.quiet:
-            say(sentence)
-        else:
-            console.print(f"but {sentence}", soft_wrap=True)
+        console.print(f"but {sentence}", soft_wrap=True)
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
