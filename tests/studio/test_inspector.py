@@ -56,6 +56,37 @@ def test_undo_in_a_field_is_of_what_is_typed_then_of_the_document(
     desk.settled()
 
 
+WEIGHTS = "studio.collage.items.map((item) => item.weight)"
+
+
+def test_what_is_typed_is_for_what_was_chosen_then(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.rested()
+    chosen(desk, 0)
+    weights, names = desk.look(WEIGHTS), desk.look("studio.collage.items.map((one) => one.name)")
+    keys, undo = desk.page.keyboard, desk.page.locator("#bar [data-do=undo]")
+    x = desk.look("studio.collage.pose(2).x")
+    for label, text in (("Weight", "5"), ("Name", "bee"), ("X of the middle", "300")):
+        chosen(desk, 0)
+        desk.page.get_by_label(label, exact=True).select_text()
+        keys.type(text)
+        desk.page.mouse.click(*desk.place(2))
+        assert desk.look("[...studio.choice.ids]") == [2]
+        changed = {
+            "Weight": f"{WEIGHTS}[0] === 5",
+            "Name": "studio.collage.items[0].name === 'bee'",
+        }
+        is_so = changed.get(label, "Math.abs(studio.collage.pose(0).x - 300) < 0.1")
+        desk.until(is_so)
+        desk.settled()
+        assert desk.look(WEIGHTS)[1:] == weights[1:]
+        assert desk.look("studio.collage.items.map((one) => one.name)")[1:] == names[1:]
+        undo.click()
+        desk.until(f"!({is_so})")
+        desk.settled()
+    assert desk.look("studio.collage.pose(2).x") == pytest.approx(x, abs=1e-3)
+
+
 def test_numbers_are_typed_each_one_step_back(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     before = desk.rested()
@@ -74,7 +105,7 @@ def test_numbers_are_typed_each_one_step_back(open_desk: Callable[..., Desk]) ->
     width = shown(desk, "width")
     asked(desk, "width", 0.8 * width)
     # Free sizes are had to within a tenth.
-    field = "Number(document.querySelector('[data-number=width]').value)"
+    field = "studio.panels.items.inspector.now().width"
     desk.until(f"{field} > {0.7 * width} && {field} < {0.89 * width}")
     desk.settled()
     assert shown(desk, "height") / shown(desk, "width") == pytest.approx(
@@ -162,3 +193,28 @@ def test_what_is_chosen_is_flipped_by_a_key(open_desk: Callable[..., Desk]) -> N
         desk.page.keyboard.press("Control+z")
     desk.until(f"{outline} === {json.dumps(before)}")
     desk.settled()
+
+
+def test_steps_of_a_field_are_kept_while_scenes_are_on_their_way(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    chosen(desk, 0)
+    keys = desk.page.keyboard
+    fields = {
+        "studio.collage.items[0].weight": desk.page.get_by_label("Weight"),
+        "studio.collage.pose(0).angle * 180 / Math.PI": desk.page.locator("[data-number=angle]"),
+        "studio.collage.items.length": desk.page.locator("#count"),
+    }
+    for now, field in fields.items():
+        desk.settled()
+        field.fill("11")
+        keys.press("Enter")
+        desk.until(f"Math.abs({now} - 11) < 1e-3")
+        desk.settled()
+        for value in range(12, 18):
+            keys.press("ArrowUp")
+            assert field.input_value() == str(value)
+        desk.until(f"Math.abs({now} - 17) < 1e-3")
+        desk.settled()
+        assert field.input_value() == "17"

@@ -36,6 +36,8 @@ export class Collage {
     /** What the hand has, until a frame knows it. @type {Map<number, {pose: Pose, until: number}>} */
     this.hand = new Map();
     this.hasPoses = false;
+    /** The newest command of this page that is done. */
+    this.done = 0;
   }
 
   /** @param {Shape[]} shapes */
@@ -76,7 +78,7 @@ export class Collage {
   setFrame(frame) {
     if (!this.scene || frame.version !== this.scene.version) return false;
     if (frame.poses.length !== this.poses.length) return false;
-    this.poses = frame.poses;
+    [this.poses, this.done] = [frame.poses, frame.done];
     for (const [id, held] of this.hand) if (held.until && held.until <= frame.done) this.hand.delete(id);
     for (let k = 0; k < this.items.length; k++) if (this.shown[4 * k + 3] < 0) this.appear(k);
     this.hasPoses = true;

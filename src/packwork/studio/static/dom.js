@@ -133,3 +133,19 @@ export function byId(id) {
   if (!found) throw new Error(`the page has no ${id}`);
   return found;
 }
+
+/**
+ * Show a number in a field; what is typed there and not asked for yet stays, and so does what is on its way.
+ * @param {HTMLInputElement} field
+ * @param {string} text
+ */
+export function showNumber(field, text) {
+  if (field.dataset.shown === text) return;
+  if (document.activeElement !== field || field.value === field.dataset.shown) field.value = text;
+  field.dataset.shown = text;
+}
+
+/** Have a field say what there is. @param {HTMLInputElement} field */
+export function showAgain(field) {
+  field.value = field.dataset.shown ?? "";
+}

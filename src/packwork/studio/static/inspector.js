@@ -2,9 +2,8 @@
 /** The inspector: numbers, name, weight and colour of what is chosen, each to be typed or dragged. */
 
 import { LINES } from "./actions.js";
-import { h } from "./dom.js";
+import { h, showAgain, showNumber } from "./dom.js";
 import { together } from "./hand.js";
-import { isTypedIn } from "./keys.js";
 import { kindOf } from "./kinds.js";
 
 /** @typedef {import("./wire.js").Thing} Thing */
@@ -25,6 +24,8 @@ export class Inspector {
     this.studio = studio;
     /** @type {Thing[]} */
     this.items = [];
+    /** Numbers of the commands by which fields were asked for. @type {Map<HTMLInputElement, number>} */
+    this.sent = new Map();
     this.numbers = new Map(NUMBERS.map(([name, label, title]) => [name, this.number(name, label, title)]));
     this.name = h("input", { type: "text", maxlength: "200", "aria-label": "Name", onchange: () => this.rename() });
     this.weight = h("input", { type: "number", min: "0.01", step: "any", onchange: () => this.weigh() });
@@ -55,8 +56,9 @@ export class Inspector {
     return field;
   }
 
+  /** Numbers of what is shown and still there. */
   get ids() {
-    return this.items.map((item) => item.id);
+    return this.items.map((item) => item.id).filter((id) => this.studio.collage.rows.has(id));
   }
 
   get digits() {
@@ -65,6 +67,7 @@ export class Inspector {
 
   /** @param {Thing[]} items those chosen */
   show(items) {
+    if (items.length !== this.items.length || items.some((one, k) => one.id !== this.items[k].id)) this.leave();
     this.items = items;
     this.element.hidden = !items.length;
     const [first] = items;
@@ -79,11 +82,28 @@ export class Inspector {
     const { sizes } = kindOf(collage);
     for (const field of [this.field("width"), this.field("height")]) field.disabled = !sizes;
     /** @type {HTMLElement} */ (this.weight.parentElement).hidden = !sizes;
-    for (const [field, value] of /** @type {const} */ ([[this.name, same(items.map((one) => one.name)) ?? ""], [this.weight, shown(first.weight)], [this.colour, colour]])) {
-      const isInUse = field === this.weight ? isTypedIn(field) : document.activeElement === field;
-      if (!isInUse) field.value = value;
+    for (const [field, value] of /** @type {const} */ ([[this.name, same(items.map((one) => one.name)) ?? ""], [this.colour, colour]])) {
+      if (document.activeElement !== field) field.value = value;
     }
     this.follow();
+  }
+
+  /** Others are chosen: what is typed is asked for, of those that it was typed for. */
+  leave() {
+    const field = document.activeElement;
+    if (field instanceof HTMLInputElement && this.element.contains(field)) field.blur();
+    this.sent.clear();
+  }
+
+  /** Whether what a field asked for is not done yet: it keeps it till then. @param {HTMLInputElement} field */
+  awaits(field) {
+    return (this.sent.get(field) ?? 0) > this.studio.collage.done;
+  }
+
+  /** Ask for what a field says. @param {HTMLInputElement} field @param {object} command */
+  send(field, command) {
+    field.dataset.shown = field.value;
+    this.sent.set(field, this.studio.connection.do(command));
   }
 
   /** @param {Quantity} name */
@@ -95,13 +115,11 @@ export class Inspector {
   follow() {
     if (!this.element.isConnected || this.element.hidden) return;
     const now = this.now();
+    if (!this.awaits(this.weight)) showNumber(this.weight, shown(this.items[0].weight));
     for (const [name, field] of this.numbers) {
       const value = now?.[name];
       const text = value === null || value === undefined ? "" : String(Number(value.toFixed(this.digits)));
-      if (field.dataset.shown === text) continue;
-      // What somebody is typing stays.
-      if (document.activeElement !== field || field.value === field.dataset.shown) field.value = text;
-      field.dataset.shown = text;
+      if (!this.awaits(field)) showNumber(field, text);
     }
   }
 
@@ -132,16 +150,14 @@ export class Inspector {
    * @param {number} value
    */
   ask(name, value) {
-    const now = this.now();
-    this.field(name).value = this.field(name).dataset.shown ?? "";
-    if (!now || !Number.isFinite(value)) return;
-    const { collage, connection } = this.studio;
+    const [now, field] = [this.now(), this.field(name)];
     /** @type {object[]} */
-    const commands = this.items.flatMap((item) => {
-      const pose = /** @type {import("./collage.js").Pose} */ (collage.target(item.id));
+    const commands = !now || !Number.isFinite(value) ? [] : this.items.flatMap((item) => {
+      const pose = /** @type {import("./collage.js").Pose} */ (this.studio.collage.target(item.id));
       return this.asked(name, value, now, item, pose) ?? [];
     });
-    if (commands.length) connection.do(together(commands));
+    if (commands.length) this.send(field, together(commands));
+    else showAgain(field);
   }
 
   /**
@@ -156,7 +172,8 @@ export class Inspector {
     if (name === "angle") return { kind: "turn", item, angle: value };
     if (name === "x" || name === "y") return { kind: "move", item, x: pose.x, y: pose.y, [name]: value + (pose[name] - (now[name] ?? 0)) };
     const look = /** @type {import("./collage.js").Look} */ (this.studio.collage.looks.get(shape));
-    const size = sizeOf(look, stretch, pose.scale)[name === "width" ? 0 : 1];
+    const field = this.field(name);
+    const size = this.awaits(field) ? Number(field.dataset.shown) : sizeOf(look, stretch, pose.scale)[name === "width" ? 0 : 1];
     return value > 0 ? { kind: "scale", item, factor: Math.min(Math.max(value / size, 0.01), 100) } : null;
   }
 
@@ -164,7 +181,7 @@ export class Inspector {
   step(event, field) {
     const steps = { ArrowUp: FAR, ArrowDown: -FAR }[event.key];
     if (event.key === "Escape") {
-      field.value = field.dataset.shown ?? "";
+      showAgain(field);
       this.studio.canvas.focus();
     }
     if (!steps || !event.shiftKey) return;
@@ -208,12 +225,13 @@ export class Inspector {
 
   rename() {
     const name = this.name.value.trim();
-    if (name) this.studio.connection.do(together(this.ids.map((item) => ({ kind: "rename", item, name }))));
+    if (name && this.ids.length) this.studio.connection.do(together(this.ids.map((item) => ({ kind: "rename", item, name }))));
   }
 
   weigh() {
     const weight = Number(this.weight.value);
-    if (weight > 0) this.studio.connection.do({ kind: "weigh", items: this.ids, weight });
+    if (weight > 0 && this.ids.length) this.send(this.weight, { kind: "weigh", items: this.ids, weight });
+    else showAgain(this.weight);
   }
 
   /** Put the cursor into the first number. */

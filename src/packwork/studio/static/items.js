@@ -1,7 +1,7 @@
 // @ts-check
 /** The panel of items: what comes in, and a list of what is there, to be changed in place. */
 
-import { button, h, icon } from "./dom.js";
+import { button, h, icon, showAgain, showNumber } from "./dom.js";
 import { Inspector } from "./inspector.js";
 import { kindOf } from "./kinds.js";
 import { isTypedIn } from "./keys.js";
@@ -22,7 +22,7 @@ export class ItemList {
     this.marked = "";
     this.list = h("ul", { class: "items", "aria-label": "Items of the collage" });
     this.counter = h("input", { type: "number", id: "count", min: "1", max: "10000",
-      onchange: () => studio.connection.send({ type: "count", count: Number(this.counter.value) || 1 }) });
+      onchange: () => studio.connection.send({ type: "count", count: Number(this.counter.value) || 1 }), onblur: () => showAgain(this.counter) });
     this.orders = h("div", { class: "orders" },
       h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => studio.dropping.choosePicture() }, "Show a picture by their colours"),
       h("button", { type: "button", class: "wide", title: "By a table of vectors, such as a model of pictures gives: a row an item, or a first column of names", onclick: () => studio.ordering.chooseVectors() }, "Like beside like, by a table"),
@@ -93,9 +93,14 @@ export class ItemList {
     const key = JSON.stringify([[...this.unfolded], kindOf(collage), groups.map((group) => [group[0].shape, group[0].name, group.map((one) => [one.id, one.held])])]);
     if (key !== this.listed) this.rewrite(groups);
     this.listed = key;
-    if (!isTypedIn(this.counter)) this.counter.value = String(collage.items.length);
+    showNumber(this.counter, String(collage.items.length));
     for (const row of this.list.querySelectorAll("button.item")) row.setAttribute("aria-pressed", String(idsOf(row).some((id) => choice.has(id))));
     this.showChosen();
+  }
+
+  /** What was asked for last is not to be had: the count of all is what it is. */
+  refused() {
+    if (!isTypedIn(this.counter)) showAgain(this.counter);
   }
 
   /** @param {Thing[][]} groups */

@@ -59,6 +59,7 @@ export class Panels {
   /** What was asked for last is not to be had: sliders show what there is. */
   refused() {
     for (const slider of [this.words.mixing.slider, this.look.mosaic.likeness]) slider.refused();
+    this.items.refused();
     this.refresh();
   }
 

@@ -210,6 +210,7 @@ export class Studio {
   lost() {
     this.collage.state = null;
     this.hand.began.clear();
+    this.panels.items.inspector.sent.clear();
     this.collage.hand.clear();
     this.gestures.cancel();
   }
