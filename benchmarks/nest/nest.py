@@ -8,7 +8,7 @@ Both get the same seconds and cores. Density is the parts' true area over the us
 either gives is held against the exact polygons by Shapely. ``wild`` are thin, hooked and holed
 parts that are made here. ``page=yes`` writes the page of figures and its manifest. Twelve
 instances with three seeds take more than an hour: what is found goes to ``kept`` at once, and a
-run that was broken off goes on from there.
+run that was broken off goes on from there; ``seeds=kept`` shows what was found and runs nothing.
 """
 
 from __future__ import annotations
@@ -37,7 +37,6 @@ from benchmarks.kit.manifests import (
 )
 from benchmarks.peers.peering import version
 from packwork.geometry.polygon import polygon_parts
-from packwork.phrasing import number_of
 from packwork.readers.instances import Instance, InstancePart, read_instance
 from packwork.scene.item import Item
 from packwork.separation.strip import WorkBound
@@ -227,7 +226,8 @@ def main(arguments: list[str]) -> None:
             continue
         instance = read_instance(path)
         own, other = list[float](), list[float]()
-        for seed in range(int(asked["seeds"])):
+        given = asked["seeds"]
+        for seed in found.seeds(path.stem) if given == "kept" else range(int(given)):
             own.append(found.of("packwork", ours, instance, seconds, seed, workers))
             if peer:
                 other.append(found.of(f"spyrrow {peer}", theirs, instance, seconds, seed, workers))
@@ -239,8 +239,11 @@ def main(arguments: list[str]) -> None:
         lines.append(f"| {' | '.join([path.stem, *map(str, cells)])} |")
         print(lines[-1], flush=True)
     if asked["page"]:
+        how_many = f"{asked['seeds']} seeds"
+        if asked["seeds"] == "kept":
+            how_many = "three seeds, or one where no brackets stand"
         said = (
-            f"{seconds:g} s, {workers} threads, {number_of(int(asked['seeds']), 'seed')}: ahead on "
+            f"{seconds:g} s, {workers} threads, {how_many}: ahead on "
             f"{sum(ahead >= LEVEL for ahead in aheads)} of {len(aheads)}, behind on "
             f"{sum(ahead <= -LEVEL for ahead in aheads)}; {min(aheads):+.2f} to {max(aheads):+.2f}."
         )
@@ -256,6 +259,12 @@ class Found:
         self.densities: dict[str, float] = {}
         if path is not None and path.exists():
             self.densities = json.loads(path.read_text(encoding="utf-8"))
+
+    def seeds(self, instance: str) -> range:
+        """Seeds with which all programs were run."""
+        programs = {key.partition(",")[0] for key in self.densities}
+        found = [key.rpartition(" ")[2] for key in self.densities if f", {instance}, " in key]
+        return range(sum(found.count(seed) == len(programs) for seed in set(found)))
 
     def of(
         self, program: str, search: Callable[[Instance, float, int, int], float],
