@@ -151,6 +151,20 @@ def test_halos_follow_the_background_and_are_in_files(drawn: pw.Layout) -> None:
         session.do("halos", choice="most")
 
 
+def test_items_that_come_later_or_change_their_colours_have_halos_too(drawn: pw.Layout) -> None:
+    session = drawn.edit()
+    session.do("halos", choice="all")
+    session.add("moon", x=10.0, y=10.0)
+    assert "" not in {item.halo for item in session.document.items}
+    session.do("halos", choice="faint")
+    session.background("white")
+    session.recolor("star", "white")
+    stars = [item for item in session.document.items if item.name == "star"]
+    assert "" not in {item.halo for item in stars}
+    session.undo()
+    assert {item.halo for item in session.document.items if item.name == "star"} == {""}
+
+
 def test_a_gradient_without_end_is_refused_before_it_is_parted() -> None:
     # By the square of its commas this would take minutes.
     container = pw.fill("circle", "star", count=1, **QUICK).container

@@ -14,6 +14,7 @@ from packwork.errors import RecipeError
 from packwork.live.certificate import Requests, Settlement, promise_of
 from packwork.live.commands.command import Command, Library, made
 from packwork.live.commands.gestures import Cancel, Drop, Grab
+from packwork.live.commands.look import with_halos
 from packwork.live.commands.together import KINDS, Together
 from packwork.live.document import Change, Document, Invalidation
 from packwork.live.history import Marks, SessionState, UndoHistory
@@ -195,15 +196,14 @@ class Session:
         if isinstance(command, Grab) and self.is_grabbed:
             raise RecipeError("grab", "something is held already; drop it first")
         before = self.document
-        documents: list[Document] = []
-        placed: set[int] = set()
+        documents, placed = list[Document](), set[int]()
         # What follows a change takes as long for one item as for all that change alike.
         for _, steps in groupby(command.steps, type):
-            now = documents[-1] if documents else before
+            earlier = now = documents[-1] if documents else before
             for step in steps:
                 placed.update(step.places(now))
                 now = step.applied(now, self.library)
-            documents.append(now)
+            documents.append(with_halos(now, earlier))
         change = Change.between(before, documents[-1])
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)

@@ -102,7 +102,7 @@ class Background(Command):
             channels = parse_colour("background", self.colour or "none")
             ground = hex_colour(channels) if channels[3] else ""
         manifest = {**document.manifest, "ground": ground}
-        return _with_halos(replace(document, manifest=manifest, behind=behind))
+        return replace(document, manifest=manifest, behind=behind)
 
 
 class SetHalos(Command):
@@ -113,13 +113,19 @@ class SetHalos(Command):
     """Which items: none, all, or those that are hardly to be seen, faint."""
 
     def applied(self, document: Document, library: Library) -> Document:
-        """The document with these halos."""
-        return _with_halos(replace(document, manifest={**document.manifest, "halos": self.choice}))
+        """The document that asks for them; the session gives them, as after all other changes."""
+        return replace(document, manifest={**document.manifest, "halos": self.choice})
 
 
-def _with_halos(document: Document) -> Document:
-    """A document whose items have the halos that it asks for; on a picture all of them."""
-    if not (choice := document.halos):
+def with_halos(document: Document, before: Document) -> Document:
+    """A document whose items have the halos that it asks for; on a picture all of them.
+
+    As it is where nothing has changed by which they are chosen: items, ground, what is asked.
+    """
+    is_same = document.items is before.items and document.behind is before.behind
+    is_same &= document.halos == before.halos
+    is_same &= ground_in(document.manifest) == ground_in(before.manifest)
+    if is_same or not (choice := document.halos):
         return document
     ground: str | None = ground_in(document.manifest) or None
     if document.behind is not None:
