@@ -61,9 +61,9 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 68_400,
-    "lines of docstrings": 18_900,
-    "files": 594,
+    "lines of code": 68_228,
+    "lines of docstrings": 18_818,
+    "files": 589,
     "functions of the road in one plain fill": 88,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,

@@ -120,7 +120,7 @@ class SetHalos(Command):
 def with_halos(document: Document, before: Document) -> Document:
     """A document whose items have the halos that it asks for; on a picture all of them.
 
-    As it is where nothing has changed by which they are chosen: items, ground, what is asked.
+    As it is where items, ground and what is asked are as before.
     """
     is_same = document.items is before.items and document.behind is before.behind
     is_same &= document.halos == before.halos
