@@ -61,10 +61,10 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 68_228,
-    "lines of docstrings": 18_818,
+    "lines of code": 68_232,
+    "lines of docstrings": 18_820,
     "files": 589,
-    "functions of the road in one plain fill": 88,
+    "functions of the road in one plain fill": 89,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,

@@ -18,6 +18,7 @@ from packwork.steps.control import BestOf, Replan, Retry, UnlessTight
 
 PLAIN = [
     "Place", "Levels", "Finish", "TellShortfalls", "Measure", "Advise",
+    "TellOneColour",
 ]  # fmt: skip
 
 
@@ -84,7 +85,7 @@ DISCS = {"container": "circle", "items": ["circle"], "count": 30, "sizes": "shar
 
 
 def test_discs_in_proportion_jam_in_one_step() -> None:
-    assert names(**DISCS) == ["JamDiscs", "TellShortfalls", "Measure", "Advise"]
+    assert names(**DISCS) == ["JamDiscs", "TellShortfalls", "Measure", "Advise", "TellOneColour"]
 
 
 @pytest.mark.parametrize(

@@ -130,18 +130,27 @@ def specks(layout: Layout) -> tuple[Finding, ...]:
 
 @final
 class Advise(RunStep):
-    """Advice on a layout that does not show the container's shape, or whose items run together."""
+    """Advice on a layout that does not show the container's shape."""
 
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the advice."""
         layout, metrics = state.measured
         seen = metrics.seen
-        if state.job.plan.gap == 0.0 and are_of_one_colour(layout.items):
-            state = state.with_finding(Sentence.RUN_TOGETHER)
         if seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE:
             return state
         found = advice(state.job, len(layout.items), seen)
         return state.with_finding(found.sentence, **found.values)
+
+
+@final
+class TellOneColour(RunStep):
+    """Advice on items of one colour, which run together where no gap was asked for."""
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the advice."""
+        layout, _ = state.measured
+        is_one = are_of_one_colour(layout.items)
+        return state.with_finding(Sentence.RUN_TOGETHER) if is_one else state
 
 
 def advice(job: Job, count: int, seen: ShapeMetrics) -> Finding:

@@ -28,7 +28,7 @@ from packwork.steps.line_weights import EvenLines, FinishThinner
 from packwork.steps.measure import Measure, RemarkCount, TellCoarse
 from packwork.steps.mosaic import Judge, ShowPicture, unrecognised
 from packwork.steps.place import Place
-from packwork.steps.shortfalls import Advise, TellShortfalls
+from packwork.steps.shortfalls import Advise, TellOneColour, TellShortfalls
 from packwork.steps.starts import new_starts
 from packwork.steps.track import KeepTrack, StartRecording
 from packwork.steps.voids import FillerScales, FillVoids, as_planned
@@ -151,10 +151,12 @@ def reporting(
         steps.append(TellCoarse())
     if job.plan.keeps_apart:
         steps.append(CountBeside())
-    if is_dressed or job.plan.palette or any(one.values for one in job.asked):
-        steps.append(Dress())
     if shows_shape:
         steps.append(Advise())
+    if is_dressed or job.plan.palette or any(one.values for one in job.asked):
+        steps.append(Dress())
+    if shows_shape and not job.plan.gap:
+        steps.append(TellOneColour())
     if job.target is not None:
         steps.append(ShowPicture(job.target, judge))
     if job.container.backdrop is not None:

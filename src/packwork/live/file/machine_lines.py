@@ -26,6 +26,7 @@ from packwork.live.file.records import (
     kept_text,
 )
 from packwork.phrasing import number_of
+from packwork.readers.layouts.marks import LINES_OFF
 from packwork.readers.reading import UnfitError, one_budget
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.path_data import parse_path
@@ -33,9 +34,6 @@ from packwork.scene.item import VectorArt
 from packwork.scene.line_art import EngravedLine, LineArt
 
 _LOG = logging.getLogger("packwork")
-
-LINES_OFF = 1e-4
-"""How far lines for a machine may lie beyond their part's outline, as a share of its extent."""
 
 _MOST_SAMPLES = 4 * MAX_POINTS
 """Points of one part's lines, with those of its arcs, that are looked at. Chosen."""

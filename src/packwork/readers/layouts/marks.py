@@ -39,8 +39,8 @@ from packwork.scene.line_art import ENGRAVED_COLOUR
 from packwork.units import convert
 
 LINES_OFF = 1e-4
-"""How far engraved lines may lie beyond their part's outline, as a share of its extent: that of a
-session's file. Chosen: above rounding, below what is seen."""
+"""How far lines for a machine may lie beyond their part's outline, as a share of its extent, here
+and in a session's file. Chosen: above rounding, below what is seen."""
 
 WIDEST_MM = 1.0
 """Width of a stroke from which it is no line. Chosen: that of drawings that are read."""

@@ -144,7 +144,7 @@ class _Reading:
             _draw_box(frame, 0.0, 0.0, 1.0, 1.0)
             self.shapes.append(_painted(frame.finished(), Painting(), state))
             return
-        own = affine.compose(state.matrix, _matrix(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
+        own = affine.compose(state.matrix, matrix_of(drawn.get("/Matrix", (1, 0, 0, 1, 0, 0))))
         inside = replace(state, matrix=own)
         self.follow(drawn, drawn.get("/Resources", resources), inside, depth + 1)
 
@@ -153,7 +153,7 @@ class _Reading:
         if name == "Tr":
             return replace(state, text_mode=int(operands[0]))
         if name == "cm":
-            return replace(state, matrix=affine.compose(state.matrix, _matrix(operands)))
+            return replace(state, matrix=affine.compose(state.matrix, matrix_of(operands)))
         if name == "w":
             pen = replace(pen, width=float(operands[0]))
         elif name == "J":
@@ -194,6 +194,7 @@ def _painted(pieces: list[SubPath], painting: Painting, state: _State) -> Painte
     return Painted(pieces, state.matrix, painting, None, _NOWHERE, state.clips)
 
 
-def _matrix(numbers: Any) -> FloatArray:
+def matrix_of(numbers: Any) -> FloatArray:
+    """Map, 2 x 3, of the six numbers of a PDF."""
     a, b, c, d, e, f = (float(v) for v in numbers)
     return np.array([[a, c, e], [b, d, f]])

@@ -39,7 +39,7 @@ from packwork.steps.finish import gap_with_bulge
 from packwork.steps.line_weights import evened
 from packwork.steps.measure import RemarkCount
 from packwork.steps.place import first_angles
-from packwork.steps.shortfalls import Advise
+from packwork.steps.shortfalls import Advise, TellOneColour
 from packwork.uses.icons import NO_CONTAINER
 from packwork.uses.piles.opening import opened, source_of
 
@@ -342,5 +342,5 @@ class PileUse(UseOf):
         return [*own, RemarkCount(by_width=False)] if job.is_counted and not self.words else own
 
 
-NOT_OF_PILES = (Advise, RemarkCount)
+NOT_OF_PILES = (Advise, RemarkCount, TellOneColour)
 """Steps of other uses' reports that speak of filling a container."""
