@@ -1,7 +1,7 @@
 """Strip packing instances of a folder, beside spyrrow where it is installed.
 
     packwork bench nest FOLDER [seconds=60] [seeds=3] [only=swim,shirts] [workers=2] [page=yes]
-                               [kept=FILE.json]
+                               [kept=FILE.json] [long=600] [note=TEXT]
     packwork bench nest wild [seconds=30] [seeds=3] [workers=2] [page=yes]
 
 Both get the same seconds and cores. Density is the parts' true area over the used strip; what
@@ -9,6 +9,8 @@ either gives is held against the exact polygons by Shapely. ``wild`` are thin, h
 parts that are made here. ``page=yes`` writes the page of figures and its manifest. Twelve
 instances with three seeds take more than an hour: what is found goes to ``kept`` at once, and a
 run that was broken off goes on from there; ``seeds=kept`` shows what was found and runs nothing.
+``long`` adds a column: ours after so many seconds, one seed, where the authors give a mean;
+``note`` is said below the table.
 """
 
 from __future__ import annotations
@@ -204,6 +206,7 @@ def main(arguments: list[str]) -> None:
     """Print a line for each instance."""
     folder, *rest = arguments
     asked = {"seconds": "60", "seeds": "3", "only": "", "workers": "2", "page": "", "kept": ""}
+    asked |= {"long": "", "note": ""}
     asked |= dict(one.split("=", 1) for one in rest)
     seconds, workers = float(asked["seconds"]), int(asked["workers"])
     if folder == "wild":
@@ -214,10 +217,10 @@ def main(arguments: list[str]) -> None:
             write_text("nesting.md", of_parts(PAGE, write_manifest("nesting", manifest)))
         return
     peer = version("spyrrow")
-    lines = [
-        f"| instance | packwork | spyrrow {peer or '(not installed)'} | ahead | its authors |",
-        "| --- | --- | --- | --- | --- |",
-    ]
+    after = f"packwork, {asked['long']} s"
+    heads = ["instance", "packwork", f"spyrrow {peer or '(not installed)'}", "ahead"]
+    heads += [after, "its authors"] if asked["long"] else ["its authors"]
+    lines = [f"| {' | '.join(heads)} |", f"|{' --- |' * len(heads)}"]
     print("\n".join(lines))
     aheads = list[float]()
     found = Found(Path(asked["kept"]) if asked["kept"] else None)
@@ -227,7 +230,8 @@ def main(arguments: list[str]) -> None:
         instance = read_instance(path)
         own, other = list[float](), list[float]()
         given = asked["seeds"]
-        for seed in found.seeds(path.stem) if given == "kept" else range(int(given)):
+        of_all = found.seeds(path.stem, seconds, workers)
+        for seed in of_all if given == "kept" else range(int(given)):
             own.append(found.of("packwork", ours, instance, seconds, seed, workers))
             if peer:
                 other.append(found.of(f"spyrrow {peer}", theirs, instance, seconds, seed, workers))
@@ -235,8 +239,12 @@ def main(arguments: list[str]) -> None:
         if other:
             aheads.append(statistics.median(own) - statistics.median(other))
             ahead = f"{aheads[-1]:+.2f}"
-        cells = [_cell(own), _cell(other) if other else "-", ahead, AUTHORS.get(path.stem, "-")]
-        lines.append(f"| {' | '.join([path.stem, *map(str, cells)])} |")
+        cells = [_cell(own), _cell(other) if other else "-", ahead]
+        cells += ["-"] * bool(asked["long"]) + [str(AUTHORS.get(path.stem, "-"))]
+        if asked["long"] and path.stem in AUTHORS:
+            long = found.of("packwork", ours, instance, float(asked["long"]), 0, workers)
+            cells[-2] = f"{long:.2f}"
+        lines.append(f"| {' | '.join([path.stem, *cells])} |")
         print(lines[-1], flush=True)
     if asked["page"]:
         how_many = f"{asked['seeds']} seeds"
@@ -246,7 +254,8 @@ def main(arguments: list[str]) -> None:
             f"{seconds:g} s, {workers} threads, {how_many}: ahead on "
             f"{sum(ahead >= LEVEL for ahead in aheads)} of {len(aheads)}, behind on "
             f"{sum(ahead <= -LEVEL for ahead in aheads)}; {min(aheads):+.2f} to {max(aheads):+.2f}."
-        )
+            f" {asked['note']}"
+        ).strip()
         kept = text_of(read_manifest("nesting")["parts"]["wild"])
         write_page("nesting.md", PAGE, table="\n".join(lines), said=said, wild=kept)
 
@@ -260,10 +269,11 @@ class Found:
         if path is not None and path.exists():
             self.densities = json.loads(path.read_text(encoding="utf-8"))
 
-    def seeds(self, instance: str) -> range:
-        """Seeds with which all programs were run."""
+    def seeds(self, instance: str, seconds: float, workers: int) -> range:
+        """Seeds with which all programs were run so long."""
         programs = {key.partition(",")[0] for key in self.densities}
-        found = [key.rpartition(" ")[2] for key in self.densities if f", {instance}, " in key]
+        run = f", {instance}, {seconds:g} s, {workers} threads, "
+        found = [key.rpartition(" ")[2] for key in self.densities if run in key]
         return range(sum(found.count(seed) == len(programs) for seed in set(found)))
 
     def of(
