@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.live.document import halos_of
 from packwork.live.face.exporting import check, layout_bytes
-from packwork.live.ground import gradient
+from packwork.live.ground import covering, gradient, gradient_text, sheet_box
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.readers.builtin import icon_names
@@ -68,6 +70,12 @@ def test_a_file_and_a_log_keep_how_each_was_drawn(drawn: pw.Layout, tmp_path: Pa
     stream, begun = io.StringIO(), drawn.edit().document
     session = pw.Session(begun, log=Log(stream))
     session.palette("ink")
+    session.background("radial-gradient(navy, rgb(255 0 0 / 50%), pink)")
+    session.save(tmp_path / "b.packwork")
+    behind = pw.Session.open(tmp_path / "b.packwork").document.behind
+    assert gradient_text(behind) == "radial-gradient(#000080, #ff000080, #ffc0cb)"
+    assert behind is not None
+    assert gradient_text(replace(behind, source=f"{behind.source}, url(x)")) == ""
     session.background("ivory")
     session.save(tmp_path / "a.packwork")
     again = pw.Session.open(tmp_path / "a.packwork")
@@ -78,7 +86,8 @@ def test_a_file_and_a_log_keep_how_each_was_drawn(drawn: pw.Layout, tmp_path: Pa
     entries = read_entries(iter(stream.getvalue().splitlines()), "log")
     done = Session.replay(begun, entries)
     assert [one_colour(a) for a in arts(done)] == [one_colour(a) for a in arts(session)]
-    session.undo()
+    for _ in range(2):
+        session.undo()
     assert session.layout.ground == ""
 
 
@@ -163,6 +172,27 @@ def test_items_that_come_later_or_change_their_colours_have_halos_too(drawn: pw.
     assert "" not in {item.halo for item in stars}
     session.undo()
     assert {item.halo for item in session.document.items if item.name == "star"} == {""}
+
+
+def test_halos_of_a_file_are_those_that_were_asked_for(drawn: pw.Layout, tmp_path: Path) -> None:
+    drawn.save(tmp_path / "a.svg", halo="all", background="#171717")
+    session = pw.Layout.load(tmp_path / "a.svg").edit()
+    assert session.document.halos == "all"
+    session.add("moon", x=10.0, y=10.0)
+    assert "" not in {item.halo for item in session.document.items}
+    # Those by which a run has let some stand out from its picture stay as they are.
+    colours = gradient("linear-gradient(black, white)", drawn.container)
+    assert colours is not None
+    ground = covering(colours, sheet_box(drawn.container))
+    items = tuple(replace(item, halo="#fff" * (item.name == "star")) for item in drawn.items)
+    on_picture = replace(drawn, container=replace(drawn.container, backdrop=ground), items=items)
+    session = on_picture.edit()
+    session.recolor("heart", "teal")
+    assert {i.name for i in session.document.items if i.halo} == {"star"}
+    assert halos_of(session.document.items) == "faint"
+    for choice, count in (("all", len(drawn.items)), ("none", 0)):
+        session.do("halos", choice=choice)
+        assert sum(bool(item.halo) for item in session.document.items) == count
 
 
 def test_a_gradient_without_end_is_refused_before_it_is_parted() -> None:

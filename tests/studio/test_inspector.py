@@ -85,6 +85,21 @@ def test_what_is_typed_is_for_what_was_chosen_then(open_desk: Callable[..., Desk
         desk.until(f"!({is_so})")
         desk.settled()
     assert desk.look("studio.collage.pose(2).x") == pytest.approx(x, abs=1e-3)
+    # A colour is told once its window is left, which is another click.
+    other = desk.look("studio.collage.colour(2)")
+    chosen(desk, 0)
+    field = desk.page.locator(".editor [type=color]")
+    field.dispatch_event("click")
+    desk.look(
+        "(one => (one.value = '#aa2244', one.dispatchEvent(new Event('input'))))"
+        "(document.querySelector('.editor [type=color]'))"
+    )
+    desk.page.mouse.click(*desk.place(2))
+    field.dispatch_event("change")
+    desk.until("studio.collage.colour(0) === '#aa2244'")
+    assert desk.look("studio.collage.colour(2)") == other
+    undo.click()
+    desk.settled()
 
 
 def test_numbers_are_typed_each_one_step_back(open_desk: Callable[..., Desk]) -> None:

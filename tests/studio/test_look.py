@@ -115,9 +115,18 @@ def test_halos_are_on_the_page(desk: Desk) -> None:
     })()""")
     assert is_seen
     desk.picture("halos")
-    desk.page.locator("#bar [data-do=undo]").click()
+    # Fields and buttons say what there is, whoever has asked for it.
+    desk.look("studio.connection.do({ kind: 'background', colour: 'radial-gradient(red, blue)' })")
+    desk.until("studio.collage.scene.gradient")
+    fields = [one.input_value() for one in desk.page.get_by_label("of the gradient").all()]
+    assert fields == ["#ff0000", "#0000ff", "radial-gradient("]
+    black = desk.page.locator("#panel [data-ground='#171717']")
+    assert black.get_attribute("aria-pressed") == "false"
+    for _ in range(2):
+        desk.page.locator("#bar [data-do=undo]").click()
     desk.until("studio.collage.items.every((item) => !item.halo)")
     assert halos.input_value() == "none"
+    assert black.get_attribute("aria-pressed") == "true"
 
 
 def test_a_pipette_is_there_where_the_browser_has_one(desk: Desk) -> None:

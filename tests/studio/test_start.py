@@ -63,11 +63,14 @@ def test_a_template_begins_a_document(
     desk = open_desk()
     if not desk.look("studio.start.dialog.open"):
         desk.page.keyboard.press("Shift+N")
+    desk.look("studio.choice.set([studio.collage.items[0].id])")
     desk.page.locator("dialog.start").get_by_role("button", name=button).click()
     desk.until(
         f"studio.collage.scene?.kind === '{kind}' && studio.collage.items.length === {count}"
     )
     desk.settled()
+    # What has the same number there is another item.
+    assert desk.look("studio.choice.ids.size") == 0
     desk.picture(f"template-{kind}")
 
 

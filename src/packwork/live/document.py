@@ -19,6 +19,7 @@ from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.forces import forces_of
+from packwork.recipe.pictures import Shades
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout, ground_in, is_hex
@@ -112,7 +113,7 @@ class Document:
             held=held,
             options=options,
             next_id=count,
-            manifest=kind.begun(layout.manifest, options.padding),
+            manifest=_with_halos(kind.begun(layout.manifest, options.padding), layout),
             notes=attached(layout),
         )
         return document.with_ranges(options)
@@ -163,6 +164,12 @@ class Document:
         """Items that were asked to have halos; None where nothing was."""
         asked = self.manifest.get("halos")
         return asked if asked in get_args(HaloChoice) else None
+
+    @property
+    def shades(self) -> Shades | None:
+        """Treatment of drawings of several colours by the palette put on last; None of none."""
+        asked = self.manifest.get("shades")
+        return asked if asked in get_args(Shades) else None
 
     @property
     def rim(self) -> float:
@@ -343,3 +350,15 @@ def counted_weight(item: Item) -> float | None:
     except ValueError:
         return None
     return found if 0 < found < math.inf else None
+
+
+def halos_of(items: Sequence[Item]) -> HaloChoice | Literal[""]:
+    """Choice of halos that items which have them look like; empty where none has one."""
+    have = [bool(item.halo) for item in items]
+    return "" if not any(have) else "all" if all(have) else "faint"
+
+
+def _with_halos(manifest: Mapping[str, Any], layout: Layout) -> Mapping[str, Any]:
+    """Manifest that asks for the halos of a file; those on a picture follow from that."""
+    found = "" if layout.container.backdrop is not None else halos_of(layout.items)
+    return {"halos": found, **manifest} if found else manifest

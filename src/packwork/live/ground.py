@@ -26,6 +26,10 @@ files larger. Chosen: 20 cm at 300 to the inch."""
 
 _GRADIENT = re.compile(r"\s*(linear|radial)-gradient\((.*)\)\s*", re.DOTALL)
 _ANGLE = re.compile(r"\s*(-?\d{1,4}(?:\.\d{1,6})?)deg\s*")
+_PLAIN = re.compile(
+    r"(linear-gradient\(-?\d{1,4}(\.\d{1,6})?deg|radial-gradient\(#[0-9a-f]{6,8})"
+    r"(, #[0-9a-f]{6,8})+\)"
+)
 _COMMA = re.compile(r",(?![^(]*\))")
 
 DOWN = 180.0
@@ -70,7 +74,27 @@ def gradient(text: str, container: Container) -> Item | None:
         f'<{met[1]}Gradient id="{key}" gradientUnits="userSpaceOnUse" {ends}>{stops}'
         f'</{met[1]}Gradient><path fill="url(#{key})" d="{_rectangle(box)}"/>'
     )
-    return Item("gradient", "gradient", box, box, VectorArt(markup, np.eye(2, 3)))
+    turned = "" if met[1] == "radial" else f"{np.degrees(angle):.9g}deg, "
+    said = ", ".join(hex_colour(one) + f"{one[3]:02x}" * (one[3] < 255) for one in colours)
+    plain = f"{met[1]}-gradient({turned}{said})"
+    return Item("gradient", plain, box, box, VectorArt(markup, np.eye(2, 3)))
+
+
+def gradient_text(behind: Item | None) -> str:
+    """Gradient that an item is the drawing of, as CSS writes it; empty for any other.
+
+    Examples
+    --------
+    >>> from packwork.readers.builtin import builtin_container
+    >>> drawn = gradient("linear-gradient(navy, pink)", builtin_container("circle", 100.0))
+    >>> gradient_text(drawn), gradient_text(None)
+    ('linear-gradient(180deg, #000080, #ffc0cb)', '')
+    """
+    if behind is None or behind.name != "gradient":
+        return ""
+    # Items of a session's file may say anything of themselves.
+    is_one = len(behind.source) <= LONGEST and _PLAIN.fullmatch(behind.source)
+    return behind.source if is_one else ""
 
 
 def sheet_box(container: Container) -> Outline:

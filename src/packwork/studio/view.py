@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import starmap
 from typing import Any, cast
@@ -10,9 +11,15 @@ from typing import Any, cast
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.live.document import PROPERTIES, Document, counted_weight, is_straight_word
+from packwork.live.document import (
+    PROPERTIES,
+    Document,
+    counted_weight,
+    halos_of,
+    is_straight_word,
+)
 from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
-from packwork.live.ground import underlays
+from packwork.live.ground import gradient_text, underlays
 from packwork.live.kinds import COLLAGE, Kind
 from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
@@ -51,6 +58,7 @@ class View:
     kind: Kind = COLLAGE
     title: str = ""
     palette: tuple[str, ...] = ()
+    shades: str = ""
     ground: str = ""
     notes: tuple[Attached, ...] = ()
     left_out: Mapping[str, float] = field(default_factory=dict)
@@ -74,12 +82,13 @@ class View:
             kind=document.kind,
             title=document.title,
             palette=document.palette,
+            shades=document.shades or "",
             ground=ground_in(document.manifest),
             notes=document.notes,
             left_out=document.left_out,
             mosaic=document.mosaic,
             behind=document.behind,
-            halos=document.halos or "",
+            halos=document.halos or halos_of(document.items),
             rim=document.rim,
             poses=poses or document.poses,
         )
@@ -115,8 +124,8 @@ class View:
             self.container is other.container
             and self.options == other.options
             and (self.kind, self.title) == (other.kind, other.title)
-            and (self.palette, self.ground) == (other.palette, other.ground)
-            and self.halos == other.halos
+            and (self.palette, self.shades) == (other.palette, other.shades)
+            and (self.ground, self.halos) == (other.ground, other.halos)
             and self.notes is other.notes
             and self.mosaic is other.mosaic
             and self.behind is other.behind
@@ -194,7 +203,10 @@ class Scenes:
             notes=tuple(map(_drawn, view.notes)),
             title=view.title or container.name,
             palette=view.palette,
+            shades=view.shades,
             ground=view.ground,
+            gradient=gradient_text(view.behind),
+            font=_font_of(view.items),
             left_out=dict(view.left_out),
             likeness=view.likeness,
             halos=view.halos,
@@ -258,6 +270,12 @@ def _crop_of(art: Art) -> tuple[float, float, float] | None:
     if not isinstance(art, PhotoArt):
         return None
     return (1.0, 0.0, 0.0) if art.crop is None else (art.crop.zoom, art.crop.x, art.crop.y)
+
+
+def _font_of(items: Sequence[Item]) -> str:
+    """Name of the font that most words begin with; empty where there are none."""
+    names = Counter(one.text.runs[0].font.name for one in items if one.text and one.text.runs)
+    return names.most_common(1)[0][0][:MOST_TOLD] if names else ""
 
 
 def left_out_of(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:

@@ -112,14 +112,20 @@ class Scene(Message):
     """That a person has given, or the container's name."""
     palette: tuple[str, ...] = ()
     """Colours put on all items; none where each has its own."""
+    shades: str = ""
+    """What then became of drawings of several colours; empty where nobody has said."""
     ground: str = ""
     """Colour behind all; empty for none."""
+    gradient: str = ""
+    """Gradient behind all, as CSS writes it; empty for none."""
+    font: str = ""
+    """Name of the font of most words; empty without words."""
     left_out: dict[str, float] = Field(default_factory=dict)
     """Words that a person left out, with how often they were there."""
     likeness: float | None = None
     """Share of the colours of the picture shown that items take on; None without one."""
     halos: str = ""
-    """Which items were asked to have halos."""
+    """Items that were asked to have halos, or that have some in a file; empty for none."""
     rim: float = 0.0
     """How far a halo reaches beyond its item, canvas units."""
     under: tuple[Underlay, ...] = ()
@@ -164,6 +170,8 @@ class State(Message):
     saved: bool
     clip: str
     """Token of what the studio holds to be pasted; empty for nothing."""
+    document: int = 0
+    """Number of the document, in the order in which they were opened."""
     fresh: bool = False
     """Whether it began with nothing that a person named, and nothing was done since."""
 

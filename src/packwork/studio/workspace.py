@@ -74,7 +74,7 @@ class Workspace:
         self._scenes = Scenes()
         self._stop = threading.Event()
         self._moment: View | None = None
-        self._busy, self._progress = "", 0.0
+        self._busy, self._progress, self._number = "", 0.0, 0
         self._desk: tuple[Owner, Keeper | None] | None = None
         self._unplaced: tuple[IntArray, tuple[LeftOut, ...]] | None = None
         self.clipboard = Clipboard()
@@ -86,8 +86,7 @@ class Workspace:
     async def begin(self) -> None:
         """Begin with what was given; returns at once."""
         self._loop = asyncio.get_running_loop()
-        given = self._opening
-        self.work("Pouring", partial(self._open, given, lambda: given.kept_in))
+        self.work("Pouring", partial(self._open, self._opening, lambda: self._opening.kept_in))
         self._tidying = asyncio.create_task(self._tidy())
 
     def close(self) -> None:
@@ -167,6 +166,7 @@ class Workspace:
         is_moving = is_run or frame is None or bool(work)
         calm = WINNING_BACK if not is_moving and frame is not None and frame.is_rough else ""
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
+        unmet = {} if frame is None or is_moving else frame.unmet
         return State(
             covered=view.covered,
             moving=is_moving,
@@ -175,9 +175,7 @@ class Workspace:
             entangled=() if frame is None or is_moving else frame.entangled,
             unplaced=self._left_out(view),
             advice=() if frame is None or is_moving else tuple(map(for_page, frame.advice)),
-            unmet={}
-            if frame is None or is_moving
-            else {k: for_page(line) for k, line in frame.unmet.items()},
+            unmet={k: for_page(line) for k, line in unmet.items()},
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy or work or calm,
@@ -185,6 +183,7 @@ class Workspace:
             can_stop=bool(self._busy),
             saved=self._desk is not None and self._desk[1] is not None,
             clip=self.clipboard.token,
+            document=self._number,
             fresh=self._is_fresh and not (frame is not None and frame.can_undo),
         )
 
@@ -311,7 +310,7 @@ class Workspace:
         session.begin_film()
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()
-        self._desk = owner, keeper
+        self._desk, self._number = (owner, keeper), self._number + 1
         owner.call(Session.make_ready)
 
     def _kept(self, file: Path, session: Session) -> Keeper | None:

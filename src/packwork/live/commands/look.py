@@ -13,7 +13,7 @@ from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, ItemId, Library, Number, index_of, known
 from packwork.live.document import Document
 from packwork.live.file.records import Text
-from packwork.live.ground import gradient
+from packwork.live.ground import gradient, underlays
 from packwork.live.mosaic import Mosaic, coloured
 from packwork.recipe.pictures import Shades, known_palette
 from packwork.scene.colour import hex_colour, parse_colour
@@ -53,7 +53,7 @@ class Paint(Command):
             raise RecipeError("palette", "colours of a chart stand for its groups, as its keys say")
         if palette:
             items = self._painted(document, items, palette)
-        manifest = {**document.manifest, "painted": list(palette)}
+        manifest = {**document.manifest, "painted": list(palette), "shades": self.shades}
         return replace(document, items=items, manifest=manifest, mosaic=None)
 
     def _painted(
@@ -128,11 +128,12 @@ def with_halos(document: Document, before: Document) -> Document:
     if is_same or not (choice := document.halos):
         return document
     ground: str | None = ground_in(document.manifest) or None
-    if document.behind is not None:
+    for picture, _, _ in underlays(document.container, document.behind, None):
         choice = "none" if choice == "none" else "all"
-        ground = hex_colour(tuple((255 * channels_of(mean_light(document.behind))).astype(int)))
+        ground = hex_colour(tuple((255 * channels_of(mean_light(picture))).astype(int)))
     bare = tuple(replace(item, halo="") for item in document.items)
-    layout = replace(document, items=bare, behind=None).layout
+    container = replace(document.container, backdrop=None)
+    layout = replace(document, container=container, items=bare, behind=None).layout
     return replace(document, items=haloed(layout, choice, ground).items)
 
 

@@ -15,9 +15,9 @@ const CHOSEN = ["inspect", "hold", "release", "duplicate", "crop", "replace", "g
 export class Bar {
   /**
    * @param {Map<string, Action>} actions
-   * @param {{recolour: (colour: string) => void, entitle: (title: string) => void, files: (x: number, y: number) => void}} hears
+   * @param {{recolour: (colour: string, ids: number[]) => void, chosen: () => number[], entitle: (title: string) => void, files: (x: number, y: number) => void}} hears
    */
-  constructor(actions, { recolour, entitle, files }) {
+  constructor(actions, { recolour, chosen, entitle, files }) {
     this.actions = actions;
     /** @type {Map<string, HTMLButtonElement[]>} */
     this.buttons = new Map();
@@ -37,7 +37,7 @@ export class Bar {
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );
     this.name = h("span", { class: "chosen-name" });
-    this.colour = picker("Give one colour", recolour);
+    this.colour = picker("Give one colour", recolour, chosen);
     byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)), this.colour.element);
   }
 

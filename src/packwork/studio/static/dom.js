@@ -110,18 +110,42 @@ export function button(name, label, act, given = {}) {
 }
 
 /**
+ * A field of a colour, which is taken for what it was opened for, whatever is chosen by then.
+ * @param {Record<string, any>} given
+ * @param {(colour: string, ids: number[]) => void} take
+ * @param {() => number[]} [ids] those that a colour is for
+ */
+export function colourField(given, take, ids = () => []) {
+  /** @type {{ids: number[], colour: string} | null} */
+  let opened = null;
+  const field = h("input", { type: "color", ...given,
+    onclick: () => (opened = { ids: ids(), colour: field.value }),
+    oninput: () => opened && (opened.colour = field.value),
+    onchange: () => {
+      const taken = opened ?? { ids: ids(), colour: field.value };
+      opened = null;
+      take(taken.colour, taken.ids);
+    } });
+  return field;
+}
+
+/**
  * A field of one colour, and where the browser can, a pipette that takes one from the screen.
  * @param {string} label
- * @param {(colour: string) => void} take
+ * @param {(colour: string, ids: number[]) => void} take
+ * @param {() => number[]} [ids] those that a colour is for
  */
-export function picker(label, take) {
-  const field = h("input", { type: "color", title: label, "aria-label": label, onchange: () => take(field.value) });
+export function picker(label, take, ids = () => []) {
+  const field = colourField({ title: label, "aria-label": label }, take, ids);
   const Pipette = /** @type {any} */ (globalThis).EyeDropper;
-  const pick = () => new Pipette().open().then((/** @type {any} */ found) => take(found.sRGBHex), () => {});
+  const pick = () => {
+    const opened = ids();
+    return new Pipette().open().then((/** @type {any} */ found) => take(found.sRGBHex, opened), () => {});
+  };
   const pipette = Pipette && button("pipette", `${label}, from the screen`, pick);
   /** @param {string} colour @param {boolean} isMixed whether it stands for none or for several */
   const show = (colour, isMixed) => {
-    if (document.activeElement !== field) field.value = colour;
+    showNumber(field, colour);
     field.classList.toggle("mixed", isMixed);
   };
   return { element: h("span", { class: "picker" }, field, pipette), field, show };
@@ -135,7 +159,7 @@ export function byId(id) {
 }
 
 /**
- * Show a number in a field; what is typed there and not asked for yet stays, and so does what is on its way.
+ * Show a number or a colour in a field; what is typed there and not asked for yet stays, and so does what is on its way.
  * @param {HTMLInputElement} field
  * @param {string} text
  */

@@ -16,14 +16,43 @@ export class FontField {
     this.told = changed;
     /** What the studio is told; null until one is chosen. @type {string | null} */
     this.value = null;
+    /** Fonts that words were seen in, by name: what the studio was told then. @type {Map<string, string | null>} */
+    this.known = new Map();
+    /** Name of the font that words have now. */
+    this.seen = "";
     this.field = h("select", { "aria-label": label, onchange: () => this.changed() }, option(BUNDLED, "Inter Display, bundled"), option(OWN, "A font file …"));
     this.element = h("label", { class: "row" }, label, this.field);
   }
 
+  /** Forget what was chosen in another document. */
+  begin() {
+    this.known.clear();
+    [this.value, this.seen, this.field.value] = [null, "", BUNDLED];
+  }
+
+  /** Show the font that words are in: of one that was undone the one before. @param {string} name empty without words */
+  show(name) {
+    if (name === this.seen) return;
+    this.seen = name;
+    if (!name) return;
+    if (!this.known.has(name)) this.known.set(name, this.value);
+    this.value = this.known.get(name) ?? null;
+    const known = this.value ?? name.toLowerCase();
+    if (![...this.field.options].some((one) => one.value === known)) this.field.prepend(option(known, name));
+    this.field.value = known;
+  }
+
+  /** What was chosen last is not to be had. */
+  refused() {
+    const name = this.seen;
+    this.seen = "";
+    this.show(name);
+  }
+
   async fill() {
     const choices = await this.studio.panels.load();
-    if (this.field.options.length > 2) return;
-    const families = (choices?.fonts ?? []).filter((/** @type {string} */ one) => one !== BUNDLED);
+    const there = new Set([...this.field.options].map((one) => one.value));
+    const families = (choices?.fonts ?? []).filter((/** @type {string} */ one) => !there.has(one));
     this.field.querySelector(`[value=${OWN}]`)?.before(...families.map((/** @type {string} */ one) => option(one, named(one))));
   }
 

@@ -2,7 +2,7 @@
 /** The inspector: numbers, name, weight and colour of what is chosen, each to be typed or dragged. */
 
 import { LINES } from "./actions.js";
-import { h, showAgain, showNumber } from "./dom.js";
+import { colourField, h, showAgain, showNumber } from "./dom.js";
 import { together } from "./hand.js";
 import { kindOf } from "./kinds.js";
 
@@ -29,7 +29,7 @@ export class Inspector {
     this.numbers = new Map(NUMBERS.map(([name, label, title]) => [name, this.number(name, label, title)]));
     this.name = h("input", { type: "text", maxlength: "200", "aria-label": "Name", onchange: () => this.rename() });
     this.weight = h("input", { type: "number", min: "0.01", step: "any", onchange: () => this.weigh() });
-    this.colour = h("input", { type: "color", value: "#1f6f78", onchange: () => studio.recolour(this.colour.value) });
+    this.colour = colourField({ value: "#1f6f78" }, (colour, ids) => studio.recolour(colour, ids), () => this.ids);
     this.unit = h("span", { class: "unit" });
     this.lines = h("div", { class: "lines", role: "group", "aria-label": "Line up", hidden: true }, ...LINES.map((id) => studio.bar.button(id)));
     const fields = [...this.numbers.values()].map((field) => /** @type {HTMLElement} */ (field.parentElement));
@@ -82,9 +82,8 @@ export class Inspector {
     const { sizes } = kindOf(collage);
     for (const field of [this.field("width"), this.field("height")]) field.disabled = !sizes;
     /** @type {HTMLElement} */ (this.weight.parentElement).hidden = !sizes;
-    for (const [field, value] of /** @type {const} */ ([[this.name, same(items.map((one) => one.name)) ?? ""], [this.colour, colour]])) {
-      if (document.activeElement !== field) field.value = value;
-    }
+    showNumber(this.name, same(items.map((one) => one.name)) ?? "");
+    showNumber(this.colour, colour);
     this.follow();
   }
 

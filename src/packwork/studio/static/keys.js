@@ -99,7 +99,7 @@ function closeMenu() {
 /** @param {Event} event */
 export function isTyping(event) {
   const target = event.target instanceof HTMLElement ? event.target : null;
-  return Boolean(target?.closest("input:not([type=checkbox]):not([type=range]), textarea, select"));
+  return Boolean(target?.closest("input:not([type=checkbox], [type=range], [type=color]), textarea, select"));
 }
 
 /** Whether the space bar presses nothing. @param {Event} event */

@@ -18,6 +18,8 @@ export class Look {
     this.strips = h("div", { class: "strips", role: "group", "aria-label": "Palettes" });
     this.own = h("div", { class: "swatches", role: "group", "aria-label": "Colours of the palette" });
     this.shown = "";
+    /** Treatment of drawings of several colours that the field shows. */
+    this.seen = "";
   }
 
   /** Colours that are put on all items. */
@@ -48,6 +50,9 @@ export class Look {
   refresh() {
     this.ground.refresh();
     this.mosaic.refresh();
+    const { shades = "" } = this.studio.collage.scene ?? {};
+    if (shades !== this.seen) this.shades.value = shades || "tint";
+    this.seen = shades;
     const now = this.colours.join(" ");
     for (const one of this.strips.querySelectorAll(".strip")) one.setAttribute("aria-pressed", String(!this.mosaic.isOn && /** @type {HTMLElement} */ (one).dataset.colours === now));
     if (this.shown === now && this.own.childElementCount) return;

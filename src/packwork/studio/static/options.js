@@ -19,6 +19,7 @@ export function fillOptions(body, studio, questions) {
   const now = studio.collage.scene?.options ?? {};
   const set = (/** @type {string} */ name, /** @type {any} */ value) => studio.connection.send({ type: "set", options: { [name]: value } });
   const { settings } = kindOf(studio.collage);
+  body.dataset.of = subject(studio);
   const asked = questions.filter((one) => !settings || settings.has(one.name));
   body.replaceChildren(...asked.map((one) => (one.choices.length ? choiceOf(one, now, set) : sliderOf(one, now, set, studio))),
     studio.forces.element, h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
@@ -29,16 +30,25 @@ export function fillOptions(body, studio, questions) {
  * Bring the fields up to what holds now, as after undo; what is being changed stays.
  * @param {HTMLElement} body
  * @param {import("./studio.js").Studio} studio
+ * @param {Question[]} questions
  */
-export function refreshOptions(body, studio) {
+export function refreshOptions(body, studio, questions) {
+  if (questions.length && body.dataset.of !== subject(studio)) return fillOptions(body, studio, questions);
   for (const [name, value] of Object.entries(studio.collage.scene?.options ?? {})) {
     const field = body.querySelector(`#ask-${name}`);
     const isOther = (field instanceof HTMLInputElement || field instanceof HTMLSelectElement) && field.value !== String(value);
     if (!isOther || field.matches(":active")) continue;
+    if (field instanceof HTMLSelectElement && ![...field.options].some((one) => one.value === String(value))) field.append(choice(String(value)));
+    else if (field instanceof HTMLInputElement) field.max = String(Math.max(Number(field.max), Number(value)));
     field.value = String(value);
     const shown = field.parentElement?.querySelector("output");
     if (shown) shown.textContent = `${value}${unitOf(name, studio)}`;
   }
+}
+
+/** What the questions depend on: kind of document and unit. @param {import("./studio.js").Studio} studio */
+function subject(studio) {
+  return `${studio.collage.scene?.kind} ${studio.collage.scene?.unit}`;
 }
 
 /** @param {string} name @param {import("./studio.js").Studio} studio */
@@ -51,8 +61,14 @@ function choiceOf(one, now, set) {
   const value = String(now[one.name] ?? one.default);
   const choices = one.choices.includes(value) ? one.choices : [...one.choices, value];
   const field = h("select", { onchange: (/** @type {Event} */ event) => set(one.name, /** @type {HTMLSelectElement} */ (event.target).value) },
-    ...choices.map((choice) => h("option", { value: choice, selected: choice === value }, /^\d+$/.test(choice) ? `within ${choice}°` : choice)));
+    ...choices.map(choice));
+  field.value = value;
   return labelled(one, field);
+}
+
+/** @param {string} value */
+function choice(value) {
+  return h("option", { value }, /^\d+$/.test(value) ? `within ${value}°` : value);
 }
 
 /**

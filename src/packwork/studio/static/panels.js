@@ -60,6 +60,8 @@ export class Panels {
   refused() {
     for (const slider of [this.words.mixing.slider, this.look.mosaic.likeness]) slider.refused();
     this.items.refused();
+    this.words.font.refused();
+    this.studio.dropping.sheet = null;
     this.refresh();
   }
 
@@ -101,13 +103,17 @@ export class Panels {
   refresh() {
     if (this.current === "items") this.items.refresh();
     this.studio.forces.refresh();
-    if (this.current === "options" && this.body) refreshOptions(this.body, this.studio);
+    if (this.current === "options" && this.body) refreshOptions(this.body, this.studio, this.choices?.options ?? []);
     if (this.current === "words") this.words.refresh();
     if (this.current === "look") this.look.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {
-      const now = this.panel.querySelector('[aria-label=Sheet] option[value=""]');
-      if (now) now.textContent = this.sheets()[0][1];
+      const sheet = /** @type {HTMLSelectElement | null} */ (this.panel.querySelector("[aria-label=Sheet]"));
+      if (sheet) {
+        sheet.options[0].textContent = this.sheets()[0][1];
+        // A size of one's own is shown once it is there.
+        sheet.value = SHEETS.find((one) => one === this.studio.dropping.sheet) ?? "";
+      }
       this.panel.querySelector(".edit-room")?.setAttribute("aria-pressed", String(this.studio.room.isOn));
       for (const one of this.panel.querySelectorAll(".grid .choice")) one.setAttribute("aria-pressed", String(one.getAttribute("aria-label") === name));
     }
@@ -127,7 +133,7 @@ export class Panels {
    */
   resheet(asked) {
     const size = asked === OTHER ? prompt("Width and height with a unit, as 300x200mm or 12x9in", "300x200mm") : asked;
-    if (!size) return;
+    if (!size) return this.refresh();
     this.studio.dropping.sheet = size;
     this.studio.connection.send({ type: "room", source: "same", canvas: size });
   }
@@ -140,7 +146,7 @@ export class Panels {
     const grid = h("div", { class: "grid" });
     const edit = h("button", { type: "button", class: "edit-room", "aria-pressed": String(this.studio.room.isOn), onclick: () => this.studio.editRoom() }, icon("shape"), "Edit its outline");
     const draw = (/** @type {string} */ label, /** @type {boolean} */ isHole) => h("button", { type: "button", onclick: () => this.studio.sketch.begin(isHole) }, icon("pencil"), label);
-    const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value) }, ...this.sheets().map(([value, label]) => h("option", { value, selected: value === dropping.sheet }, label)));
+    const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value) }, ...this.sheets().map(([value, label]) => h("option", { value }, label)));
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file")),
@@ -154,6 +160,7 @@ export class Panels {
         h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, onclick: () => connection.send({ type: "room", source: `builtin:${one.name}`, canvas: dropping.sheet }) }, picture(one))));
       this.refresh();
     });
+    this.refresh();
   }
 }
 

@@ -75,7 +75,8 @@ export class Studio {
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
     this.bar = new Bar(this.actions, {
-      recolour: (colour) => this.recolour(colour),
+      recolour: (colour, ids) => this.recolour(colour, ids),
+      chosen: () => [...this.choice.ids],
       entitle: (title) => this.connection.do({ kind: "entitle", title }),
       files: (x, y) => this.menu.openFiles(x, y),
     });
@@ -91,6 +92,8 @@ export class Studio {
     this.words = this.panels.words;
     this.incoming = new Incoming(this);
     this.start = new Start(this);
+    /** Number of the document that is open, as the studio counts them. */
+    this.document = 1;
     /** Whether templates were offered on this page, where nothing else was there. */
     this.wasOffered = false;
     /** What was told as asked for and not had. @type {Record<string, string>} */
@@ -147,6 +150,7 @@ export class Studio {
     if (!before || before.width !== scene.width || before.height !== scene.height) {
       this.view.whole = { width: scene.width, height: scene.height };
       this.view.fit(false);
+      this.dropping.sheet = null;
     }
     document.title = `${scene.title} – Packwork studio`;
     this.refresh();
@@ -156,12 +160,22 @@ export class Studio {
   stated(state) {
     const before = this.collage.state;
     this.collage.state = state;
+    if (state.document !== this.document) this.opened(state.document ?? 0);
     if (state.fresh && !this.wasOffered) this.start.open();
     this.wasOffered = true;
     this.badge.show(state);
     if (!state.moving) this.tellMissed(state.unmet);
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
+  }
+
+  /** Forget what is of no other document. @param {number} document its number */
+  opened(document) {
+    this.document = document;
+    this.choice.set([]);
+    this.variants.clear();
+    this.forces.places.clear();
+    this.words.opened();
   }
 
   /**
@@ -418,9 +432,10 @@ export class Studio {
     this.choice.set([]);
   }
 
-  /** @param {string} colour */
-  recolour(colour) {
-    if (this.choice.ids.size) this.connection.do({ kind: "recolour", items: [...this.choice.ids], colour });
+  /** @param {string} colour @param {number[]} ids */
+  recolour(colour, ids) {
+    const items = ids.filter((id) => this.collage.rows.has(id));
+    if (items.length) this.connection.do({ kind: "recolour", items, colour });
   }
 
   /** @param {number} factor */

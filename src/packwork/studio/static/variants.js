@@ -23,9 +23,14 @@ export class Variants {
     body.replaceChildren(h("p", { class: "hint" }, "The same items in other places. What is held stays. Undo brings the old one back."), h("div", { class: "row" }, ask), this.grid);
   }
 
-  ask() {
+  /** Offer none: those that were found are of another document, or others are asked for. */
+  clear() {
     this.found = [];
     this.grid.replaceChildren();
+  }
+
+  ask() {
+    this.clear();
     this.studio.connection.send({ type: "more", seed: Math.floor(Math.random() * 2 ** 29) });
   }
 

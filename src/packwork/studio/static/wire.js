@@ -55,7 +55,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], ground?: string, left_out?: any, likeness?: (number | null), halos?: string, rim?: number, under?: Underlay[]}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], shades?: string, ground?: string, gradient?: string, font?: string, left_out?: any, likeness?: (number | null), halos?: string, rim?: number, under?: Underlay[]}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "halos", choice: ("none" | "faint" | "all")}} SetHalos
@@ -63,7 +63,7 @@
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
- * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: any, can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, clip: string, fresh?: boolean}} State
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: any, can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, clip: string, document?: number, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, count: (number | null), stretch: number, is_word: boolean, held: [boolean, boolean, boolean], crop: ([number, number, number] | null), halo: string, parts: number}} Thing

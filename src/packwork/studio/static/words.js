@@ -17,6 +17,8 @@ export class Words {
   constructor(studio) {
     this.studio = studio;
     this.text = h("textarea", { id: "text", rows: "10", placeholder: EXAMPLE, "aria-label": "Text or table of words", spellcheck: "false", dir: "auto" });
+    /** Table that the field of text was filled with last. */
+    this.filled = "";
     this.count = h("input", { type: "number", id: "words-count", min: "1", max: "1000", value: "80" });
     this.font = new FontField(studio, "Font", (name) => this.setIn(name));
     this.palette = h("select", {});
@@ -33,7 +35,7 @@ export class Words {
     body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet, which undo brings back, or come beside it with a share of their own."), this.mixing.element, this.font.element, this.list.element,
       h("details", { open: true }, h("summary", {}, "A text or another table"), this.form));
     this.list.listed = "";
-    if (!this.text.value.trim()) this.text.value = this.table();
+    if (!this.text.value.trim()) this.filled = this.text.value;
     this.refresh();
     const choices = await this.studio.panels.load();
     if (!this.palette.options.length) {
@@ -42,8 +44,23 @@ export class Words {
     await this.font.fill();
   }
 
+  /** Begin anew with another document. */
+  opened() {
+    this.list.without.clear();
+    this.font.begin();
+    this.fillText("");
+  }
+
+  /** Have a table in the field of text, unless something was typed there. @param {string} table */
+  fillText(table) {
+    if (this.text.value === this.filled) this.text.value = table;
+    this.filled = table;
+  }
+
   refresh() {
     this.list.refresh();
+    this.font.show(this.studio.collage.scene?.font ?? "");
+    this.fillText(this.table());
     this.mixing.refresh();
     this.update.hidden = !this.studio.collage.items.some((item) => item.is_word);
   }

@@ -1,7 +1,7 @@
 // @ts-check
 /** The table of the words that are there: counted, coloured, upright, left out. */
 
-import { button, h } from "./dom.js";
+import { button, colourField, h } from "./dom.js";
 import { together } from "./hand.js";
 
 /** @typedef {import("./wire.js").Thing} Thing */
@@ -69,7 +69,7 @@ export class WordTable {
     const count = h("input", { type: "number", min: "0.01", step: "any", value: String(this.countOf(name, things)), "aria-label": `How often: ${name}`,
       onchange: () => Number(count.value) > 0 && this.tell(new Map([[name, Number(count.value)]])) });
     const own = collage.colour(id);
-    const colour = h("input", { type: "color", value: own ?? "#2d3748", "aria-label": `Colour of ${name}`, onchange: () => connection.do({ kind: "recolour", items: [id], colour: colour.value }) });
+    const colour = colourField({ value: own ?? "#2d3748", "aria-label": `Colour of ${name}` }, (value) => connection.do({ kind: "recolour", items: [id], colour: value }));
     const upright = button("upright", `${name} stays upright`, () => connection.do(held[1]
       ? { kind: "release", items: [id], properties: ["angle"] }
       : together([{ kind: "turn", item: id, angle: 0 }, { kind: "hold", items: [id], properties: ["angle"] }])), { "aria-pressed": String(held[1]) });
