@@ -74,6 +74,7 @@ BAD: dict[str, list[Any]] = {
     "delimiter": ["", "ab", "\n", 33],
     "decimal": ["", ";", 5],
     "encoding": ["latin-99", "rot13", 8],
+    "keep_totals": ["perhaps", 7],
     "least_dpi": [0, -72, NAN, INF, "fine"],
     "trim": ["perhaps", 7],
     "keep_page": ["perhaps", 7],

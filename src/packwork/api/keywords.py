@@ -355,6 +355,10 @@ class _WordsPhotos(TypedDict, total=False):
 class _WordsChart(TypedDict, total=False):
     """Options of words, chart."""
 
+    keep_totals: bool
+    """Take rows that are totals of the others, such as one called Total or Sum, for rows like them.
+    Default: they are left out and named."""
+
     background: str | None
     """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,7 @@ from packwork.readers.tables.delimited import delimiter_of
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.readers.tables.table import read_table
+from packwork.readers.tables.totals import total_rows
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
@@ -237,14 +239,50 @@ def test_rows_with_data_that_are_left_out_are_named_and_count(tmp_path: Path) ->
     assert "whose weight is no number: D (line 5), F (line 7)" in lost[0]
 
 
-def test_rows_that_repeat_or_add_up_others_are_told(tmp_path: Path) -> None:
+def test_rows_that_repeat_others_are_told_and_totals_left_out(tmp_path: Path) -> None:
     file = tmp_path / "t.csv"
     file.write_text("Land;Menge\nA;1\nB;2\nA;1\nSumme:;4\n", encoding="utf-8")
-    told = " | ".join(marks(file).notices)
+    read = marks(file)
+    told = " | ".join(read.notices)
     assert "1 row says the same as another in all columns, and is shown too: A" in told
-    assert "row 4 (Summe:) looks like the sum of the others" in told
+    assert "left out 1 row of 4 whose Menge is the total of others: Summe:; --keep-totals" in told
+    assert [item.name for item in read.items] == ["A", "B", "A"]
+    assert read.lost == ()
     words = read_word_items(WordOptions(source=str(file)))
-    assert any("looks like the sum" in str(error) for error in words.told)
+    assert {item.name for item in words.items} == {"A", "B"}
+    assert any("that is the total of others: Summe: (line 5)" in str(e) for e in words.told)
+
+
+def test_totals_are_kept_on_demand(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Land;Menge\nA;1\nB;2\nSumme;3\n", encoding="utf-8")
+    asked = TableFormat(keep_totals=True)
+    assert [item.name for item in marks(file, asked).items] == ["A", "B", "Summe"]
+    words = read_word_items(WordOptions(source=str(file)), asked=asked)
+    assert "Summe" in {item.name for item in words.items}
+
+
+@pytest.mark.parametrize(
+    ("rows", "totals"),
+    [
+        ([("A", 60), ("B", 40), ("Total 2024", 100)], [2]),
+        ([("Total", 120), ("A", 60), ("B", 40)], [0]),
+        ([("A", 6), ("Subtotal", 6), ("B", 4), ("Subtotal", 4), ("Grand total", 10)], [1, 3, 4]),
+        ([("A", 33), ("B", 33), ("C", 33), ("Gesamt", 98)], [3]),
+        ([("Shell", 60), ("Total", 70), ("BP", 40)], []),
+        ([("A", 1), ("B", 2), ("C", 3), ("D", 4), ("World", 10)], []),
+        ([("A", 1), ("B", 2), ("C", 3), ("D", 4), ("", 10)], [4]),
+        ([("", 1), ("", 2), ("", 3), ("", 4), ("", 10)], []),
+        ([("All Saints", 10), ("B", 2)], []),
+        ([("Total", 10)], []),
+        ([("A", math.nan), ("Total", math.nan)], []),
+        ([], []),
+    ],
+)
+def test_a_total_is_called_one_and_comes_to_the_others(
+    rows: list[tuple[str, float]], totals: list[int]
+) -> None:
+    assert total_rows([[name] for name, _ in rows], [number for _, number in rows]) == totals
 
 
 def test_a_weight_may_stand_there_twice_if_it_is_the_same(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import codecs
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import field_validator
 
@@ -32,6 +32,10 @@ class TableFormat(Options):
     encoding: str | None = None
     """How the letters of a table or a text are stored, such as utf-8, cp1252 or cp1251. Default:
     UTF-8, UTF-16, or the Windows encoding that its letters show."""
+
+    keep_totals: Annotated[bool, Offer(verbs=Verbs.CHART | Verbs.WORDS)] = False
+    """Take rows that are totals of the others, such as one called Total or Sum, for rows like
+    them. Default: they are left out and named."""
 
     @field_validator("delimiter", mode="before")
     @classmethod

@@ -20,7 +20,7 @@ from packwork.readers.tables.pairs import (
     pairs_of_rows,
     read_pairs,
 )
-from packwork.readers.tables.table import total_row
+from packwork.readers.tables.totals import is_sum_last, total_rows
 from packwork.readers.words.options import Word
 
 MAX_BYTES = 50_000_000
@@ -42,10 +42,11 @@ def read_word_table(file: str, asked: TableFormat, columns: PairColumns = USUAL)
     Further columns go under the names of the first line. Rows without a word, or without a
     positive number, are left out and named.
     """
-    return words_of(read_pairs(file, asked, MAX_BYTES, columns), file)
+    table = read_pairs(file, asked, MAX_BYTES, columns)
+    return words_of(table, file, keeps_totals=asked.keep_totals)
 
 
-def words_of(table: Pairs, file: str) -> TableRead:
+def words_of(table: Pairs, file: str, *, keeps_totals: bool = False) -> TableRead:
     """Words of a table that is read already."""
     sound = [pair for pair in table.rows if pair.is_sound]
     odd = [pair for pair in table.rows if not pair.is_sound]
@@ -57,10 +58,18 @@ def words_of(table: Pairs, file: str) -> TableRead:
     count = len(table.rows)
     notices = {why: _left_out(why, which, count) for why, which in said.items()}
     told = [text for why, text in notices.items() if why in _EMPTY]
-    total = total_row([pair.name for pair in sound], [pair.number for pair in sound])
-    if total is not None:
+    numbers = [pair.number for pair in sound]
+    totals = [] if keeps_totals else total_rows([[pair.name] for pair in sound], numbers)
+    if totals:
+        which = [sound[k] for k in totals]
+        sound = [pair for k, pair in enumerate(sound) if k not in totals]
         told.append(
-            f"{sound[total].name[:40]!r} ({sound[total].where}) looks like the sum of the others; "
+            f"{_left_out('that is the total of others', which, count)}; --keep-totals makes words "
+            "of totals too"
+        )
+    elif sound and is_sum_last(numbers):
+        told.append(
+            f"{sound[-1].name[:40]!r} ({sound[-1].where}) is the sum of the others by its weight; "
             "it is a word as they are: take it out of the table if it is none"
         )
     if sound and all(is_number_like(pair.name) for pair in sound):

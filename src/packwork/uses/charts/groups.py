@@ -165,6 +165,11 @@ def _check_count(count: int, table: Table, column: str) -> None:
     )
 
 
+def row_name(table: Table, row: int, label_by: str | None) -> str:
+    """What a row is called in messages: by its label or, without one, by its number."""
+    return f"row {row + 1}" if label_by is None else cell_text(table.rows[row].get(label_by))[:40]
+
+
 def left_out(
     table: Table, column: str, why: str, which: Sequence[int], label_by: str | None
 ) -> str:
@@ -176,10 +181,7 @@ def left_out(
     >>> left_out(Table("data", ("land",), rows), "land", "is missing", [1], None)
     'left out 1 row of 2 whose land is missing: row 2'
     """
-    names = [
-        f"row {k + 1}" if label_by is None else cell_text(table.rows[k].get(label_by))[:40]
-        for k in which
-    ]
+    names = [row_name(table, k, label_by) for k in which]
     count = f"{number_of(len(which), 'row')} of {len(table.rows)}"
     return f"left out {count} whose {column} {why}: {enumerated(names, MOST_NAMED)}"
 

@@ -110,9 +110,10 @@ def read_chart(
     >>> chart.notices
     ('left out 1 row of 3 whose t is 0: Fiji',)
     """
-    table = read_chart_table(options, asked or TableFormat())
+    asked = asked or TableFormat()
+    table = read_chart_table(options, asked)
     groups = read_groups(table, options)
-    shown_rows = read_amounts(table, options, groups)
+    shown_rows = read_amounts(table, options, groups, keeps_totals=asked.keep_totals)
     rows, amounts = shown_rows.rows, shown_rows.amounts
     owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
@@ -154,7 +155,7 @@ def read_chart(
         notices=tuple(notices),
         lost=tuple(notice for notice, is_lost in notices.items() if is_lost),
         ends=(float(values.min()), float(values.max())),
-        decimal=(asked and asked.decimal) or shown_decimal(number_cells),
+        decimal=asked.decimal or shown_decimal(number_cells),
     )
 
 

@@ -25,8 +25,9 @@ from packwork.readers.tables.cells import (
 )
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import MOST_NAMED
-from packwork.readers.tables.table import Row, Table, read_table, total_row
-from packwork.uses.charts.groups import LARGE, Groups, left_out, round_up
+from packwork.readers.tables.table import Row, Table, read_table
+from packwork.readers.tables.totals import is_sum_last, total_rows
+from packwork.uses.charts.groups import LARGE, Groups, left_out, round_up, row_name
 
 COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")
 """Options that name columns."""
@@ -72,12 +73,9 @@ def oddities(table: Table, options: ChartOptions) -> list[str]:
 
     Examples
     --------
-    >>> rows = ({"a": "x", "n": 2}, {"a": "y", "n": 1}, {"a": "x", "n": 2}, {"a": "Total", "n": 5})
-    >>> for text in oddities(*(lambda o: (read_chart_table(o, TableFormat()), o))(
-    ...     ChartOptions(data=rows, size_by="n", label_by="a"))):
-    ...     print(text)
-    1 row says the same as another in all columns, and is shown too: x
-    row 4 (Total) looks like the sum of the others, and is shown as they are
+    >>> rows = ({"a": "x", "n": 2}, {"a": "y", "n": 1}, {"a": "x", "n": 2})
+    >>> oddities(Table("data", ("a", "n"), rows), ChartOptions(data=rows, size_by="n", label_by="a"))
+    ['1 row says the same as another in all columns, and is shown too: x']
     """
     if options.size_by is None or options.label_by is None or len(table.rows) > MOST_COMPARED:
         return []
@@ -97,13 +95,36 @@ def oddities(table: Table, options: ChartOptions) -> list[str]:
             f"{rows} the same as {others} in all columns, and {shows} shown too: "
             f"{enumerated(twice, MOST_NAMED)}"
         )
-    total = total_row(names, [as_number(row.get(options.size_by)) for row in table.rows])
-    if total is not None:
-        told.append(
-            f"row {total + 1} ({names[total][:40]}) looks like the sum of the others, "
-            "and is shown as they are"
-        )
     return told
+
+
+def without_totals(
+    table: Table, column: str, label_by: str | None, numbers: Mapping[int, float]
+) -> tuple[dict[int, float], dict[str, bool]]:
+    """Numbers of rows that are no totals of the others; a sentence about those that are.
+
+    Examples
+    --------
+    >>> rows = ({"a": "x", "n": 2}, {"a": "y", "n": 3}, {"a": "Sum", "n": 5})
+    >>> without_totals(Table("data", ("a", "n"), rows), "n", "a", {0: 2.0, 1: 3.0, 2: 5.0})[0]
+    {0: 2.0, 1: 3.0}
+    """
+    which = list(numbers)
+    others = [name for name in table.columns if name != column]
+    texts = [
+        [cell_text(cell) for name in others if isinstance(cell := table.rows[k].get(name), str)]
+        for k in which
+    ]
+    totals = {which[place] for place in total_rows(texts, list(numbers.values()))}
+    if not totals and is_sum_last(list(numbers.values())):
+        name = row_name(table, which[-1], label_by)
+        told = f"{name} is the sum of the others by its number, and is shown as they are"
+        return dict(numbers), {told: False}
+    if not totals:
+        return dict(numbers), {}
+    told = left_out(table, column, "is the total of others", sorted(totals), label_by)
+    kept = {k: number for k, number in numbers.items() if k not in totals}
+    return kept, {f"{told}; --keep-totals shows totals too": False}
 
 
 def sizes(
@@ -175,13 +196,18 @@ class Amounts:
     notices: dict[str, bool]
 
 
-def read_amounts(table: Table, options: ChartOptions, groups: Groups | None) -> Amounts:
-    """Rows of a table that are shown; those in no group are not."""
+def read_amounts(
+    table: Table, options: ChartOptions, groups: Groups | None, *, keeps_totals: bool = False
+) -> Amounts:
+    """Rows of a table that are shown; those in no group are not, nor are totals."""
     member = [0] * len(table.rows) if groups is None else groups.of_row
     notices: dict[str, bool] = {}
     found = dict.fromkeys(range(len(table.rows)), 1.0)
     if options.size_by is not None:
         found, notices = sizes(table, options.size_by, options.label_by)
+        if not keeps_totals:
+            found, told = without_totals(table, options.size_by, options.label_by, found)
+            notices |= told
     which = [k for k in found if member[k] >= 0]
     if not which:
         raise RecipeError("by", f"no row has both a group in {options.by!r} and a size")
