@@ -89,6 +89,38 @@ def test_marks_of_one_colour_lie_in_layers_the_most_frequent_at_the_bottom() -> 
     assert np.quantile(y[~is_many], 0.8) < np.quantile(y[is_many], 0.2)
 
 
+def test_equal_upright_marks_stand_in_rows_those_of_one_kind_together() -> None:
+    cells = ["a"] * 7 + ["b"] * 3
+    rows = [{"g": cell, "kind": "xy"[k % 2]} for k, cell in enumerate(cells)]
+    layout = pw.chart("none", rows, by="g", mark=["owl", "tree"], mark_by="kind", effort="draft")
+    assert layout.certified
+    feet = [outline.bounds[3] for outline in layout.outlines]
+    groups = np.array([item.datum.group for item in layout.items])
+    kinds = np.array([item.datum.row["kind"] for item in layout.items])
+    for name, count in (("a", 7), ("b", 3)):
+        own = np.flatnonzero(groups == name)
+        levels = np.unique(np.round(np.array(feet)[own], 3))
+        rows_of = [own[np.abs(np.array(feet)[own] - level) < 1e-2] for level in levels[::-1]]
+        # Full rows from the foot, the last one begun at the left.
+        assert [len(row) for row in rows_of][:-1] == [len(rows_of[0])] * (len(rows_of) - 1)
+        assert sum(map(len, rows_of)) == count
+        ordered = [kinds[k] for row in rows_of for k in row[np.argsort(layout.poses.x[row])]]
+        assert ordered == sorted(ordered)
+    assert feet[0] == pytest.approx(feet[7], abs=1e-6)
+
+
+def test_marks_that_turn_or_differ_in_size_fall() -> None:
+    rows = [{"g": "a", "n": k} for k in range(1, 6)]
+    assert layout_method(rows, size_by="n", mark="owl") == "lowest"
+    assert layout_method(rows, mark="owl", rotate="free") == "lowest"
+    assert layout_method(rows, mark="owl") == "rows"
+
+
+def layout_method(rows: list[dict[str, Any]], **options: Any) -> str:
+    layout = pw.chart("none", rows, by="g", effort="draft", **options)
+    return str(layout.manifest["start"])
+
+
 def test_steps_without_rows_keep_their_place_among_bars() -> None:
     layout = pw.chart("none", ROWS, by="year", by_step=10, **QUICK)
     said = [note.says for note in layout.notes]

@@ -565,7 +565,7 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
 
     by: Cells | None
     """Column that parts marks into groups: each has a container of its own or, in container none,
-    is a bar that its marks have fallen into. All marks have one scale."""
+    is a bar that its marks stand in or have fallen into. All marks have one scale."""
 
     by_step: float | None
     """With --by and a column of numbers: groups of so many, as 10 for decades."""

@@ -56,7 +56,7 @@ class ChartOptions(Options):
 
     by: str | None = None
     """Column that parts marks into groups: each has a container of its own or, in container none,
-    is a bar that its marks have fallen into. All marks have one scale."""
+    is a bar that its marks stand in or have fallen into. All marks have one scale."""
 
     by_step: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     """With --by and a column of numbers: groups of so many, as 10 for decades."""

@@ -1,4 +1,4 @@
-"""Bar charts of piled marks: each group's marks fallen into a bar, all at one scale."""
+"""Bar charts of marks: each group's marks in rows or fallen into a bar, all at one scale."""
 
 from __future__ import annotations
 
@@ -18,13 +18,20 @@ from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext
 from packwork.progress import NOBODY, Observer, Stop
-from packwork.readers.tables.cells import MISSING, as_number
+from packwork.readers.tables.cells import MISSING, as_number, cell_text
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.pile import Arrival, SettleOptions, pile
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.place import first_angles
-from packwork.uses.charts.copies import Grouped, GroupSteps, moved, unit_scales
+from packwork.uses.charts.copies import (
+    Grouped,
+    GroupSteps,
+    moved,
+    settled_step,
+    unit_scales,
+)
+from packwork.uses.charts.isotype import are_in_rows, in_rows
 from packwork.uses.charts.layout import (
     COVER,
     SNUG_SHARE,
@@ -63,9 +70,11 @@ DOWN = np.pi / 2
 def fill_bars(job: Job, chart: Chart, context: RunContext) -> Grouped:
     """Heaps side by side, at the largest scale at which the highest has room.
 
-    Marks of one colour lie together, the most frequent one at the bottom; colours that are
-    numbers ascend.
+    Equal upright marks lie in rows. Marks of one colour lie together, the most frequent one at
+    the bottom; colours that are numbers ascend.
     """
+    if are_in_rows(job, chart):
+        return _in_rows(job, chart, context.observer)
     heaps = _Heaps(job, chart, context.stop)
     scale = heaps.scale_of_the_largest()
     for _ in range(TRIALS):
@@ -75,19 +84,36 @@ def fill_bars(job: Job, chart: Chart, context: RunContext) -> Grouped:
             break
         scale *= BACK / np.sqrt(over)
     heaped = [own[np.isin(own, kept)] for own in heaps.members]
-    gap = heaps.gap(scale)
-    rooms = [
-        _cut(cell, [job.items[k].outline.mapped(poses.matrix(int(k))) for k in own], gap)
-        for cell, own in zip(heaps.cells, heaped, strict=True)
-    ]
-    container = replace(
-        job.container, outline=joined_rooms([room for room in rooms if room is not None])
-    )
     left = np.setdiff1d(np.arange(len(job.items)), kept)
     unplaced = tuple(
         Unplaced(job.items[k].name, int(k), "there was no room left for it") for k in left
     )
+    container = _as_high(job, heaps.cells, heaped, poses, heaps.gap(scale))
     return Grouped(poses, kept, container, "lowest", unplaced)
+
+
+def _in_rows(job: Job, chart: Chart, observer: Observer) -> Grouped:
+    """Equal upright marks in rows, shown bar by bar."""
+    poses, before = in_rows(job, chart, _ranks(job, chart)), np.arange(0)
+    for own in chart.members:
+        steps = GroupSteps(observer, poses, before, own, np.zeros(2))
+        steps.on_step(settled_step(poses.subset(own)))
+        before = np.concatenate([before, own])
+    gap = gap_with_bulge(job, before, poses.scale)
+    container = _as_high(job, chart.cells, chart.members, poses, gap)
+    return Grouped(poses, np.sort(before), container, "rows", ())
+
+
+def _as_high(
+    job: Job, cells: Sequence[Cell], members: Sequence[IntArray], poses: Poses, gap: float
+) -> Container:
+    """The container whose bars are as high as what is in them."""
+    rooms = [
+        _cut(cell, [job.items[k].outline.mapped(poses.matrix(int(k))) for k in own], gap)
+        for cell, own in zip(cells, members, strict=True)
+    ]
+    outline = joined_rooms([room for room in rooms if room is not None])
+    return replace(job.container, outline=outline)
 
 
 class _Heaps:
@@ -234,12 +260,13 @@ def _ranks(job: Job, chart: Chart) -> IntArray:
     if read.is_ramp and column is not None:
         numbers = np.array([as_number(row.get(column)) for row in read.rows])
         return np.asarray(np.argsort(np.argsort(numbers, kind="stable"), kind="stable"))
-    if read.colour_of is None:
-        return np.zeros(len(read.items), dtype=np.int64)
-    frequent = [name for name, _ in Counter(read.colour_of).most_common()]
+    names, by = read.colour_of, chart.options.mark_by
+    if names is None:
+        names = tuple("" if by is None else cell_text(row.get(by)).casefold() for row in read.rows)
+    frequent = [name for name, _ in Counter(names).most_common()]
     named = sorted(frequent, key=lambda name: name == MISSING)
     order = {name: k for k, name in enumerate(named)}
-    return np.array([order[name] for name in read.colour_of], dtype=np.int64)
+    return np.array([order[name] for name in names], dtype=np.int64)
 
 
 def _cut(cell: Cell, outlines: list[Outline], gap: float) -> Cell | None:

@@ -124,10 +124,7 @@ def _as_before(
 ) -> _Filled:
     """A group whose marks lie as those of another, which are alike."""
     placed = replace(before, job=part)
-    nothing = (0.0, 0.0, 0.0)
-    steps.on_step(
-        Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True, stage="finish")
-    )
+    steps.on_step(settled_step(placed.poses))
     scale = float(np.median(placed.poses.scale / unit_scales(part)))
     return _Filled(own, offset, placed, scale)
 
@@ -210,6 +207,12 @@ class GroupSteps:
         self._observer.on_step(
             replace(step, poses=all_of_them.subset(there), ids=there, progress=progress)
         )
+
+
+def settled_step(poses: Poses) -> Step:
+    """The one step of marks whose places were known at once."""
+    nothing = (0.0, 0.0, 0.0)
+    return Step(0, 1, 0, 0, 1.0, poses, lambda: nothing, is_finish=True, stage="finish")
 
 
 def moved(poses: Poses, offset: FloatArray) -> Poses:

@@ -17,7 +17,6 @@ from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.cells import (
     FARTHEST,
     any_number,
-    as_number,
     cell_text,
     is_date,
     is_missing,
@@ -74,7 +73,8 @@ def oddities(table: Table, options: ChartOptions) -> list[str]:
     Examples
     --------
     >>> rows = ({"a": "x", "n": 2}, {"a": "y", "n": 1}, {"a": "x", "n": 2})
-    >>> oddities(Table("data", ("a", "n"), rows), ChartOptions(data=rows, size_by="n", label_by="a"))
+    >>> asked = ChartOptions(data=rows, size_by="n", label_by="a")
+    >>> oddities(Table("data", ("a", "n"), rows), asked)
     ['1 row says the same as another in all columns, and is shown too: x']
     """
     if options.size_by is None or options.label_by is None or len(table.rows) > MOST_COMPARED:
