@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 import packwork as pw
+from packwork.installed import EXTRAS
 
 ROOT = Path(__file__).parents[1]
 ASKED: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -57,6 +58,16 @@ def test_every_dependency_has_a_lower_bound() -> None:
     several = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
     named = [one for group in several for one in group if not one.startswith("packwork[")]
     assert [one for one in named if ">=" not in one] == []
+
+
+def test_messages_name_the_extra_that_brings_a_package() -> None:
+    brought = {
+        re.split("[>=]", one)[0]: extra
+        for extra, group in PROJECT["optional-dependencies"].items()
+        for one in group
+        if extra not in {"docs", "bench", "dev"} and not one.startswith("packwork[")
+    }
+    assert {**brought, "traitlets": "notebook"} == EXTRAS
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from packwork.adapters.torch import render, render_colour, render_items, torch_l
 )
 def test_every_use_says_what_to_install(use: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "torch", None)
-    with pytest.raises(pw.PackworkError, match=r"pip install torch$") as met:
+    with pytest.raises(pw.PackworkError, match=r'pip install "packwork\[torch\]"$') as met:
         use()
     assert "\n" not in str(met.value)
 

@@ -181,7 +181,7 @@ def test_help_keeps_its_brackets(packwork: Command, monkeypatch: pytest.MonkeyPa
         plain = shown.replace("│ ", "").replace(" │", "")
         lost = [text for text in said if "[" in text and " ".join(text.split()) not in plain]
         assert not lost, name
-    assert "pip install '.[studio]'" in packwork("studio --help").output
+    assert 'pip install "packwork[studio]"' in packwork("studio --help").output
     assert r"[#@]\w+" in packwork("words --help regexp").output
 
 

@@ -65,7 +65,9 @@ BAD: dict[str, list[Any]] = {
     "sizes": ["huge", "", None],
     "size_ratio": [0.99, -2, 101, NAN],
     "stretch": [0.99, 0, -2, 101, NAN, INF, "wide"],
-    "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ","],
+    "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ",",
+        "22,5", "11,25",
+    ],
     "padding": ["wide", "-1", "", "2 parsec", NAN, INF],
     "weights": [3, ["bear"], {"bear": "heavy"}],
     "holes": ["drill", True],
@@ -261,6 +263,9 @@ def test_numbers_and_tuples_say_the_same_as_text() -> None:
     recipe = make_recipe(container="heart", rotate=30, levels=(50, 200))
     assert recipe == make_recipe(container="heart", rotate="30", levels="50,200")
     assert make_recipe(container="heart", rotate=(0,)).rotation.choices == (0.0,)
+    assert make_recipe(container="heart", rotate=(22, 5)).rotation.choices == pytest.approx(
+        (math.radians(22), math.radians(5))
+    )
     assert plan(levels=[64]).solve_options().levels == (64,)
 
 

@@ -356,7 +356,9 @@ def test_formats_whose_packages_are_missing_are_offered_with_the_reason(
     monkeypatch.setattr(
         importlib.util, "find_spec", lambda name: None if name == "typst" else find(name)
     )
-    assert exporting.missing() == {"pdf": "needs the package typst; install it: pip install typst"}
+    assert exporting.missing() == {
+        "pdf": 'needs the package typst; install it: pip install "packwork[pdf]"'
+    }
 
 
 def test_a_desk_begins_with_a_run_that_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -65,6 +65,6 @@ def test_all_packages_that_a_format_lacks_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
-    line = "needs the packages typst and pikepdf; install them: pip install typst pikepdf"
+    line = r'needs the packages typst and pikepdf; install them: pip install "packwork\[pdf\]"$'
     with pytest.raises(WriteError, match=line):
         check_output(tmp_path / "a.pdf")

@@ -68,7 +68,7 @@ def test_a_missing_package_is_named_before_the_run_and_at_writing(
     ending: str, package: str, sheet: Layout, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, package, None)
-    path, told = tmp_path / f"a.{ending.upper()}", f"needs the package {package}; .*{package}$"
+    path, told = tmp_path / f"a.{ending.upper()}", f'needs the package {package}; .*{ending}]"$'
     for act in (check_output, lambda file: write(sheet, file)):
         with pytest.raises(WriteError, match=told):
             act(path)

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from packwork.arrays import Image, as_points, as_starts
 from packwork.errors import PackworkError, ShapeError
 from packwork.geometry.outline import Outline, joined
+from packwork.installed import command_to_install
 from packwork.losses.term import Term
 from packwork.raster.colour import prepare_colour_image
 from packwork.raster.coverage import Rasteriser
@@ -46,7 +47,8 @@ def found_torch() -> Any:
         if error.name != "torch":
             raise
         raise PackworkError(
-            "this needs PyTorch, which is not installed; install it: pip install torch"
+            "this needs PyTorch, which is not installed; install it: "
+            f"{command_to_install(['torch'])}"
         ) from None
 
 

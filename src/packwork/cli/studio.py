@@ -61,7 +61,7 @@ def studio(
 
     [bold]packwork studio --again[/]  what was worked on last, with all that undo leads to
 
-    Needs the extra: pip install '.[studio]'
+    Needs the extra: pip install "packwork[studio]"
     """
     with clear_errors():
         if host not in HERE and not i_know:
@@ -71,7 +71,7 @@ def studio(
         from packwork.display.extras import import_extra
 
         for module in ("starlette", "uvicorn", "websockets"):
-            import_extra(module, "all that the studio needs: pip install '.[studio]'")
+            import_extra(module, "work on the command line")
         from packwork.live.face.opening import Opening, opening_of
         from packwork.studio import kept_workspaces
         from packwork.studio.serving import Address, serve

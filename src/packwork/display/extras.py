@@ -14,15 +14,10 @@ import numpy as np
 
 from packwork.errors import PackworkError
 from packwork.geometry.outline import Outline
+from packwork.installed import command_to_install
 from packwork.readers.tables.cells import as_number, is_missing, is_numeric
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import representative_colour
-
-EXTRAS = {
-    "pandas": "data", "matplotlib": "plot", "geopandas": "geo", "anywidget": "notebook",
-    "traitlets": "notebook", "distributed": "cluster",
-}  # fmt: skip
-"""Extra of ours that brings a package."""
 
 
 def import_extra(module: str, otherwise: str) -> Any:
@@ -39,7 +34,6 @@ def import_extra(module: str, otherwise: str) -> Any:
     pip install no_such_package, or save a picture
     """
     package = module.partition(".")[0]
-    asked = f'"packwork[{EXTRAS[package]}]"' if package in EXTRAS else package
     try:
         importlib.import_module(package)
         return importlib.import_module(module)
@@ -48,7 +42,7 @@ def import_extra(module: str, otherwise: str) -> Any:
             raise
         raise PackworkError(
             f"this needs {package}, which is not installed; install it: "
-            f"pip install {asked}, or {otherwise}"
+            f"{command_to_install([package])}, or {otherwise}"
         ) from None
 
 

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from packwork.errors import RecipeError, WriteError
+from packwork.installed import command_to_install
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.palette import spot_inks_in
@@ -277,8 +278,7 @@ def _printing(asked: DrawingOptions) -> PrintOptions:
 PACKAGES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {".pdf": ("typst", "pikepdf"), ".dxf": ("ezdxf",), ".mp4": ("av",), ".webm": ("av",)}
 )
-"""File ending to the packages it needs: the extras ``pdf``, ``dxf`` and ``video`` of the
-project."""
+"""File ending to the packages it needs."""
 
 
 def check_extra(path: str | Path) -> None:
@@ -290,5 +290,5 @@ def check_extra(path: str | Path) -> None:
         raise WriteError(
             path,
             f"needs the {packages} {' and '.join(missing)}; install {them}: "
-            f"pip install {' '.join(missing)}",
+            f"{command_to_install(missing)}",
         )

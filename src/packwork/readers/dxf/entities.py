@@ -19,6 +19,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry.arcs import ArcLine, arc, arcs_along, circle, ellipse
+from packwork.installed import command_to_install
 from packwork.phrasing import number_of
 from packwork.readers.reading import UnfitError, notice
 
@@ -121,7 +122,8 @@ def _parsed(data: bytes) -> Drawing:
     try:
         from ezdxf import DXFError, recover
     except ImportError:
-        raise UnfitError("needs the package ezdxf; install it: pip install ezdxf") from None
+        how = command_to_install(["ezdxf"])
+        raise UnfitError(f"needs the package ezdxf; install it: {how}") from None
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
         document, audit = recover.read(io.BytesIO(data))

@@ -32,7 +32,7 @@ from packwork.readers.dxf.entities import (
     CadLine,
     read_drawing,
 )
-from packwork.readers.dxf.rings import RingPart, called, nested, place, rings_of
+from packwork.readers.dxf.rings import Ring, RingPart, called, nested, place, rings_of
 from packwork.readers.engraving import Engraving
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.pages import Read
@@ -52,6 +52,9 @@ ENGRAVED = re.compile(r"engrav|etch|grav|mark|text|score|raster|scribe", re.IGNO
 
 IGNORED = re.compile(r"constr|dimension|guide|\bdims?\b|border|title", re.IGNORECASE)
 """Names of layers of what is no part of a piece."""
+
+FRAME = re.compile(r"frame|rahmen|cadre|cornice|marco\b|ramka", re.IGNORECASE)
+"""Names of layers of what a sheet is drawn with."""
 
 OURS = {"container", "room"}
 """Layers of the sheet in drawings that we wrote."""
@@ -142,7 +145,7 @@ def cad_parts(
         else:
             (engraved if ENGRAVED.search(piece.layer) else cut).append(piece)
     rings, loose = rings_of(cut)
-    parts, doubled = nested(rings)
+    parts, doubled = nested(_without_frame(rings, left_out))
     if not parts:
         raise UnfitError(_why_none(cut, loose, engraved, left_out))
     if len(parts) > MOST_ITEMS:
@@ -159,6 +162,21 @@ def cad_parts(
     return [
         cad_part(part, own, flip, within=within) for part, own in zip(parts, marked, strict=True)
     ]
+
+
+def _without_frame(rings: list[Ring], left_out: Counter[str]) -> list[Ring]:
+    """Rings but those of a layer of frames, if each of them is drawn around all others."""
+    frames = [ring for ring in rings if FRAME.search(ring.layer)]
+    others = [ring for ring in rings if not FRAME.search(ring.layer)]
+    if not others or not frames:
+        return rings
+    inner = shapely.union_all([shapely.box(*ring.polygon.bounds) for ring in others])
+    if not all(ring.polygon.covers(inner) for ring in frames):
+        return rings
+    for ring in frames:
+        name = repr(ring.layer[:40])
+        left_out[f"around all else on layer {name} (a frame; another layer's name keeps it)"] += 1
+    return others
 
 
 def tell_left_out(left_out: Counter[str]) -> None:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from packwork.errors import ReadError
+from packwork.installed import command_to_install
 from packwork.readers.tables.delimited import check_size
 
 MOST_PAGES = 100_000
@@ -203,7 +204,7 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
         if (error.name or "").partition(".")[0] != "pyarrow":
             raise
         raise ReadError(
-            file, "needs pyarrow; install it: pip install pyarrow, or give CSV"
+            file, f"needs pyarrow; install it: {command_to_install(['pyarrow'])}, or give CSV"
         ) from None
     try:
         opened = parquet.ParquetFile(io.BytesIO(data))
