@@ -10,11 +10,13 @@ import pytest
 import shapely
 
 import packwork as pw
+from packwork import uses
 from packwork.errors import RecipeError
 from packwork.metrics.exact import exact_metrics
 from packwork.readers.layouts.read import read_written
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.thinner import line_drawing
+from packwork.recipe import make_recipe
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 
@@ -38,6 +40,22 @@ DRAWINGS = {
     "sheared": SHEARED,
 }  # fmt: skip
 FILLED = '<svg><path d="M0 0h20v20z" stroke="red"/></svg>'
+
+
+def test_lines_of_unlike_widths_are_told_where_sizes_are_free(tmp_path: Path) -> None:
+    def told(*drawings: str, **options: object) -> bool:
+        for k, svg in enumerate(drawings):
+            (tmp_path / f"{k}.svg").write_text(svg, encoding="utf-8")
+        items = [str(tmp_path / f"{k}.svg") for k in range(len(drawings))]
+        recipe = make_recipe(container="square", items=items, count=9, effort="draft", **options)
+        return any("--stroke-width even" in one for one in uses.fill(recipe).advice)
+
+    wide = HOUSE.replace('stroke-width="2"', 'stroke-width="9"')
+    assert told(HOUSE, RING, wide)
+    assert not told(HOUSE, RING, wide, stroke_width="even")
+    assert not told(HOUSE, RING, wide, sizes="shared")
+    assert not told(HOUSE, RING, size_ratio=1.2)
+    assert not told(FILLED)
 
 
 def item_of(svg: str, name: str = "it") -> Item:

@@ -13,6 +13,7 @@ import pytest
 from PIL import Image
 
 import packwork as pw
+from packwork import uses
 from packwork.errors import PackworkError, RecipeError
 from packwork.metrics.measure import measure
 from packwork.metrics.torus import torus_metrics
@@ -126,6 +127,18 @@ def test_words_and_photos_make_tiles_too(tmp_path: Path) -> None:
         Image.new("RGB", (60 + 9 * k, 80), (40 * k, 90, 120)).save(tmp_path / f"{k}.png")
     photos = pw.photos("page", tmp_path, tile="half-drop", effort="draft")
     assert photos.manifest["certified"]
+
+
+def test_one_giant_of_a_tile_is_said_to_show_the_repeat() -> None:
+    def advice(weights: dict[str, float]) -> tuple[str, ...]:
+        recipe = uses.words_recipe("page", weights, tile="square", effort="draft", levels="50")
+        return uses.fill(recipe).advice
+
+    small = {f"word{k}": 1.0 for k in range(8)}
+    (told,) = [one for one in advice({"giant": 20.0, **small}) if "the tile repeats" in one]
+    assert told.startswith("giant is ")
+    assert "weights that differ less would hide it" in told
+    assert not any("the tile repeats" in one for one in advice(small))
 
 
 @pytest.mark.parametrize(

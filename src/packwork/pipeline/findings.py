@@ -83,6 +83,16 @@ class Sentence(Enum):
         Told.ADVICE,
         "neighbours have one colour and touch; --padding 0.5% or --palette would tell them apart",
     )
+    SHOWS_REPEAT = (
+        Told.ADVICE,
+        "{item} is {percent:.0f} % of all that is drawn, {times:.1f} times the next, and shows "
+        "where the tile repeats; {remedy} would hide it",
+    )
+    UNLIKE_LINES = (
+        Told.ADVICE,
+        "drawings have lines up to {times:.0f} times as wide as others; --stroke-width even makes "
+        "them alike",
+    )
     FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
     COUNT = Told.REMARK, "auto chose {many}"

@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 
 from packwork.phrasing import enumerated
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -68,6 +69,37 @@ def evened(job: Job, poses: Poses, *, tells: bool = True) -> Job:
                 )
         items.append(thinner[key])
     return replace(job, items=tuple(items))
+
+
+UNLIKE = 3.0
+"""Times as wide as others that lines have to be to be told. Larger passes pictures that look as if
+several hands had drawn them, smaller blames free sizes that differ little. By eye."""
+
+MOST_LOOKED = 60
+"""Drawings at most whose lines are measured for that: some 5 ms each. Chosen."""
+
+
+@final
+class TellLineWeights(RunStep):
+    """Advice on line drawings of free sizes, whose lines grow with them."""
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the advice."""
+        job = state.job
+        known: dict[Item, float] = {}
+        widths = []
+        for item, scale, weight in zip(job.items, state.poses.scale, job.weights, strict=True):
+            if item not in known and len(known) < MOST_LOOKED:
+                line = line_drawing(item)
+                known[item] = np.nan if line is None else line.width
+            widths.append(known.get(item, np.nan) * scale if weight > 0 else np.nan)
+        found = np.array(widths)[~np.isnan(widths)]
+        if len(found) < 2:
+            return state
+        thin, wide = np.quantile(found, [THIN_ONES, 1 - THIN_ONES])
+        if wide < UNLIKE * thin:
+            return state
+        return state.with_finding(Sentence.UNLIKE_LINES, times=float(wide / thin))
 
 
 def _tell_of_traced(items: Sequence[Item]) -> None:

@@ -262,6 +262,12 @@ def _would_show(target: TargetPicture, layout: Layout) -> bool:
 
 
 def _more_items(job: Job, found: float, count: int) -> str:
+    """Number of items that would show a picture, or the tint.
+
+    What a correlation lacks falls at least as fast as the root of the number grows, so the
+    number is no smaller than it takes. Measured with 30, 60, 100, 200 and 300 icons: it lacks
+    .71, .49, .34, .24 and .15 of a portrait, .33, .23, .17, .11 and .07 of a photograph.
+    """
     needed = count * ((1 - found) / (1 - LEAST)) ** 2
     more = [f"-n {count:,}".replace(",", "") for count in COUNTS if count >= needed][:1]
     if job.tints.mean() < 0.5:

@@ -24,7 +24,7 @@ from packwork.steps.exchanges import ExchangeByForces, KindsApart
 from packwork.steps.finish import Finish, finished
 from packwork.steps.jam_discs import JamDiscs, jams_discs
 from packwork.steps.levels import Levels
-from packwork.steps.line_weights import EvenLines, FinishThinner
+from packwork.steps.line_weights import EvenLines, FinishThinner, TellLineWeights
 from packwork.steps.measure import Measure, RemarkCount, TellCoarse
 from packwork.steps.mosaic import Judge, ShowPicture, unrecognised
 from packwork.steps.place import Place
@@ -147,6 +147,8 @@ def reporting(
     steps: list[RunStep] = [Measure(), *found]
     if job.plan.has_even_lines:
         steps.insert(0, EvenLines())
+    elif job.plan.sizes == "free":
+        steps.append(TellLineWeights())
     if job.plan.least_dpi is not None:
         steps.append(TellCoarse())
     if job.plan.keeps_apart:

@@ -15,7 +15,7 @@ from packwork.steps.control import Replan
 from packwork.steps.finish import Finish
 from packwork.steps.levels import Levels
 from packwork.steps.place import Place
-from packwork.steps.repeat import IntoCell, Strewn
+from packwork.steps.repeat import IntoCell, Strewn, TellRepeat
 from packwork.steps.track import StartRecording
 
 
@@ -40,5 +40,5 @@ class TileUse(UseOf):
         return [*steps, IntoCell(), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
-        """As of the content."""
-        return self.content.report(job)
+        """As of the content; and whether one item shows the repeat."""
+        return [*self.content.report(job), TellRepeat()]

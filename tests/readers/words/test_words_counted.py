@@ -49,6 +49,15 @@ def test_words_of_any_script_are_found(text: str, expected: list[str]) -> None:
     assert tokens(text) == expected
 
 
+def test_capitals_at_the_beginning_of_sentences_tell_nothing() -> None:
+    text = "House prices rise. House owners, and a house. Alice ran, then Alice sat. However!"
+    words = read_words(WordOptions(source=text, language="none"))
+    found = {word.text: word.weight for word in words}
+    assert found["house"] == 3
+    assert {"Alice", "However", "prices"} <= set(found)
+    assert "House" not in found
+
+
 def test_texts_without_spaces_are_cut() -> None:
     assert "世界" in segments("我们的世界需要更多的爱")
     assert "文化" in segments("日本の文化が好きです")

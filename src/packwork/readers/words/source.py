@@ -252,6 +252,9 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         else matches(text, options.regexp)
     )
     counts, written = folded(count_forms(found))
+    # A capital at the beginning of a sentence tells nothing of how a word is written elsewhere.
+    votes = [words[1:] if words[0].istitle() else words for words in found]
+    written |= folded(count_forms(votes))[1]
     if not counts:
         hint = " (--include-numbers counts numbers, tables may have emoji)" if text.strip() else ""
         raise ReadError(
