@@ -176,8 +176,9 @@ def rotation_text(value: object) -> object:
     ('90,', '30', '22,5,')
     """
     text = as_text(value)
-    is_list = isinstance(value, tuple | list)
-    return f"{text}," if is_list and (len(value) == 1 or _HALVES.fullmatch(str(text))) else text
+    if isinstance(value, tuple | list) and (len(value) == 1 or _HALVES.fullmatch(str(text))):
+        return f"{text},"
+    return text
 
 
 def known_rotation(value: object) -> object:
