@@ -24,12 +24,12 @@ from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Move
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.exporting import kept_bytes, layout_bytes
-from packwork.live.file.machine_lines import LineRoom
 from packwork.live.file.session_file import packed, read_session, unpacked
 from packwork.live.file.values import text_of
 from packwork.live.nested_again import nested_again
 from packwork.live.session import Session
 from packwork.readers.items import read_items
+from packwork.readers.layouts.line_room import LineRoom
 from packwork.scene.line_art import LineArt
 from packwork.separation.strip import WorkBound
 
@@ -201,10 +201,11 @@ def test_arcs_are_bounded_before_a_map_stretches_them() -> None:
     line = ArcLine(drawn, np.full(100, 0.5))
     outline = Outline.from_region(shapely.box(-1, -1, 1, 1))
     tracemalloc.start()
-    assert not LineRoom(outline, np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]])).holds(line)
+    room = LineRoom(outline.region, outline.extent)
+    assert not room.holds(line, matrix=np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0]]))
     # Arcs that lie in the part, too many to be looked at closely.
     many = ArcLine(np.tile([[-0.4, 0.0], [0.4, 0.0]], (30_000, 1)), np.ones(60_000), True)
-    assert not LineRoom(outline, np.eye(2, 3)).holds(many)
+    assert not room.holds(many)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert most < 100e6
@@ -229,6 +230,19 @@ def of_session(layout: pw.Layout) -> tuple[LineArt, LineArt]:
     assert isinstance(art, LineArt)
     assert isinstance(kept, LineArt)
     return art, kept
+
+
+def test_a_straight_line_over_a_notch_leaves_its_part() -> None:
+    horseshoe = shapely.box(0, 0, 9, 9) - shapely.box(3, 0, 6, 6)
+    room = LineRoom(horseshoe, 9.0)
+    ends = np.array([[1.0, 1.0], [8.0, 1.0]])
+    inside = ArcLine(ends + np.array([0.0, 6.5]), np.zeros(2))
+    assert room.holds(inside)
+    assert not room.holds(inside, ArcLine(ends, np.zeros(2)))
+    assert room.holds_path("M1 8H8M1 1V8")
+    assert not room.holds_path("M1 8H8M1 1H8")
+    assert not room.holds(ArcLine(np.array([[1.0, 1.0], [1.0, 8.0], [8.0, 8.0], [8.0, 1.0]]),
+                                  np.zeros(4), is_closed=True))  # fmt: skip
 
 
 def test_curves_stay_what_they_are_in_a_session(tmp_path: Path) -> None:

@@ -27,7 +27,8 @@ from packwork.readers.layouts.assembly import (
     sound_outline,
     sound_weight,
 )
-from packwork.readers.layouts.marks import MarkRoom, left_out
+from packwork.readers.layouts.line_room import LineRoom
+from packwork.readers.layouts.marks import left_out
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.item import Item
@@ -334,11 +335,11 @@ def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[Foun
     outline = sound_outline(shape, f"item {number} ({name})")
     cut = tuple(paper.turned(one.line) for one in around)
     marks = [one for one in lines if one.is_engraved]
-    room = MarkRoom(outline.region, outline.extent) if marks else None
+    room = LineRoom(outline.region, outline.extent) if marks else None
     engraved = tuple(
         EngravedLine(drawn.points, drawn.bulges, drawn.is_closed, one.colour, one.layer)
         for one in marks
-        if (drawn := paper.turned(one.line)) and room and room.holds(drawn, affine.identity())
+        if (drawn := paper.turned(one.line)) and room and room.holds(drawn)
     )
     art = line_art(cut, engraved, outline.extent, outline.region, paper.pixel)
     x, y = outline.centroid.tolist()

@@ -22,7 +22,8 @@ from packwork.phrasing import number_of
 from packwork.readers.dxf.item import line_art
 from packwork.readers.layouts.arts import Arts, place_and_art
 from packwork.readers.layouts.assembly import sound_outline
-from packwork.readers.layouts.marks import Beside, MarkRoom, inverse, left_out, paint_of
+from packwork.readers.layouts.line_room import LineRoom
+from packwork.readers.layouts.marks import Beside, inverse, left_out, paint_of
 from packwork.readers.line_drawings import CURVES_PX, arc_line
 from packwork.readers.svg_syntax.coordinates import checked
 from packwork.readers.svg_syntax.path_data import parse_path
@@ -94,11 +95,11 @@ class LineParts:
             pixel = self._px_cu / scale
             cut = tuple(arc_lines_of(path, CURVES_PX * pixel))
             is_bare = not marks and artwork is None
-            room = None if is_bare else MarkRoom(whole.region, whole.extent)
+            room = None if is_bare else LineRoom(whole.region, whole.extent)
             engraved, met = list[EngravedLine](), Counter[str]()
             for one, map_ in zip(marks, moved, strict=True):
                 for made in arc_lines_of(one.data, CURVES_PX * pixel):
-                    if room is None or not room.holds(made, map_):
+                    if room is None or not room.holds(made, matrix=map_):
                         met["lines"] += 1
                         continue
                     line = EngravedLine(

@@ -13,13 +13,9 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-import shapely
-from shapely.geometry import LineString
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.geometry.arcs import ArcLine
-from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.phrasing import number_of
 from packwork.readers.cache import followed_once
@@ -30,24 +26,17 @@ from packwork.readers.layouts.foreign_svg import (
     layers_beside,
     tag,
 )
+from packwork.readers.layouts.line_room import PAINT_OFF
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import PaintedInk
-from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE, parse_length, parse_transform
+from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform
 from packwork.scene.line_art import ENGRAVED_COLOUR
 from packwork.units import convert
 
-LINES_OFF = 1e-4
-"""How far lines for a machine may lie beyond their part's outline, as a share of its extent, here
-and in a session's file. Chosen: above rounding, below what is seen."""
-
 WIDEST_MM = 1.0
 """Width of a stroke from which it is no line. Chosen: that of drawings that are read."""
-
-PAINT_OFF = 1e-3
-"""How far artwork may be painted beyond its part's outline, as a share of its extent. Chosen: it is
-followed anew, and nothing is cut there."""
 
 _SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 _FLAT = 1e-200
@@ -159,49 +148,6 @@ def inverse(matrix: FloatArray) -> FloatArray:
     if not np.isfinite(found).all():
         raise UnfitError("has a line to cut or artwork that is pressed flat")
     return found
-
-
-@final
-class MarkRoom:
-    """Room of a part for engraved lines: its outline, but for rounding."""
-
-    def __init__(self, region: Region, extent: float) -> None:
-        """``extent``: the part's size, in the units of its region."""
-        self._extent = extent
-        self._region = buffered(region, LINES_OFF * extent)
-        shapely.prepare(self._region)
-
-    def holds(self, line: ArcLine, matrix: FloatArray) -> bool:
-        """Whether a line lies in it, mapped (2 x 3) to its units.
-
-        Examples
-        --------
-        >>> room = MarkRoom(shapely.box(0, 0, 9, 9), 9.0)
-        >>> line = ArcLine(np.array([[1.0, 1.0], [8.0, 8.0]]), np.zeros(2))
-        >>> room.holds(line, affine.identity()), room.holds(line, 2.0 * affine.identity())
-        (True, False)
-        """
-        if not (np.abs(matrix) <= MAX_COORDINATE).all():
-            return False
-        # Before anything is followed: what is larger than the part takes long.
-        points = affine.apply(matrix, line.points)
-        chords = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
-        is_small = chords * np.maximum(np.abs(line.bulges), 1.0) <= 4.0 * self._extent
-        left, top, right, bottom = self._region.bounds
-        is_near = (points >= (left, top)).all() and (points <= (right, bottom)).all()
-        if not (is_near and is_small.all()):
-            return False
-        tolerance = LINES_OFF * self._extent / 4.0
-        flat = line.mapped(matrix, tolerance).flattened(tolerance)
-        whole = LineString(np.vstack([flat, flat[:1]]) if line.is_closed else flat)
-        return bool(self._region.covers(whole))
-
-    def holds_paint(self, paint: Region, matrix: FloatArray) -> bool:
-        """Whether what is painted lies in it and no more than ``PAINT_OFF`` beyond it."""
-        if not (np.abs(matrix) <= MAX_COORDINATE).all():
-            return False
-        region = shapely.transform(paint, lambda points: affine.apply(matrix, points))
-        return bool(buffered(self._region, PAINT_OFF * self._extent).covers(region))
 
 
 def paint_of(artwork: ET.Element, markup: str) -> Region | None:
