@@ -89,6 +89,10 @@ SHORT_ARC = math.pi / 5
 """Longest arc of a path, in radians: programs make cubics of them, which lie off it by 1.2e-6 of
 the radius, longer ones by more. Derived."""
 
+WIDEST_ARC = 1e6
+"""Largest radius of an arc, in the path's unit: programs that count in single precision, or bound
+their numbers, lose larger ones. A parabola of so little bend is within rounding of it. Chosen."""
+
 
 def arc_path_data(line: ArcLine, digits: int) -> str:
     """SVG path of a line with arcs, absolute coordinates.
@@ -98,6 +102,8 @@ def arc_path_data(line: ArcLine, digits: int) -> str:
     >>> from packwork.geometry.arcs import arc
     >>> arc_path_data(arc((0.0, 0.0), 2.0, 0.0, 0.5), 2)
     'M2 0A2 2 0 0 1 1.94 0.49A2 2 0 0 1 1.76 0.96'
+    >>> arc_path_data(ArcLine(np.array([[0.0, 0.0], [80.0, 0.0]]), np.array([1e-5, 0.0])), 4)
+    'M0 0Q40 -0.0008 80 0'
     """
     made = [f"M{points_text(line.points[:1], digits)}"]
     # A straight side at the end of a closed line is drawn by its Z.
@@ -107,6 +113,11 @@ def arc_path_data(line: ArcLine, digits: int) -> str:
     ):
         if abs(bulge) <= STRAIGHT:
             made.append(f"L{points_text(end[None], digits)}")
+            continue
+        if radius_of(start, end, bulge) > WIDEST_ARC:
+            chord = end - start
+            top = (start + end) / 2.0 + bulge * np.array([chord[1], -chord[0]])
+            made.append(f"Q{points_text(np.array([top, end]), digits)}")
             continue
         radius, sweep = f"{radius_of(start, end, bulge):.12g}", int(bulge > 0)
         made += [
