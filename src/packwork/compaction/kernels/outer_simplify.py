@@ -40,9 +40,12 @@ def _change(points, after, before, v, corner):
         return np.inf
     corner[0], corner[1] = points[u, 0] + along * ax, points[u, 1] + along * ay
     ex, ey = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
-    length = math.hypot(ex, ey)
-    height = abs(ex * (corner[1] - points[v, 1]) - ey * (corner[0] - points[v, 0]))
-    return height / length if length > 0.0 else 0.0
+    cx, cy = corner[0] - points[v, 0], corner[1] - points[v, 1]
+    length, along = math.hypot(ex, ey), ex * cx + ey * cy
+    if 0.0 < along < length * length:
+        return abs(ex * cy - ey * cx) / length
+    # Beside the edge, as where three edges in one line bend by rounding alone.
+    return min(math.hypot(cx, cy), math.hypot(cx - ex, cy - ey))
 
 
 @helper
