@@ -28,6 +28,7 @@ RING = (
     .buffer(4, quad_segs=6)
     .difference(shapely.Point(0, 0).buffer(3, quad_segs=6))
 )
+DOTS = shapely.unary_union([shapely.box(x, y, x + 0.2, y + 0.2) for x in (0, 4) for y in (0, 4)])
 TRIANGLE = shapely.Polygon([(-1.5, -1), (1.5, -1), (0, 2)])
 NEEDLE = shapely.box(-3, -0.05, 3, 0.05)
 
@@ -121,10 +122,12 @@ def test_what_collides_is_what_overlaps(seed: int) -> None:
     rng = np.random.default_rng(seed)
     parts = [Part(region=star(rng, 9), count=3, turns=None, mirrors=True),
              Part(region=RING, count=2, turns=None, mirrors=True),
-             Part(region=L_SHAPE, count=4, turns=None, mirrors=True)]  # fmt: skip
+             Part(region=L_SHAPE, count=4, turns=None, mirrors=True),
+             Part(region=DOTS, count=4, turns=None, mirrors=True)]  # fmt: skip
     problem = Problem(parts, Ground(16.0))
+    count = len(problem)
     poses = np.column_stack(
-        [rng.uniform(0, 16, (9, 2)), rng.uniform(0, 6, 9), rng.choice([-1, 1], 9)]
+        [rng.uniform(0, 16, (count, 2)), rng.uniform(0, 6, count), rng.choice([-1, 1], count)]
     )
     layout = WorkerState.of(problem, 16.0, poses, 1)
     polygons = placed(problem, poses)

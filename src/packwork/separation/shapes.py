@@ -26,6 +26,9 @@ MOST_CORNERS = 64
 FINEST = 2e-5
 """Distance by which they grow at first, over the diameter; twice as far until there are few."""
 
+COARSEST = 0.01
+"""Most of that. Many rings never have few corners: ten dots would become one field. Tried."""
+
 FREE_TURNS = 32
 """Angles at which a part that may lie at any is drawn; fewer propose worse places."""
 
@@ -94,8 +97,9 @@ def spare(region: Region, gap: float) -> Region:
     plain = region
     if shapely.get_num_coordinates(region) > MOST_CORNERS:
         x0, y0, x1, y1 = region.bounds
-        tolerance, rings = FINEST * math.hypot(x1 - x0, y1 - y0), Outline.from_region(region).rings
-        while True:
+        size, rings = math.hypot(x1 - x0, y1 - y0), Outline.from_region(region).rings
+        tolerance = FINEST * size
+        while tolerance <= COARSEST * size:
             plainer = Outline.from_rings([simplify_outward(ring, tolerance) for ring in rings])
             if not plainer.region.is_valid or plainer.region.area < region.area:
                 break

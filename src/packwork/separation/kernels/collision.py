@@ -85,6 +85,29 @@ def _holds(edges, first, last, px, py):
 
 
 @helper
+def _holds_ring(own, begin, end, box, edges, first, last):
+    """True for rings one of which begins inside others, whose box is ``box``.
+
+    Where no edges cross, the whole piece of a part that such a ring goes round lies there.
+    """
+    for k in range(begin, end):
+        x, y = own[0, k], own[1, k]
+        # Within a ring an edge begins where the one before it ends.
+        if k > begin and x == own[2, k - 1] and y == own[3, k - 1]:
+            continue
+        is_near = x >= box[0] and y >= box[1] and x <= box[2] and y <= box[3]
+        if is_near and _holds(edges, first, last, x, y):
+            return True
+    return False
+
+
+@helper
+def _is_ring(edges, first, last):
+    """True for edges of one ring."""
+    return edges[2, last - 1] == edges[0, first] and edges[3, last - 1] == edges[1, first]
+
+
+@helper
 def _touch(own, count, box, edges, first, last, other, close):
     """True for two parts that touch or overlap, both in absolute coordinates.
 
@@ -120,11 +143,17 @@ def _touch(own, count, box, edges, first, last, other, close):
                 if (one > 0.0 and two > 0.0) or (one < 0.0 and two < 0.0):
                     continue
                 return True
-    if box[0] >= other[X0] and box[1] >= other[Y0] and box[2] <= other[X1] and box[3] <= other[Y1]:
-        return _holds(edges, first, last, own[0, 0], own[1, 0])
-    if box[0] <= other[X0] and box[1] <= other[Y0] and box[2] >= other[X1] and box[3] >= other[Y1]:
-        return _holds(own, 0, count, edges[0, first], edges[1, first])
-    return False
+    is_in = box[0] >= other[X0] and box[1] >= other[Y0]
+    is_in = is_in and box[2] <= other[X1] and box[3] <= other[Y1]
+    if (is_in or not _is_ring(own, 0, count)) and _holds_ring(
+        own, 0, count, other[X0 : Y1 + 1], edges, first, last
+    ):
+        return True
+    is_around = box[0] <= other[X0] and box[1] <= other[Y0]
+    is_around = is_around and box[2] >= other[X1] and box[3] >= other[Y1]
+    return (is_around or not _is_ring(edges, first, last)) and _holds_ring(
+        edges, first, last, box, own, 0, count
+    )
 
 
 @helper
