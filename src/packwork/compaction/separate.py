@@ -84,13 +84,14 @@ def separate(
         places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
         arrangement.put(items, places)
         worn = arrangement.places[:, 3] < first - hopeless_at
-        hopeless = _smaller_of(bad, worn, arrangement)
-        if len(hopeless):
+        if worn.any() and len(hopeless := _smaller_of(bad, worn, arrangement)):
             relocate(arrangement, hopeless, gap)
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
         # All in conflict have changed: no other pair can be in one now.
-        changed = np.isin(arrangement.owners, items)
+        has_changed = np.zeros(arrangement.count + 1, dtype=bool)
+        has_changed[items] = True
+        changed = has_changed[arrangement.owners]
         near = arrangement.pairs(gap)
         near = near[changed[near].any(axis=1)]
     return np.unique(np.array(moved, dtype=np.int64))
@@ -139,8 +140,9 @@ def separate_evenly(
 
 
 def _items(pairs: IntArray, count: int) -> IntArray:
-    found = np.unique(pairs)
-    return found[found < count]
+    is_met = np.zeros(count + 1, dtype=bool)
+    is_met[pairs] = True
+    return np.flatnonzero(is_met[:count])
 
 
 def _smaller_of(bad: IntArray, worn: BoolArray, arrangement: Arrangement) -> IntArray:

@@ -132,6 +132,7 @@ class Flow:
         self._given: IntArray = np.zeros(0, dtype=np.int64)
         self._active: IntArray = np.zeros(0, dtype=np.int64)
         self._working: tuple[Level, Motion] | None = None
+        self._is_ahead = False
         self._is_held: BoolArray = np.zeros((0, 3), dtype=bool)
         self._since = 0
         self._hardness = 1.0
@@ -223,13 +224,8 @@ class Flow:
         """Run some epochs; at rest none does anything."""
         resolution = resolution or self.resolution
         for _ in range(epochs):
-            if self.is_at_rest:
-                return
-            working = self._working
-            is_due = self._since >= (REVIEW if self._may is None else LINGER)
-            if working is None or working[0].resolution != resolution or is_due:
-                working = self._rebuilt(resolution)
-            self._epoch(*working)
+            self._epoch(resolution)
+        self._write_back()
 
     def raise_overlap_weight(self, epochs: int, items: IntArray) -> None:
         """Run some epochs of items ``(m,)`` in which overlap counts ever more, as a run's last."""
@@ -237,9 +233,11 @@ class Flow:
         self._left[items] = epochs
         self._may = items
         self._since = LINGER
+        resolution = self.resolution
         for done in range(epochs):
             self._hardness = HARDENING ** (done / epochs)
-            self.run(1)
+            self._epoch(resolution)
+        self._write_back()
         self._hardness, self._may = 1.0, None
 
     def put_back(self, items: IntArray, poses: Poses) -> None:
@@ -251,14 +249,28 @@ class Flow:
         self.contacts.follow(items, self.document.poses)
         self._since = REVIEW
 
-    def _epoch(self, level: Level, motion: Motion) -> None:
+    def _epoch(self, resolution: int) -> None:
+        """Move what is active a step; the document is told by :meth:`_write_back`."""
+        if self.is_at_rest:
+            return
+        working = self._working
+        is_due = self._since >= (REVIEW if self._may is None else LINGER)
+        if working is None or working[0].resolution != resolution or is_due:
+            working = self._rebuilt(resolution)
+        level, motion = working
         weights = {k: w if k == "filling" else w * self._hardness for k, w in WEIGHTS.items()}
         weights["evenness"] = self.document.options.evenness
         gradient = level.gradient(motion.poses, weights, RECALL * self._hardness)
         motion.follow(gradient, max(int(self._left.max()) / LINGER, CALMEST))
-        self.document = self.document.with_poses(self._kept(motion.poses))
         self._since += 1
         self._left = np.maximum(self._left - 1, 0)
+        self._is_ahead = True
+
+    def _write_back(self) -> None:
+        """Give the document the poses to which epochs have moved its items."""
+        if self._is_ahead and self._working is not None:
+            self.document = self.document.with_poses(self._kept(self._working[1].poses))
+        self._is_ahead = False
 
     def _kept(self, moved: Poses) -> Poses:
         """All poses after those that are active have moved; what is held, bit for bit as it was."""
@@ -280,6 +292,7 @@ class Flow:
         self._left[reached] = np.maximum(self._left[reached], left)
 
     def _rebuilt(self, resolution: int) -> tuple[Level, Motion]:
+        self._write_back()
         self._since = 0
         if len(self._given) and self._may is None:
             self._reach(self._given, RINGS, int(self._left.max()))
