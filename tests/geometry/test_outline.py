@@ -14,7 +14,7 @@ from hypothesis import given
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.affine import similarity
-from packwork.geometry.outline import Outline, joined
+from packwork.geometry.outline import PORTION, Outline, joined, regions
 from packwork.geometry.polygon import Region, region, signed_area
 from strategies import rounded_sets, star_rings
 
@@ -110,6 +110,26 @@ def test_no_outlines_join_to_nothing() -> None:
     points, starts = joined([])
     assert points.shape == (0, 2)
     assert starts.tolist() == [0]
+
+
+def test_regions_made_together_are_those_made_one_by_one() -> None:
+    shapes = [shapely.box(1, 2, 4, 4), FRAME, ISLANDS, PINCHED, KISSING]
+    outlines = [Outline.from_region(shape) for shape in shapes]
+    # A hole first, and one that lies in a later ring: by nesting alone.
+    for order in ([1, 0], [0, 2, 1]):
+        ring = (FRAME.exterior, FRAME.interiors[0], shapely.box(30, 0, 40, 9).exterior)
+        rings = [shapely.get_coordinates(ring[k])[:-1] for k in order]
+        turned = [
+            r if (signed_area(r) > 0) == (k != 1) else r[::-1]
+            for k, r in zip(order, rings, strict=True)
+        ]
+        outlines.append(Outline.from_rings(turned))
+    found = regions(outlines)
+    assert not any("region" in one.__dict__ for one in outlines[:5])
+    expected = [copy.copy(one).region for one in outlines]
+    assert [shapely.to_wkb(one) for one in found] == [shapely.to_wkb(one) for one in expected]
+    many = regions(outlines[:1] * (PORTION + 1))
+    assert shapely.area(many).tolist() == [6.0] * (PORTION + 1)
 
 
 def test_a_silhouette_has_no_holes() -> None:

@@ -132,14 +132,7 @@ class Outline:
     @cached_property
     def _ring_areas(self) -> FloatArray:
         """Signed area of each ring: shoelace sums about its first vertex."""
-        x, y = (self.points - np.repeat(self.points[self.starts[:-1]], self._lengths, axis=0)).T
-        after = np.arange(1, len(x) + 1)
-        after[self.starts[1:] - 1] = self.starts[:-1]
-        return 0.5 * np.add.reduceat(x * y[after] - x[after] * y, self.starts[:-1])
-
-    @cached_property
-    def _lengths(self) -> IntArray:
-        return np.diff(self.starts)
+        return _signed_areas(self.points, self.starts)
 
     @cached_property
     def centroid(self) -> FloatArray:
@@ -282,3 +275,62 @@ def joined(outlines: Sequence[Outline]) -> tuple[FloatArray, IntArray]:
     ends = np.concatenate([[0], *(o.starts[1:] for o in outlines)]).astype(np.int64)
     ends[1:] += np.repeat(before, rings)
     return points, ends
+
+
+PORTION = 500
+"""Outlines whose regions are made at once. Larger takes memory, smaller time."""
+
+
+def regions(outlines: Sequence[Outline]) -> np.ndarray[Any, Any]:
+    """Array ``(n,)`` of each outline's region, made together, which is faster than one by one.
+
+    Not kept in the outlines; those that are there already are taken.
+
+    Examples
+    --------
+    >>> tile, hole = Outline.box(0, 0, 4, 4).rings[0], Outline.box(1, 1, 2, 2).rings[0][::-1]
+    >>> whole = Outline.from_rings([tile, hole, tile + 9])
+    >>> [region.area for region in regions([whole, Outline.from_rings([tile])])]
+    [31.0, 16.0]
+    """
+    found = np.empty(len(outlines), dtype=object)
+    for begin in range(0, len(outlines), PORTION):
+        some = outlines[begin : begin + PORTION]
+        known = [one.__dict__.get("region") for one in some]
+        fresh = [k for k, one in enumerate(known) if one is None]
+        for k, shape in zip(fresh, _assembled([some[k] for k in fresh]), strict=True):
+            known[k] = some[k].region if shape is None else shape
+        found[begin : begin + PORTION] = known
+    return found
+
+
+def _assembled(outlines: Sequence[Outline]) -> list[Region | None]:
+    """Region of each outline, its holes in the ring before them; None if they do not lie there."""
+    if not outlines:
+        return []
+    points, starts = joined(outlines)
+    lengths = np.diff(starts)
+    owner = np.repeat(np.arange(len(outlines)), [len(one.starts) - 1 for one in outlines])
+    is_outer = _signed_areas(points, starts) > 0
+    begins = np.flatnonzero(np.diff(owner, prepend=-1))
+    # Rings before the first that is no hole belong to it, wrongly: they are found invalid.
+    is_shell = is_outer.copy()
+    is_shell[begins] = True
+    rings = shapely.linearrings(points, indices=np.repeat(np.arange(len(lengths)), lengths))
+    polygons = shapely.polygons(rings, indices=np.cumsum(is_shell) - 1)
+    owners = owner[is_shell]
+    found = shapely.multipolygons(polygons, indices=owners)
+    is_alone = np.bincount(owner, minlength=len(outlines)) == 1
+    found[is_alone] = polygons[is_alone[owners]]
+    has_holes = np.bincount(owner, ~is_outer, minlength=len(outlines)) > 0
+    is_wrong = has_holes & ~(is_outer[begins] & shapely.is_valid(found))
+    found[is_wrong] = None
+    return list(found)
+
+
+def _signed_areas(points: FloatArray, starts: IntArray) -> FloatArray:
+    """``(rings,)`` shoelace sums of unclosed rings, each about its first vertex."""
+    x, y = (points - np.repeat(points[starts[:-1]], np.diff(starts), axis=0)).T
+    after = np.arange(1, len(x) + 1)
+    after[starts[1:] - 1] = starts[:-1]
+    return np.asarray(0.5 * np.add.reduceat(x * y[after] - x[after] * y, starts[:-1]))

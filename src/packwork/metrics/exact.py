@@ -15,6 +15,7 @@ from packwork.arrays import IntArray
 from packwork.errors import ShapeError
 from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline
+from packwork.geometry.outline import regions as regions_of
 from packwork.geometry.overlay import (
     Region,
     difference,
@@ -130,9 +131,10 @@ def _container_region(container: Outline) -> Region:
 
 
 def _regions(outlines: Sequence[Outline]) -> _Regions:
-    regions = np.empty(len(outlines), dtype=object)
-    regions[:] = [valid(outline.region) for outline in outlines]
-    return regions
+    found = regions_of(outlines)
+    crossing = ~shapely.is_valid(found)
+    found[crossing] = [valid(one) for one in found[crossing]]
+    return found
 
 
 def _meeting_pairs(regions: _Regions) -> IntArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -89,7 +89,11 @@ class Layout:
     @cached_property
     def outlines(self) -> tuple[Outline, ...]:
         """Each item's outline in place, canvas units."""
-        return tuple(item.outline.mapped(self.poses.matrix(k)) for k, item in enumerate(self.items))
+        return self.placed(range(len(self.items)))
+
+    def placed(self, numbers: Iterable[int]) -> tuple[Outline, ...]:
+        """Outlines of some items in place, canvas units, which are not kept."""
+        return tuple(self.items[k].outline.mapped(self.poses.matrix(k)) for k in numbers)
 
     @cached_property
     def inks(self) -> tuple[Outline, ...]:

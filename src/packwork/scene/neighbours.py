@@ -9,6 +9,7 @@ import shapely
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.outline import regions as regions_of
 
 NEAR = 0.5
 """Gap between two items that lie side by side at most, in radii of a disc as large as the
@@ -74,7 +75,7 @@ def side_by_side(outlines: Sequence[Outline], x: FloatArray, y: FloatArray) -> I
     if len(pairs) == 0:
         return pairs
     radius = float(np.sqrt(np.median([outline.area for outline in outlines]) / np.pi))
-    regions = np.array([outline.region for outline in outlines])
+    regions = regions_of(outlines)
     near = list[BoolArray]()
     for part in np.array_split(pairs, -(-len(pairs) // _PORTION)):
         first = regions[np.unique(part[:, 0])]

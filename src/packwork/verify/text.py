@@ -10,6 +10,7 @@ import shapely
 
 from packwork import writers
 from packwork.errors import PackworkError
+from packwork.geometry.outline import regions as regions_of
 from packwork.metrics.certificate import HAIR, Promise, unclean
 from packwork.metrics.exact import PORTION
 from packwork.metrics.measure import exact_of
@@ -162,7 +163,9 @@ def on_trust_in_file(path: str | Path, layout: Layout, size: int = 0) -> tuple[s
 
 def is_clear(layout: Layout, gap: float) -> bool:
     """Whether no item is nearer than a gap to another one, or to the container's edge."""
-    regions = np.array([outline.region for outline in layout.outlines], dtype=object)
+    # By portions, so that not all outlines in place are in memory as well.
+    parts = np.array_split(np.arange(len(layout.items)), -(-len(layout.items) // PORTION) or 1)
+    regions = np.concatenate([regions_of(layout.placed(part.tolist())) for part in parts])
     whole = layout.container.outline.region
     edge = whole.boundary
     shapely.prepare([whole, edge])

@@ -79,14 +79,14 @@ class ClearInk:
     sizes: FloatArray
     clearance: float
 
-    @cached_property
+    @property
     def ink(self) -> Outline:
-        """Rings, with holes."""
+        """Rings, with holes; made anew each time, since words are remembered by the thousand."""
         return self._moved([glyph.ink for glyph in self.glyphs if glyph.ink is not None])
 
-    @cached_property
+    @property
     def silhouette(self) -> Outline:
-        """Rings, without holes."""
+        """Rings, without holes; as above."""
         return self._moved(
             [glyph.silhouette for glyph in self.glyphs if glyph.silhouette is not None]
         )

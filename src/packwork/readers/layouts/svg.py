@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 import binascii
-import copy
 import math
 import operator
 import re
@@ -44,6 +43,7 @@ from packwork.readers.layouts.foreign_svg import (
     strange,
     tag,
 )
+from packwork.readers.layouts.lettering import LetteringOutlines, bare, lettering_path
 from packwork.readers.layouts.lines import LineParts
 from packwork.readers.layouts.sheet import (
     backdrop_of,
@@ -74,9 +74,6 @@ the finest gap that a finish keeps."""
 _SPECK = 1.5 * SPECK
 """Specks that are passed over: somewhat larger ones than where items are read, as one that was
 left out there may seem larger when it is followed more finely."""
-
-_OWN = frozenset({"transform", "data-bays"})
-"""Attributes of a drawing's element that are not its own."""
 
 _OF_POLYGONS = frozenset({"id", "d", "fill-rule", "data-name", "data-weight", "fill"})
 _RINGS = re.compile(r"(?:M-?\d++(?:\.\d++)?+(?: -?\d++(?:\.\d++)?+)++Z)++")
@@ -177,6 +174,7 @@ class _Drawings:
         self._regions: dict[ET.Element, Region] = {}
         self._largest: dict[ET.Element, float] = {}
         self._outlines: dict[ET.Element, Outline] = {}
+        self._letterings = LetteringOutlines(_SPECK)
         self._stated = 0
         for one in drawn:
             source = self.source(one)
@@ -212,9 +210,33 @@ class _Drawings:
         """The outline of one item, in its own units."""
         source = self.source(drawn)
         if source not in self._outlines:
-            ink = self.item(drawn)
-            self._outlines[source] = Outline.from_region(ink if keeps_holes else silhouette(ink))
+            own = place_and_art(source, drawn)[1]
+            found = self._lettering(source, own, self._largest[source], keeps_holes)
+            if found is None:
+                ink = self.item(drawn)
+                found = Outline.from_region(ink if keeps_holes else silhouette(ink))
+            self._outlines[source] = found
         return self._outlines[source]
+
+    def _lettering(
+        self, source: ET.Element, own: FloatArray, size: float, keeps_holes: bool
+    ) -> Outline | None:
+        """Outline of what is drawn as letters are, in its own units; None of all others."""
+        is_drawn = not self._of_lines and tag(source) != "image"
+        if not is_drawn or "data-bays" in source.attrib or "data-outline" in source.attrib:
+            return None
+        path = lettering_path(bare(source))
+        if path is None or not (size := size * _size(own)) > 0 or not np.linalg.det(own[:, :2]) > 0:
+            return None
+        found = self._letterings.outline(*path, self._finest(size), keeps_holes=keeps_holes)
+        return None if found is None else found.mapped(own)
+
+    def _finest(self, size: float) -> float:
+        """Largest distance of a curve from its chords, for a copy of that size, in its units.
+
+        A power of two, so that what is kept serves other layouts.
+        """
+        return 2.0 ** math.floor(math.log2(MEASURED_FLATTENING * self._side / size))
 
     def source(self, drawn: ET.Element) -> ET.Element:
         """The element that draws an item: itself, or what it uses."""
@@ -238,9 +260,7 @@ class _Drawings:
         elif tag(source) == "image":
             seen = _picture(source)
         else:
-            bare = copy.copy(source)
-            bare.attrib = {key: v for key, v in source.attrib.items() if key not in _OWN}
-            seen = self._followed([bare], size * _size(own))
+            seen = self._followed([bare(source)], size * _size(own))
         if "data-bays" in source.attrib:
             # No matter of trust: whatever is added makes the item larger.
             bays = self._followed([_path(source.attrib["data-bays"])], size * _size(own))
@@ -256,8 +276,7 @@ class _Drawings:
             return polygon
         document = ET.Element(f"{_SPACE}svg")
         document.extend(elements)
-        # Powers of two, so that what is kept serves other layouts.
-        finest = 2.0 ** math.floor(math.log2(MEASURED_FLATTENING * self._side / size))
+        finest = self._finest(size)
         return followed_once(
             ET.tostring(document),
             finest,
