@@ -9,6 +9,8 @@ import shapely
 import shapely.affinity
 
 import packwork as pw
+from packwork.uses.nest_request import read_parts
+from packwork.uses.nest_work import work_of
 
 TILE = shapely.box(0, 0, 40, 30)
 PLATE = shapely.box(0, 0, 60, 60).difference(shapely.box(5, 5, 55, 55))
@@ -68,6 +70,7 @@ def test_what_is_in_the_way_is_one_line() -> None:
     [
         ("100mm", TILE, {"passes": 0}, "passes"),
         ("100mm", TILE, {"time": float("nan")}, "time"),
+        ("100mm", TILE, {"effort": "most"}, "one of draft, normal, best, not 'most'"),
         ("100mm", TILE, {"time": float("inf")}, "time"),
         ("100mm", (TILE, -1), {"passes": 1}, "use 0 or more"),
         ("100x100mm*0", TILE, {"passes": 1}, "sheet"),
@@ -99,6 +102,14 @@ def test_a_part_that_lies_turned_over_stays_said_to(tmp_path: Path) -> None:
     (path,) = first.save(tmp_path / "a.geojson")
     again = pw.nest(path, shapely.box(0, 0, 0.5, 0.5), passes=9)
     assert again.layouts[0].manifest["nest"]["mirrored"] == [1]
+
+
+def test_of_many_parts_an_effort_is_more_passes() -> None:
+    parts = list(read_parts("builtin:star*9000", "mm", "none"))
+    assert [work_of(parts[:1], effort=effort).passes for effort in ("draft", "normal")] == [
+        3000,
+        30000,
+    ]
 
 
 def test_a_search_ends_when_it_is_told_to() -> None:

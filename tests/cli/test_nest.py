@@ -68,10 +68,25 @@ def test_parts_lie_on_the_sheet_in_true_size_at_the_distance_of_the_tool(
     assert packwork("measure a.dxf").exit_code == 0
 
 
-def test_the_same_passes_give_the_same_bytes(shop: Path, packwork: Command) -> None:
+@pytest.mark.parametrize("work", ["--passes 40", "--effort draft"])
+def test_the_same_work_gives_the_same_bytes(work: str, shop: Path, packwork: Command) -> None:
     for name in ("a", "b"):
-        packwork(f"nest squares.json --passes 40 --seed 2 -o {name}.svg -q")
+        packwork(f"nest squares.json {work} --seed 2 -o {name}.svg -q")
     assert (shop / "a.svg").read_bytes() == (shop / "b.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("asked", "effort", "most"),
+    [("", "normal", 10_000), ("--effort draft", "draft", 1_000), ("--time 0.2", None, 100_000),
+     ("--passes 7", None, 7), ("--effort best --passes 5", None, 5)],
+)  # fmt: skip
+def test_an_effort_is_a_number_of_passes(
+    asked: str, effort: str | None, most: int, shop: Path, packwork: Command
+) -> None:
+    assert packwork(f"nest 60mm disc.svg*2 {asked} -o a.svg --report a.json").exit_code == 0
+    said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
+    assert said["effort"] == effort
+    assert 0 < said["passes"] <= most
 
 
 def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Command) -> None:

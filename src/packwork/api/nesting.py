@@ -21,7 +21,6 @@ from packwork.readers.instances import is_instance
 from packwork.readers.layouts.read import is_session
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.separation.strip import WorkBound
 from packwork.units import Unit
 from packwork.uses import nested, nesting
 from packwork.uses.nest_request import (
@@ -32,6 +31,7 @@ from packwork.uses.nest_request import (
     read_request,
     read_sheets,
 )
+from packwork.uses.nest_work import work_of
 from packwork.writers.parts_list import all_sheets_bytes, is_for_all
 
 Part: TypeAlias = Any
@@ -119,7 +119,8 @@ def nest(
     kerf: str | float = 0.0,
     tool: str | float = 0.0,
     margin: str | float | None = None,
-    time: float = 20.0,
+    effort: Literal["draft", "normal", "best"] = "normal",
+    time: float | None = None,
     passes: int | None = None,
     seed: int = 0,
     stop: Stop = never,
@@ -149,8 +150,9 @@ def nest(
     tool
         Diameter of a mill's tool: ``kerf`` is as much at least, and a notice names places that it
         cannot enter.
-    time, passes
-        Seconds to search; or passes, which give the same nest again.
+    effort, time, passes
+        How long is searched; or seconds, in place of it, which give another nest on another
+        machine; or passes.
     stop
         Asked before every pass; True ends with the best so far.
 
@@ -186,7 +188,7 @@ def nest(
     gap = _length("kerf", kerf, sheets[0])
     away = None if margin is None else _length("margin", margin, sheets[0])
     bit = _length("tool", tool, sheets[0])
-    work = WorkBound.of(time, passes)
+    work = work_of(laid, effort=effort, passes=passes, time=time)
     found = nesting.nest(
         laid, sheets, gap=gap, margin=away, tool=bit, seed=seed, work=work, stop=stop
     )

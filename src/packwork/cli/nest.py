@@ -16,6 +16,7 @@ from packwork.cli.options import SideFiles, Terminal
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 from packwork.phrasing import number_of
+from packwork.recipe import Effort
 
 if TYPE_CHECKING:
     from packwork.uses.nested import NestedSheets, Sheet
@@ -64,11 +65,14 @@ class NestOptions(Options):
     margin: str | None = None
     """Distance from the sheet's edge, as 10mm, where it is more than --kerf."""
 
-    time: Annotated[float, Field(ge=0.1)] = 20.0
-    """Seconds to search; results depend on the machine."""
+    effort: Effort = "normal"
+    """How long is searched: draft, normal or best; the same bytes on any machine."""
 
     passes: Annotated[int | None, Field(ge=1)] = None
-    """Passes to search, in place of seconds: the same bytes again."""
+    """Passes to search, instead of an effort."""
+
+    time: Annotated[float | None, Field(ge=0.1)] = None
+    """Seconds to search, instead of an effort: results then depend on the machine."""
 
     seed: Annotated[int, Field(ge=0)] = 0
     """Another one gives another nest."""
@@ -123,8 +127,8 @@ def nest(
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
         from packwork.readers.engraving import Engraving
-        from packwork.separation.strip import WorkBound
         from packwork.uses.nest_request import read_request
+        from packwork.uses.nest_work import work_of
         from packwork.uses.nesting import nest as nest_parts
 
         options = shared.part_of(NestOptions, asked)
@@ -138,7 +142,7 @@ def nest(
         lengths = options.lengths(sheets[0])
         _check_files(files, every, no_clobber)
         console = Paper(quiet)
-        work = WorkBound.of(options.time, options.passes)
+        work = work_of(counted, effort=options.effort, passes=options.passes, time=options.time)
         bar, interrupt = TerminalBar(None, quiet), Interrupt()
 
         def stop() -> bool:

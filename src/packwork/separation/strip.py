@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from packwork.errors import RecipeError
 from packwork.separation.compact import StripCompaction
 from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import X0, X1, Y1
@@ -53,19 +52,12 @@ class WorkBound:
 
     passes: float = math.inf
     seconds: float = math.inf
+    name: str = ""
+    """Of an effort, where the bound is one."""
     begun: float = math.nan
     done: int = 0
     best_so_far: str = "searching"
     """For people who wait."""
-
-    @classmethod
-    def of(cls, seconds: float, passes: int | None) -> WorkBound:
-        """Bound of so many passes, or else of seconds; RecipeError where it is none."""
-        if passes is not None and not 1 <= passes < math.inf:
-            raise RecipeError("passes", f"is 1 or more, not {passes:g}")
-        if not 0.0 < seconds < math.inf:
-            raise RecipeError("time", f"is a number of seconds above 0, not {seconds:g}")
-        return cls(seconds=seconds) if passes is None else cls(passes=passes)
 
     def start(self) -> None:
         """Count from now on."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,14 +11,12 @@ from packwork.geometry.outline import Outline
 from packwork.phrasing import number_of
 from packwork.separation.shapes import Floats
 from packwork.separation.strip import WorkBound
+from packwork.uses.nest_work import more_than
 from packwork.uses.nested import NestedSheet
 
 REACHED = 0.75
 """Share of sheets that parts of most shapes cover, their gaps counted to them. Larger advises less
 often, smaller where more time gains nothing. Chosen."""
-
-LONGER = 3
-"""Times the work that is advised. Chosen."""
 
 
 def advice_on_sheets(
@@ -49,15 +46,10 @@ def advice_on_sheets(
     if fewer >= len(grounds):
         return ()
     share = float(shapely.area(regions).sum()) / float(room[fewer - 1])
-    longer = (
-        f"--time {LONGER * work.seconds:.3g}"
-        if math.isinf(work.passes)
-        else f"--passes {LONGER * work.passes:.0f}"
-    )
     of = "one" if fewer == 1 else f"{fewer}"
     return (
         f"{number_of(len(grounds), 'sheet')}; their parts cover {100 * share:.0f} % of {of}: "
-        f"more time may do with {fewer} ({longer})",
+        f"more time may do with {fewer} ({more_than(work)})",
     )
 
 

@@ -117,7 +117,8 @@ def nest(
         "unit": sheets[0].unit,
         "height": None if sheets[0].is_square else sheets[0].height,
         "sheet_length": None if sheets[0].is_strip else sheets[0].length,
-        "gap": gap, "margin": margin, "passes": work.done, "seed": seed, "workers": workers,
+        "gap": gap, "margin": margin, "effort": work.name or None, "passes": work.done,
+        "seed": seed, "workers": workers,
     }  # fmt: skip
     by_sheet = {one.sheet: one for one in laid}
     found = list[NestedSheet]()
