@@ -404,6 +404,38 @@ def test_drawings_of_long_ago_are_forgotten(opening: Opening) -> None:
     assert scenes.shapes == {}
 
 
+def test_a_page_forgets_looks_of_long_ago(play, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("packwork.studio.tab.MOST_KEPT", 4)
+
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        ids = [item["id"] for item in page.last("scene")["items"]]
+
+        def known() -> set[str]:
+            keys: dict[str, None] = {}
+            for said in page.messages:
+                if said["type"] == "shapes":
+                    keys |= dict.fromkeys(one["key"] for one in said["shapes"])
+                    for gone in said["gone"]:
+                        del keys[gone]
+                if said["type"] == "scene":
+                    assert {item["shape"] for item in said["items"]} <= set(keys)
+            return set(keys)
+
+        for k in range(1, 6):
+            command = {"kind": "recolour", "items": ids, "colour": f"#0000{k:02x}"}
+            page.tell(type="do", n=k, command=command)
+            await page.until(lambda k=k: page.done == k and page.is_certified)
+        assert 4 <= len(known()) <= 4 + len(page.last("scene")["items"])
+        for k in range(6, 11):
+            page.tell(type="leap", n=k, to="undo")
+            await page.until(lambda k=k: page.done == k and page.is_certified)
+        assert known() >= {item["shape"] for item in page.last("scene")["items"]}
+
+    play(scenario)
+
+
 def test_a_page_on_a_slow_line_passes_over_a_scene_of_which_nothing_is_kept(play) -> None:
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()

@@ -82,6 +82,37 @@ def test_a_recipe_runs_with_what_was_sent_with_it(play) -> None:
     play(scenario)
 
 
+MAP = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 60">
+<path id="be" d="M0 0h44v60H0z"><title>West</title></path><path id="bern" d="M46 0h44v60H46z"/>
+<path id="nook" d="M44 29h2v2h-2z"/></svg>"""
+
+
+def test_parts_of_a_map_that_was_sent_have_their_names(play) -> None:
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+
+        async def poured(text: str, names: bool) -> dict[str, dict]:
+            source = sent(page.tab, ("map.svg", text.encode()))
+            before = page.last("scene")["version"]
+            page.tell(type="room", source=source, names=names)
+            await page.until(lambda: page.last("scene")["version"] > before and page.is_certified)
+            return {one["name"]: one for one in page.last("scene")["items"]}
+
+        items = await poured(MAP, names=True)
+        assert items["West"]["held"] == items["bern"]["held"] == [True, True, True]
+        assert "nook: has no room for its name" in page.last("line")["text"]
+        x = desk.owner.frame.document.poses.x[-2:]
+        side = desk.owner.frame.document.container.width
+        assert x[0] < 0.49 * side < 0.51 * side < x[1]
+        # Names of the map before go with it; a file of any name that a session knows is not read.
+        assert len(await poured(MAP, names=False)) == len(items) - 2
+        await poured(SVG, names=True)
+        assert page.last("line")["text"].startswith("map names no parts")
+
+    play(scenario)
+
+
 @pytest.mark.parametrize(
     "name", ["/etc/hosts", "../../secret.svg", "/no/*.svg", "near.svg", "[n]ear*", "a secret"]
 )

@@ -13,10 +13,12 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, made, named_item, true_scale
 from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut, SetOption
+from packwork.live.commands.gestures import Hold
 from packwork.live.commands.items import Add, Remove, Replace, Weigh
 from packwork.live.document import Document, counted_weight, is_straight_word
 from packwork.live.neighbourhood.places import widest_places
 from packwork.phrasing import enumerated
+from packwork.pipeline.region_labels import LABEL, PartLabel
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.scene.colour import hex_colour
 from packwork.scene.item import Item
@@ -221,6 +223,22 @@ def mixed(
         asset = named_item(session.library, one)
         commands.append(made(Add, asset=asset, x=x, y=y, area=area * weight, weight=weight))
     return commands
+
+
+def labelled(session: Session, labels: Sequence[PartLabel]) -> Iterator[Command]:
+    """Commands after which names lie on the parts of a container, held; those before are gone."""
+    document = session.document
+    before = [k for k, item in enumerate(document.items) if item.source.startswith(LABEL)]
+    if 0 < len(before) < len(document):
+        yield made(Remove, items=tuple(document.ids[before].tolist()))
+    for label in labels:
+        longest = float(np.ptp(np.reshape(label.item.outline.bounds, (2, 2)), axis=0).max())
+        area = label.item.outline.area * (label.size / longest) ** 2
+        asset = named_item(session.library, label.item)
+        yield made(Add, asset=asset, x=label.x, y=label.y, area=area)
+    if labels:
+        first = document.next_id
+        yield made(Hold, items=tuple(range(first, first + len(labels))))
 
 
 def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[str, float]:

@@ -64,6 +64,9 @@ PLACES, SIZES = 25, 5
 Chosen."""
 
 DIGITS = 6
+LABEL = "label:"
+"""Begin of the source of a plate."""
+
 LABEL_RULE = RuleSource("label_regions")
 
 
@@ -91,7 +94,7 @@ def _with_groups(job: Job, vectors: ItemVectors) -> Job:
     rows = unit_rows(vectors.of(job.items))
     means = [rows[groups == name].mean(axis=0) for name in fits]
     items = tuple(plates[name].item(name) for name in fits)
-    asked = [_asked(job, plates[name], em) for name in fits]
+    asked = [_asked(job, plates[name].longest * em) for name in fits]
     told += _without_room([name for name in plates if name not in fits])
     if items:
         job = replace(job, vectors=vectors.joined_by(items, np.array(means)))
@@ -99,19 +102,43 @@ def _with_groups(job: Job, vectors: ItemVectors) -> Job:
 
 
 def _with_parts(job: Job, parts: Sequence[tuple[str, Region]]) -> Job:
+    labels, told = part_labels(parts, job.container.side)
+    asked = [_asked(job, label.size, (label.x, label.y)) for label in labels]
+    return _joined(job, [label.item for label in labels], asked, told)
+
+
+@dataclass(frozen=True, eq=False)
+class PartLabel:
+    """Plate with the name of a part, where that has most room.
+
+    ``size``: its longer side, canvas units; ``x``, ``y``: its middle, as well.
+    """
+
+    item: Item
+    size: float
+    x: float
+    y: float
+
+
+def part_labels(
+    parts: Sequence[tuple[str, Region]], side: float
+) -> tuple[list[PartLabel], list[ReadError]]:
+    """Plates for parts of a container whose longer side is ``side``; what has to be told of others.
+
+    ``parts``: names, and regions in canvas units.
+    """
     plates, told = _plates({name for name, _ in parts})
-    items, asked, narrow = [], [], []
+    labels, narrow = [], []
     for name, region in parts:
         if name not in plates:
             continue
-        found = _place(plates[name], region, job.container.side)
+        found = _place(plates[name], region, side)
         if found is None:
             narrow.append(name)
             continue
         em, x, y = found
-        items.append(plates[name].item(name))
-        asked.append(_asked(job, plates[name], em, (x, y)))
-    return _joined(job, items, asked, told + _without_room(narrow))
+        labels.append(PartLabel(plates[name].item(name), plates[name].longest * em, x, y))
+    return labels, told + _without_room(narrow)
 
 
 def _joined(
@@ -164,7 +191,7 @@ class _Plate:
             f'<path fill="{LETTERS}" transform="{matrix_text(place)}" d="{self.drawn.path}"/>'
         )
         art = VectorArt(markup, affine.similarity(0.0, 0.0, 0.0, 1.0))
-        return Item(name, f"label:{name}", plate, plate, art, Label(name=name))
+        return Item(name, f"{LABEL}{name}", plate, plate, art, Label(name=name))
 
 
 def _plates(names: Iterable[str]) -> tuple[dict[str, _Plate], list[ReadError]]:
@@ -231,9 +258,9 @@ def _place(plate: _Plate, region: Region, side: float) -> tuple[float, float, fl
     return None
 
 
-def _asked(job: Job, plate: _Plate, em: float, at: tuple[float, float] | None = None) -> ItemRules:
+def _asked(job: Job, size: float, at: tuple[float, float] | None = None) -> ItemRules:
     unit = job.container.unit
-    pin = {"size": f"{plate.longest * em:.17g}{unit}"}
+    pin = {"size": f"{size:.17g}{unit}"}
     if at is not None:
         pin |= {"x": f"{at[0]:.17g}{unit}", "y": f"{at[1]:.17g}{unit}"}
     sources = dict.fromkeys(("rotate", "color", *(f"pin.{key}" for key in pin)), LABEL_RULE)

@@ -17,9 +17,9 @@ from packwork.live.commands.command import Command, ItemIds, made, named_contain
 from packwork.live.commands.container import DrawContainer, SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import AnyCommand
-from packwork.live.face.offers import container_of, items_of
+from packwork.live.face.offers import container_of, items_of, labels_of
 from packwork.live.face.opening import opening_sent
-from packwork.live.macros import brought
+from packwork.live.macros import brought, labelled
 from packwork.live.owner import Leap
 from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
@@ -191,6 +191,8 @@ class Room(PageRequest):
     """Of a word: an installed family, or a file that was sent before."""
     canvas: Annotated[str, Field(max_length=40)] | None = None
     """Its size, as on the command line; that of now if None."""
+    names: bool = False
+    """Whether the names of the parts that its file has are written on them."""
 
     def act(self, tab: Tab) -> None:
         """Read it, and have a run."""
@@ -198,9 +200,14 @@ class Room(PageRequest):
 
     def _pour(self, tab: Tab) -> None:
         container = self._container(tab)
+        is_sent = self.names and self.source.startswith(FILES)
+        labels, told = labels_of(container) if is_sent else ([], [])
+        for line in told:
+            tab.workspace.say(tab.importer.without_folder(line), is_error=False)
 
         def make(session: Session) -> list[Command]:
-            return [made(SetContainer, asset=named_container(session.library, container))]
+            asset = named_container(session.library, container)
+            return [made(SetContainer, asset=asset), *labelled(session, labels)]
 
         tab.workspace.pour(0, make)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
+from collections.abc import Sequence
+from itertools import islice
 from typing import Protocol
 
 from packwork.errors import PackworkError
@@ -19,6 +21,10 @@ from packwork.studio.workspace import MOST_LINES, News, Workspace
 
 STATE_SECONDS = 0.1
 """Time between two states of which only the covered share differs. Chosen."""
+
+MOST_KEPT = 1_000
+"""Looks that a page keeps of items that are not there any more: undo may bring them back. More
+take memory, of fewer more is sent again. Chosen."""
 
 
 class Wire(Protocol):
@@ -38,7 +44,7 @@ class Tab:
         self.workspace, self.importer, self._carrier = workspace, importer, carrier
         self._woken = asyncio.Event()
         self._lines: deque[News] = deque(maxlen=MOST_LINES)
-        self._known: set[str] = set()
+        self._known: dict[str, None] = {}
         self._scene: Scene | None = None
         self._state: State | None = None
         self._state_at = 0.0
@@ -110,12 +116,21 @@ class Tab:
         if any(key not in known for key in keys):
             # While an older message was on its way, others drew two scenes more.
             return False
-        self._known.update(keys)
         if keys:
             await self._say(Shapes(shapes=tuple(known[key] for key in keys)))
         self._scene = scene
         await self._say(scene)
+        await self._forget(scene.shapes)
         return True
+
+    async def _forget(self, shown: Sequence[str]) -> None:
+        """Have the page forget looks that were shown longest ago, all but some."""
+        latest = dict.fromkeys(shown)
+        self._known = {key: None for key in self._known if key not in latest} | latest
+        many = len(self._known) - len(latest) - MOST_KEPT
+        if gone := tuple(islice(self._known, max(many, 0))):
+            self._known = dict(islice(self._known.items(), many, None))
+            await self._say(Shapes(gone=gone))
 
     async def _send_state(self, state: State) -> None:
         before, now = self._state, time.monotonic()

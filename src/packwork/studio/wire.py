@@ -41,10 +41,11 @@ class Shape(Message):
 
 
 class Shapes(Message):
-    """Looks that are new to this page."""
+    """Looks that are new to this page, and keys of those that it may forget."""
 
     type: Literal["shapes"] = "shapes"
-    shapes: tuple[Shape, ...]
+    shapes: tuple[Shape, ...] = ()
+    gone: tuple[str, ...] = ()
 
 
 class Thing(Message):

@@ -18,6 +18,7 @@ from packwork.live.face.exporting import missing
 from packwork.live.mosaic import MOST_PX
 from packwork.live.options import LiveOptions
 from packwork.options import SizeMode, offered
+from packwork.pipeline.region_labels import PartLabel, part_labels
 from packwork.readers.builtin import (
     NAMES,
     builtin_container,
@@ -25,7 +26,7 @@ from packwork.readers.builtin import (
     container_names,
     icon_names,
 )
-from packwork.readers.container import read_container
+from packwork.readers.container import read_container, read_parts
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
@@ -169,6 +170,17 @@ def offered_fonts() -> tuple[str, ...]:
 def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
     """Container of a bundled name, ``text:WORD`` or a file that was given."""
     return read_container(source, canvas, font=font)
+
+
+def labels_of(container: Container) -> tuple[list[PartLabel], list[str]]:
+    """Names of the parts of a container whose file was just read, and what has to be told of them.
+
+    Never of one that a session names: what stands there as its file may be any on this machine.
+    """
+    parts = read_parts(container)
+    labels, told = part_labels(parts, container.side)
+    none = f"{container.name} names no parts: an SVG does, by the titles or ids of its shapes"
+    return labels, [str(one) for one in told] if parts else [none]
 
 
 def picture_of(source: str, *, is_behind: bool = False) -> Item:

@@ -33,6 +33,8 @@ export class Dropping {
     this.asked = null;
     /** Sheet that containers come on; null of that of now. @type {string | null} */
     this.sheet = null;
+    /** Whether the names of a container's parts are written on them. */
+    this.names = false;
     this.depth = 0;
     /** What files come in as. @type {"beside" | "items" | "photos"} */
     this.as = "beside";
@@ -150,7 +152,7 @@ export class Dropping {
 
   /** @param {string} batch */
   fill(batch) {
-    this.connection.send({ type: "room", source: `file:${batch}`, canvas: this.sheet });
+    this.connection.send({ type: "room", source: `file:${batch}`, canvas: this.sheet, names: this.names });
   }
 
   /**

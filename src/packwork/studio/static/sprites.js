@@ -23,6 +23,15 @@ export class Sprites {
     this.lacks = false;
   }
 
+  /** @param {string[]} keys of looks that are not there any more */
+  forget(keys) {
+    for (const key of keys) {
+      for (const sprite of this.made.get(key)?.values() ?? []) sprite.close();
+      this.made.delete(key);
+      this.images.delete(key);
+    }
+  }
+
   /** Begin a frame. */
   begin() {
     const wanted = this.left < 0;
@@ -85,6 +94,7 @@ export class Sprites {
     const image = new Image();
     const url = URL.createObjectURL(new Blob([look.svg], { type: "image/svg+xml" }));
     image.onload = () => {
+      URL.revokeObjectURL(url);
       this.images.set(look.key, image);
       this.changed();
     };

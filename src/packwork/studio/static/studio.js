@@ -30,6 +30,7 @@ import { Sketch } from "./sketch.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
 import { Start } from "./start.js";
+import { forgetThumbs } from "./thumbs.js";
 import { hush, say, tell } from "./toasts.js";
 import { Variants } from "./variants.js";
 import { View } from "./view.js";
@@ -131,7 +132,7 @@ export class Studio {
 
   /** @param {Said} message */
   said(message) {
-    if (message.type === "shapes") this.collage.addShapes(message.shapes);
+    if (message.type === "shapes") this.shapes(message.shapes ?? [], message.gone ?? []);
     else if (message.type === "scene") this.changed(message);
     else if (message.type === "state") this.stated(message);
     else if (message.type === "variant") this.variants.add(message);
@@ -139,6 +140,14 @@ export class Studio {
       if (message.is_error) this.panels.refused();
       tell(message.text, { isError: message.is_error });
     }
+  }
+
+  /** @param {import("./wire.js").Shape[]} added @param {string[]} gone keys of those that no scene has any more */
+  shapes(added, gone) {
+    this.collage.addShapes(added);
+    for (const key of gone) this.collage.looks.delete(key);
+    this.sprites.forget(gone);
+    forgetThumbs(gone);
   }
 
   /** @param {import("./wire.js").Scene} scene */

@@ -10,6 +10,14 @@ const SIDE = 40;
 /** @type {Map<string, string>} */
 const URLS = new Map();
 
+/** @param {string[]} keys of looks that are not there any more */
+export function forgetThumbs(keys) {
+  for (const key of keys) {
+    URL.revokeObjectURL(URLS.get(key) ?? "");
+    URLS.delete(key);
+  }
+}
+
 /**
  * A small picture of an item: never markup in our own document.
  * @param {Drawn} look

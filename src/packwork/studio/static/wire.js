@@ -52,7 +52,7 @@
  * @typedef {{kind: "rename", item: number, name: string}} Rename
  * @typedef {{kind: "replace", item: number, asset: string}} Replace
  * @typedef {{kind: "reshape", rings: [number, number][][]}} Reshape
- * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
+ * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null), names?: boolean}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
  * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], shades?: string, ground?: string, gradient?: string, font?: string, left_out?: any, likeness?: (number | null), halos?: string, rim?: number, under?: Underlay[]}} Scene
@@ -62,7 +62,7 @@
  * @typedef {{kind: "mosaic", asset?: (string | null), tint?: (number | null)}} SetMosaic
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape
- * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
+ * @typedef {{type: "shapes", shapes?: Shape[], gone?: string[]}} Shapes
  * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], unmet: any, can_undo: boolean, can_redo: boolean, busy: string, progress: number, can_stop: boolean, saved: boolean, clip: string, document?: number, fresh?: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
