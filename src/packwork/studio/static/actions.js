@@ -138,6 +138,8 @@ function views(studio) {
     { id: "force", group: "View", label: "Draw a force as an arrow", keys: ["G"], when: () => studio.collage.hasPoses, run: () => studio.forces.begin() },
     { id: "faults", group: "View", label: "Show what is free, covered and overlapping", keys: ["V"], icon: "layers", run: () => studio.toggleFaults() },
     { id: "theme", group: "View", label: "Light or dark", keys: ["T"], icon: "theme", run: () => studio.toggleTheme() },
+    { id: "onward", group: "View", label: "To the next part of the page", keys: ["F6"], run: () => studio.goRound(1) },
+    { id: "back", group: "View", label: "To the part of the page before", keys: ["Shift+F6"], run: () => studio.goRound(-1) },
     { id: "keys", group: "View", label: "All actions and their keys", keys: ["?", "Mod+K"], icon: "help", run: () => studio.palette.open() },
   ];
 }

@@ -29,7 +29,7 @@ export class Bar {
     }, { id: "files", "aria-haspopup": "menu" });
     this.saved = h("span", { id: "saved", hidden: true, title: "All you do is kept on this machine: packwork studio --again goes on with it" }, "saved");
     const share = /** @type {Action} */ (actions.get("export"));
-    const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), onclick: share.run }, "Export");
+    const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), "aria-keyshortcuts": "Control+E", onclick: share.run }, "Export");
     this.buttons.set("export", [leave]);
     byId("bar").append(
       h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title, menu, this.saved),

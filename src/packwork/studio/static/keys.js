@@ -4,6 +4,8 @@
 /** @typedef {import("./actions.js").Action} Action */
 
 const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
+/** Keys that mean nothing in a field, and do there what they do elsewhere. */
+const ANYWHERE = new Set(["Mod+E", "Mod+S", "F6", "Shift+F6"]);
 /** Keys of undo and redo. */
 const LEAPS = new Set(["Mod+Z", "Mod+Shift+Z", "Mod+Y"]);
 /** @type {Record<string, string>} */
@@ -42,7 +44,7 @@ export function listenToKeys(actions, hears) {
   listenToTyping();
   const known = new Map(actions.flatMap((action) => action.keys.map((key) => [key, action])));
   addEventListener("keydown", (event) => {
-    if ((isTyping(event) && !leaps(event)) || document.querySelector("dialog[open]")) return;
+    if ((isTyping(event) && !ANYWHERE.has(keyOf(event)) && !leaps(event)) || document.querySelector("dialog[open]")) return;
     if (event.key === " " && isFree(event)) {
       event.preventDefault();
       return hears.pans(true);

@@ -331,6 +331,15 @@ export class Studio {
     this.refresh();
   }
 
+  /** Have the focus in the next part of the page. @param {number} step */
+  goRound(step) {
+    const parts = ["bar", "canvas", "choice", "tabs", "panel", "foot"].map(byId).filter((one) => one.checkVisibility());
+    const at = parts.findIndex((one) => one.contains(document.activeElement));
+    const part = parts[(at < 0 && step < 0 ? parts.length - 1 : at + step + parts.length) % parts.length];
+    const first = part === this.canvas ? part : part.querySelector("button:not(:disabled), input, select, textarea");
+    if (first instanceof HTMLElement) first.focus();
+  }
+
   /** @param {number} step */
   chooseNext(step) {
     const { items, rows } = this.collage;

@@ -1,0 +1,95 @@
+"""What five tasks of a first-time user need, once in Firefox."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from studio.browsing import Server
+from studio.firefox import Firefox, firefox, firefox_path
+
+TEXT = "moss " * 9 + "rain " * 7 + "the rain on stone and fern, moss and stone"
+
+PLACE = """((id, r = studio.canvas.getBoundingClientRect()) => {
+  const { x, y } = studio.collage.pose(id), s = studio.view.toScreen(x, y);
+  return [s.x + r.left, s.y + r.top];
+})"""
+
+
+def place(page: Firefox, item: int) -> tuple[float, float]:
+    x, y = page.look(f"{PLACE}({item})")
+    return x, y
+
+
+@pytest.mark.skipif(firefox_path() is None, reason="no Firefox on this machine")
+@pytest.mark.xdist_group("browser")
+def test_five_tasks_in_firefox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # The first document of a studio of its own is called desk-1.
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    (tmp_path / "profile").mkdir()
+    noise = [Image.effect_noise((90, 60), 60 + k) for k in range(3)]
+    Image.merge("RGB", noise).save(tmp_path / "sky.jpg")
+    server = Server("heart", "star", "moon", "-n", "8").start()
+    with firefox(tmp_path / "profile") as page:
+        page.goto(server.address)
+        page.settled()
+        # A hero among icons: dragged, enlarged and held.
+        x, y = place(page, 0)
+        page.drag((x, y), (x - 30, y - 20), (x - 60, y - 40))
+        page.settled()
+        assert place(page, 0)[0] < x - 30
+        page.type("++h")
+        page.until("studio.collage.item(0).held.every(Boolean)")
+        page.settled()
+        page.picture("firefox-hero")
+        # A photograph, moved in its frame.
+        page.look("studio.dropping.as = 'photos'")
+        page.send_file("input[type=file]:not([webkitdirectory])", tmp_path / "sky.jpg")
+        page.until("studio.collage.items.some(item => item.crop)")
+        page.settled()
+        photo = page.look("studio.collage.items.find(item => item.crop).id")
+        page.look(f"studio.choice.set([{photo}])")
+        page.look("studio.canvas.focus()")
+        page.type("\ue007++\ue007")
+        page.until(f"studio.collage.item({photo}).crop[0] > 1")
+        page.settled()
+        # A cloud, one word left out and one weight changed.
+        page.type("3")
+        page.look(f"studio.words.text.value = {TEXT!r}")
+        page.click("#panel form button.primary")
+        page.until("studio.collage.items.some(item => item.name === 'stone')")
+        page.settled()
+        page.click("[aria-label='Leave stone out']")
+        page.until("!studio.collage.items.some(item => item.name === 'stone')")
+        page.settled()
+        page.click("[aria-label='How often: fern']")
+        page.look("document.activeElement.select()")
+        page.type("9\ue007")
+        page.until("studio.words.list.countOf('fern', studio.words.list.things) === 9")
+        page.settled()
+        page.picture("firefox-words")
+        # A jar.
+        page.look("studio.start.open()")
+        page.click("dialog.start button:has(img[src*=jar])")
+        page.until("studio.collage.scene.kind === 'pile'")
+        page.settled()
+        # What is kept is opened again, recoloured and exported to PDF.
+        page.look("studio.connection.send({ type: 'begin', kept: 'desk-1' })")
+        page.until("studio.collage.items.some(item => item.name === 'moss')")
+        page.settled()
+        page.type("6")
+        page.until("document.querySelector('[aria-label=tol-muted]')")
+        page.click("[aria-label=tol-muted]")
+        page.until("studio.collage.scene.palette.length > 0")
+        page.settled()
+        page.picture("firefox-recoloured")
+        page.look("studio.canvas.focus()")
+        page.click("#export")
+        page.until("studio.exporting.preview.complete && studio.exporting.preview.naturalWidth")
+        page.picture("firefox-export")
+        head = "studio.exporting.make('pdf', {}).then(made => made.slice(0, 5).text())"
+        assert page.look(head) == "%PDF-"
+        assert page.faults == []
+    server.stop()
