@@ -8,6 +8,7 @@ import shapely
 
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container
+from packwork.readers.container import read_container
 from packwork.scene.container import Container
 from packwork.start.limbs import edges_of, limbs_of
 
@@ -64,3 +65,31 @@ def test_bands_lie_in_the_container() -> None:
     for band in edges_of(land, 30.0):
         discs = shapely.buffer(shapely.points(band.axis.points), 0.99 * band.half)
         assert shapely.covers(land.outline.region, discs).all()
+
+
+def ring(outer: float, inner: float) -> Container:
+    centre = shapely.Point(300, 300)
+    return container(centre.buffer(outer, 64) - centre.buffer(inner, 64))
+
+
+def test_a_ring_is_one_limb_that_closes_and_goes_both_ways_from_its_top() -> None:
+    [limb] = limbs_of(ring(280, 190))
+    assert limb.is_loop
+    assert limb.axis.length == pytest.approx(2 * np.pi * 235, rel=0.02)
+    assert np.ptp(limb.half) < 3
+    x, y = limb.axis.points[:-1].mean(axis=0)
+    one, other = limb.ways
+    for way in (one, other):
+        assert way.axis.points[0] == pytest.approx((x, y - 235), abs=3)
+        assert way.axis.points[-1] == pytest.approx((x, y + 235), abs=3)
+    # One to the right, the other to the left.
+    assert one.axis.points[:, 0].max() == pytest.approx(x + 235, abs=3)
+    assert other.axis.points[:, 0].min() == pytest.approx(x - 235, abs=3)
+
+
+def test_frames_and_shapes_of_two_holes_are_no_rings() -> None:
+    limbs = limbs_of(container(shapely.box(0, 0, 900, 500) - shapely.box(100, 100, 800, 400)))
+    assert limbs
+    assert not any(limb.is_loop for limb in limbs)
+    assert not any(limb.is_loop for limb in limbs_of(read_container("text:8")))
+    assert not any(limb.is_loop for limb in limbs_of(ring(280, 40)))

@@ -141,6 +141,21 @@ def test_one_word_follows_a_limb_though_most_is_wide() -> None:
     assert {item.name for item in layout.items} == {"solo"}
 
 
+def test_words_lie_all_round_a_ring_the_heaviest_at_its_top(tmp_path: Path) -> None:
+    path = "M300 20a280 280 0 1 0 .01 0zM300 110a190 190 0 1 1 -.01 0z"
+    drawn = f'<svg viewBox="0 0 600 600"><path fill-rule="evenodd" d="{path}"/></svg>'
+    (tmp_path / "ring.svg").write_text(drawn, encoding="utf-8")
+    layout = pw.words(tmp_path / "ring.svg", weights(0), along="limbs", canvas=600)
+    assert layout.certified
+    turns = np.linspace(0, 2 * np.pi, 100)
+    middle = shapely.points(300 + 235 * np.cos(turns), 300 + 235 * np.sin(turns))
+    words = shapely.union_all([outline.region for outline in layout.outlines])
+    assert shapely.distance(middle, words).max() < 45
+    heights, y = layout.poses.scale, layout.poses.y
+    top, bottom = heights[y < 200], heights[y > 400]
+    assert np.median(top) > 1.3 * np.median(bottom)
+
+
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_words_along_an_edge_lie_all_round(seed: int) -> None:
     known = {f"word{k}": weight for k, weight in enumerate(weights(seed).values())}

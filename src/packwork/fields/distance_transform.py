@@ -14,7 +14,7 @@ along the medial axis of a snake they rise from head to tail.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -139,6 +139,58 @@ def longest_paths(mask: BoolArray, least: float) -> Iterator[IntArray]:
         corner = window[1].start, window[0].start
         yield np.column_stack([columns, rows]) + corner
         yield from (left + corner for left in longest_paths(inside, least))
+
+
+MOST_TRIED = 64
+"""Closing steps of a part, the farthest first, whose loops are walked to find the longest. Smaller
+may miss that of a part with many spurs round its far side. Chosen."""
+
+
+def loops_of(mask: BoolArray, share: float) -> Iterator[IntArray]:
+    """``(n, 2)`` columns and rows of pixels along the longest loop of each part of thin lines.
+
+    A step between two pixels that no shortest path from one end takes closes a loop (a
+    fundamental cycle). Those that have a ``share`` of their part's pixels at least, in order.
+
+    >>> mask = np.ones((4, 5), dtype=bool)
+    >>> mask[1:-1, 1:-1] = False
+    >>> [len(loop) >= 10 for loop in loops_of(mask, 0.75)]
+    [True]
+    """
+    from scipy.ndimage import find_objects, label
+    from scipy.sparse.csgraph import dijkstra
+
+    parts, _ = label(mask, np.ones((3, 3)))
+    for part, window in enumerate(find_objects(parts), start=1):
+        inside = parts[window] == part
+        graph = _graph(inside)
+        first = int(np.argmax(dijkstra(graph, directed=False, indices=0)))
+        away, before = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
+        steps = graph.tocoo()
+        closes = (before[steps.row] != steps.col) & (before[steps.col] != steps.row)
+        pairs = np.column_stack([steps.row, steps.col])[closes]
+        farthest = np.argsort(-away[pairs].sum(axis=1), kind="stable")[:MOST_TRIED]
+        loops = (_loop(pair.tolist(), before) for pair in pairs[farthest])
+        loop = max(loops, key=len, default=[])
+        if len(loop) > share * np.count_nonzero(inside):
+            rows, columns = (found[loop] for found in np.nonzero(inside))
+            corner = window[1].start, window[0].start
+            yield np.column_stack([columns, rows]) + corner
+
+
+def _loop(pair: Sequence[int], before: IntArray) -> list[int]:
+    """Pixels from one of a pair to where the ways to both part, and on to the other."""
+    ways = []
+    for end in pair:
+        way = [end]
+        while before[way[-1]] >= 0:
+            way.append(int(before[way[-1]]))
+        ways.append(way)
+    one, other = ways
+    while len(one) > 1 and len(other) > 1 and one[-2] == other[-2]:
+        one.pop()
+        other.pop()
+    return [*one, *other[-2::-1]]
 
 
 def _graph(inside: BoolArray):  # type: ignore[no-untyped-def] # of a library without types

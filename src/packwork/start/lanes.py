@@ -23,8 +23,9 @@ FILLED = 0.88
 """Height of letters over that of their lane. Larger leaves no room between lines, smaller wastes
 it. By eye."""
 
-SPACE = 0.35
-"""Room between two words of a lane, ems. Smaller lets them read as one. By eye."""
+SPACE, APART = 0.35, 0.15
+"""Room between two words of a lane, ems, and half of it where a loop begins, in its widths. Smaller
+lets them read as one. By eye."""
 
 MOST_TURN = 1.9
 """Turn of the line from the first to the last letter of a word, radians, at most. More cannot be
@@ -219,8 +220,8 @@ class Lanes:
         self._turn = 0
 
     def fill(self, limb: Limb) -> None:
-        """Set words along a limb, from its wider end to the other."""
-        heap = [_Lane(limb, -1.0, 1.0, 0.0)]
+        """Set words along a limb, from its wider end to the other; of a loop both ways at once."""
+        heap = _begun(limb)
         while heap:
             for lane in self._gone_on(heapq.heappop(heap)):
                 heapq.heappush(heap, lane)
@@ -228,7 +229,7 @@ class Lanes:
     def has_room(self, limbs: Sequence[Limb]) -> bool:
         """Whether each word finds a place along these limbs; words are set until that is known."""
         for limb in limbs:
-            heap = [_Lane(limb, -1.0, 1.0, 0.0)]
+            heap = _begun(limb)
             while heap and self.left:
                 for lane in self._gone_on(heapq.heappop(heap)):
                     heapq.heappush(heap, lane)
@@ -342,6 +343,12 @@ class Lanes:
         if math.cos(angle) < -LEVEL or (math.cos(angle) <= LEVEL and math.sin(angle) > 0):
             line, middle = line.reversed(), line.length - middle
         return WordOnLine(put.word, line, middle - half, middle + half, size)
+
+
+def _begun(limb: Limb) -> list[_Lane]:
+    """A lane as wide as a limb; of a loop, one each way, and room for a space between both."""
+    space = APART * 2 * float(limb.half.max()) if limb.is_loop else 0.0
+    return [_Lane(way, -1.0, 1.0, space) for way in limb.ways]
 
 
 def in_order(found: Sequence[WordOnLine], wanted: FloatArray) -> list[WordOnLine]:
