@@ -342,8 +342,16 @@ def test_words_come_among_icons_with_their_share_of_what_is_covered(
         assert areas[is_word].sum() / areas.sum() == pytest.approx(share, rel=1e-6)
         assert document.poses.angle[is_word] == pytest.approx(0.0, abs=1e-9)
         if share == 0.4:
+            # What a hand has put somewhere stays there, once all is poured anew.
+            poses, side = document.poses, document.container.side
+            session.move(0, x=float(poses.x[0]) + 0.03 * side, y=float(poses.y[0]))
+            session.finish()
+            before = session.document.poses
             session.mix(None, 0.7, seed=seed)
-    for _ in range(2):
+            after = session.document.poses
+            stay = np.hypot(after.x - before.x, after.y - before.y)[:9] < 1e-6 * side
+            assert stay.tolist() == [True] + 8 * [False]
+    for _ in range(3):
         session.undo()
     assert session.document.poses.x.tobytes() == icons.poses.x.tobytes()
 

@@ -31,7 +31,7 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
     page.locator("#text").fill("hope, 6\njoy, 4\npeace, 3\nsea, 2\nsun, 2")
     page.get_by_label("Where the words come").select_option("beside")
     page.get_by_label("Share of words, %").fill("40")
-    assert page.get_by_text("hold (H) what is to stay").filter(visible=True).count() == 1
+    assert page.get_by_text("put somewhere by hand").filter(visible=True).count() == 1
     page.get_by_role("button", name="Fill with words").click()
     desk.until("studio.collage.items.length === 21")
     desk.settled()

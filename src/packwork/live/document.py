@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
 from functools import cached_property
@@ -32,6 +32,9 @@ Property: TypeAlias = Literal["place", "angle", "size"]
 
 PROPERTIES: tuple[Property, ...] = get_args(Property)
 """In the order of the columns of :attr:`Document.held`."""
+
+SAME_PLACE = 1e-6
+"""Share of the canvas by which two places may differ and be the same. Derived: rounding."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -194,6 +197,19 @@ class Document:
         found = self.manifest.get("painted")
         listed = found if isinstance(found, list | tuple) else []
         return tuple(one for one in listed if isinstance(one, str) and is_hex(one))
+
+    def unmoved_in(self, other: Document) -> set[int]:
+        """Numbers of items that lie in the same places in another document."""
+        _, mine, theirs = np.intersect1d(self.ids, other.ids, return_indices=True)
+        here, there = self.poses.subset(mine), other.poses.subset(theirs)
+        far = np.maximum(np.abs(here.x - there.x), np.abs(here.y - there.y))
+        return set(self.ids[mine[far <= SAME_PLACE * self.container.side]].tolist())
+
+    def with_held_places(self, numbers: Iterable[int]) -> Document:
+        """The document with the places of items held, of those that are there."""
+        held = self.held.copy()
+        held[np.isin(self.ids, list(numbers)), PROPERTIES.index("place")] = True
+        return replace(self, held=held)
 
     @property
     def own_areas(self) -> FloatArray:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
+from packwork.live.commands.command import Command
 from packwork.live.document import Document
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track, track_of
@@ -91,6 +92,8 @@ class Marks:
         What lay beside items before the hand took them away.
     turned_by_hand
         Turned by hand since the last leap: polish leaves its angle.
+    put
+        Put somewhere by hand since a run has put it elsewhere, whatever was undone.
     recent
         Put somewhere or turned by hand since the last settle but one: polish leaves it as it is.
     unpolished
@@ -106,6 +109,7 @@ class Marks:
     turned: set[int] = field(default_factory=set)
     vacated: set[int] = field(default_factory=set)
     turned_by_hand: set[int] = field(default_factory=set)
+    put: set[int] = field(default_factory=set)
     recent: set[int] = field(default_factory=set)
     unpolished: set[int] = field(default_factory=set)
     polished: int = 0
@@ -115,6 +119,15 @@ class Marks:
         """The same, to be gone back to."""
         return deepcopy(self)
 
+    def note_hand(self, steps: Sequence[Command], before: Document, after: Document) -> None:
+        """Note what steps of a hand leave as it has put or turned it, and what a run has moved."""
+        kept = {one for step in steps for one in step.keeps_angles}
+        self.turned |= kept
+        self.turned_by_hand |= kept
+        if any(step.kind == "arrange" for step in steps):
+            self.put &= before.unmoved_in(after)
+        self.put.update(one for step in steps for one in step.keeps_places)
+
     def settled(self) -> None:
         """Forget what was to be settled."""
         for kept in (self.touched, self.placed_by_user, self.turned, self.vacated):
@@ -122,7 +135,9 @@ class Marks:
 
     def leapt(self) -> None:
         """Forget all items: the document is another one."""
+        put = self.put
         self.keep(set())
+        self.put = put
 
     def keep(self, present: set[int]) -> None:
         """Forget items that are no more."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -106,12 +106,6 @@ class LocalSolver:
             self._flow.begin()
         self.grabbed = items
         self._hold()
-
-    def keep_angles(self, numbers: Iterable[int]) -> None:
-        """Have items keep their angles while others make room for them."""
-        kept = set(numbers)
-        self.marks.turned |= kept
-        self.marks.turned_by_hand |= kept
 
     def place(self, numbers: set[int]) -> None:
         """Have items stay where the hand has put them, also such as are new."""

@@ -308,10 +308,13 @@ def _spared(document: Document, present: Counter[Item], count: int) -> tuple[int
 
 
 def prepared(
-    session: Session, make: Callable[[Session], Sequence[Command]]
+    session: Session, make: Callable[[Session], Sequence[Command]], *, keeps_hand: bool = False
 ) -> tuple[Sequence[Command], Document]:
-    """Commands, and the document as they would leave it."""
+    """Commands, and the document as they would leave it, for a run to put its items anew.
+
+    ``keeps_hand``: whether places are held there that a hand has given to items.
+    """
     commands, document = make(session), session.document
     for command in commands:
         document = command.applied(document, session.library)
-    return commands, document
+    return commands, document.with_held_places(session.marks.put if keeps_hand else ())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from packwork.errors import RecipeError
@@ -50,7 +51,8 @@ def mix(
 
     asked = share_of("share", share)
     read = None if source is None else words_of(session.document, source, options)
-    commands, document = prepared(session, lambda session: mixed(session, read, asked))
+    make = partial(mixed, read=read, share=asked)
+    commands, document = prepared(session, make, keeps_hand=True)
     put = poured_again(document, seed)
     session.apply(made(Together, commands=(*commands, put)))
 

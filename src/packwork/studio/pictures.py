@@ -44,7 +44,8 @@ class Mix(PageRequest):
             font, file = importer.font(self.font), importer.file(self.source)
             options = {"count": self.count, "fonts": None if font is None else [font]}
             read = words_to_mix(workspace.shown.view.container, file, options)
-        workspace.pour(0, lambda session: mixed(session, read, self.share, colours))
+        make = partial(mixed, read=read, share=self.share, colours=colours)
+        workspace.pour(0, make, keeps_hand=True)
 
 
 class Picture(PageRequest):

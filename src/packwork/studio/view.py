@@ -28,7 +28,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import ground_in
 from packwork.scene.pose import Poses
-from packwork.studio.wire import DrawnNote, LeftOut, Scene, Shape, Thing, Underlay
+from packwork.studio.wire import DrawnNote, LeftOut, Scene, Shape, State, Thing, Underlay
 from packwork.studio.wording import for_page
 
 MOST_LEFT_OUT = 100
@@ -151,6 +151,18 @@ class View:
             return np.zeros((0, 4))
         columns = (self.poses.x, self.poses.y, self.poses.angle, self.poses.scale)
         return np.column_stack(columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """View of a workspace at a moment.
+
+    ``done``: how many commands it knows, in the count of the session's owner.
+    """
+
+    view: View
+    state: State
+    done: int
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:

@@ -11,11 +11,11 @@ import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -31,12 +31,15 @@ from packwork.live.relayout import Moment, in_place, poured_again, poured_into
 from packwork.live.session import Session
 from packwork.studio.clipboard import Clipboard
 from packwork.studio.kept_workspaces import Shelf
-from packwork.studio.view import Scenes, View, left_out_of
+from packwork.studio.view import Scenes, Shown, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
 from packwork.studio.wording import for_page
 
 News = Line | Variant
 """What all pages are told beside what there is to be seen."""
+
+Make: TypeAlias = Callable[[Session], Sequence[Command]]
+"""What a session is to do before a run."""
 
 VARIANTS = 6
 """How many are tried when more are asked for. Chosen."""
@@ -48,18 +51,6 @@ QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
 
 NOT_YET = "the first layout is still on its way; try it again in a moment"
-
-
-@dataclass(frozen=True, eq=False)
-class Shown:
-    """View of a workspace at a moment.
-
-    ``done``: how many commands it knows, in the count of the session's owner.
-    """
-
-    view: View
-    state: State
-    done: int
 
 
 class Workspace:
@@ -237,12 +228,16 @@ class Workspace:
         self._wake()
         called.add_done_callback(lambda done: self._tell_of(done.exception()))
 
-    def pour(self, seed: int, make: Callable[[Session], Sequence[Command]] = lambda _: ()) -> None:
-        """Fill the container anew, after some commands; all of it is one step of the history."""
+    def pour(self, seed: int, make: Make = lambda _: (), *, keeps_hand: bool = False) -> None:
+        """Fill the container anew, after some commands; all of it is one step of the history.
+
+        ``keeps_hand``: whether items stay where a hand has put them.
+        """
         if self.owner is None:
             self.say(NOT_YET)
         else:
-            self.work("Pouring", partial(self._pour, self.owner, seed, make))
+            pour = partial(self._pour, self.owner, seed, make, keeps_hand=keeps_hand)
+            self.work("Pouring", pour)
 
     def pour_now(self, asked: Mapping[str, str]) -> None:
         """Fill the container anew, in the worker that calls this.
@@ -338,11 +333,14 @@ class Workspace:
         self,
         owner: Owner,
         seed: int,
-        make: Callable[[Session], Sequence[Command]],
+        make: Make,
         asked: Mapping[str, str] = MappingProxyType({}),
+        *,
+        keeps_hand: bool = False,
     ) -> None:
         """Run, in the worker, what is then put into the session."""
-        commands, document = owner.call(lambda session: prepared(session, make)).result()
+        asking = partial(prepared, make=make, keeps_hand=keeps_hand)
+        commands, document = owner.call(asking).result()
 
         def show(moment: Moment) -> None:
             poses = moment.poses and replace(moment.poses, stretch=document.poses.stretch)

@@ -25,6 +25,11 @@ class LineUp(Command):
     items: tuple[ItemId, ...]
 
     @property
+    def keeps_places(self) -> tuple[int, ...]:
+        """The items."""
+        return self.items
+
+    @property
     @abstractmethod
     def axis(self) -> int:
         """0 across, 1 down."""

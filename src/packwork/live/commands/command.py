@@ -75,6 +75,11 @@ class Command(Options):
         """Numbers of items that keep the angles it leaves them while others make room."""
         return ()
 
+    @property
+    def keeps_places(self) -> tuple[int, ...]:
+        """Numbers of items that it puts where a hand wants them."""
+        return ()
+
     def places(self, document: Document) -> tuple[int, ...]:
         """Numbers of items that lie where the hand puts them by it, in the document before it."""
         return ()

@@ -53,6 +53,11 @@ class Move(Command):
         """The item."""
         return (self.item,)
 
+    @property
+    def keeps_places(self) -> tuple[int, ...]:
+        """The item."""
+        return (self.item,)
+
 
 class Turn(Command):
     """Turn an item to an angle."""
@@ -143,6 +148,11 @@ class Exchange(Command):
             scale = other.scale * np.sqrt(areas[there] / areas[here])
         changed = replace(poses.subset(here), x=other.x, y=other.y, scale=scale)
         return sized(document.with_poses(poses.with_some(here, changed)), "exchange")
+
+    @property
+    def keeps_places(self) -> tuple[int, ...]:
+        """Both."""
+        return (self.first, self.second)
 
 
 class Arrange(Command):

@@ -8,7 +8,7 @@ import { Percent } from "./percent.js";
 /** Share of words that is offered first, percent. */
 const FIRST = "40";
 /** Told before anything is put elsewhere. */
-const ANEW = "All are poured anew for it, also what you have put somewhere: hold (H) what is to stay there.";
+const ANEW = "All are poured anew for it, but what you have put somewhere by hand, or hold (H).";
 
 export class Mixing {
   /** @param {import("./studio.js").Studio} studio */
