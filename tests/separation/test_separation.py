@@ -104,6 +104,30 @@ def test_the_same_work_gives_the_same_strip_and_more_of_it_no_longer_one() -> No
     assert many < few
 
 
+class Watched(StripSearch):
+    """A search that notes the strip that it leaves when it begins anew."""
+
+    def run(self) -> Strip:
+        self.left = list[float]()
+        return super().run()
+
+    def begin_anew(self, until: float) -> None:
+        self.left.append(self.best.length)
+        super().begin_anew(until)
+
+
+def test_a_search_that_gains_nothing_begins_anew_and_keeps_the_shortest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    parts = [Part(region=L_SHAPE, count=3, turns=QUARTERS), Part(region=TRIANGLE, count=2)]
+    for most in (10**9, 3):
+        monkeypatch.setattr("packwork.separation.strip.DEAD_ENDS", most)
+        one = Watched(parts, Ground(9.0), seed=1, work=WorkBound(passes=15_000))
+        found = one.run()
+        assert (len(one.left) > 2) == (most == 3)
+        assert found.length <= min([*one.left, math.inf])
+
+
 def test_a_part_lies_in_the_hole_of_another_where_there_is_no_room_besides() -> None:
     parts = [Part(region=RING), Part(region=shapely.box(-1.5, -1.5, 1.5, 1.5))]
     problem, strip = search(parts, 8.2, 300)

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from packwork.separation.shapes import Floats
-from packwork.separation.strip import EXPLORED, PATIENCE_AT_END, Strip, StripSearch
+from packwork.separation.strip import PATIENCE_AT_END, Strip, StripSearch
 
 SPARSE, MUCH_LONGER = 0.45, 1.5
 """Density at which parts are brought in first, and how much longer the sheets are cut off where
@@ -119,7 +119,9 @@ class SheetSearch(StripSearch):
             self.step()
             self.work.start()
             self.lay_all(1.0)
-            if shrinks and not np.isnan(self.best.poses).any():
-                self.explore(EXPLORED)
-                self.compress(self.best)
-            return self.best
+            return self.shorten() if shrinks and not self.best.left else self.best
+
+    def begin_anew(self, until: float) -> None:
+        """Go on from the shortest: to bring all parts in again is dear."""
+        del until
+        self.best = self.shortest

@@ -39,6 +39,11 @@ EXPLORED = 0.8
 CLOSEST, FINEST = 0.0005, 0.00001
 """Shares of its length by which a strip is compressed at first, and at last."""
 
+DEAD_ENDS, GAIN = 30, 0.001
+"""Dead ends in a row after which a search begins anew, and the share of a strip's length that
+counts as gained. More sit longer where nothing is found, fewer leave what could still be shortened;
+so many take most of a minute. Chosen."""
+
 LARGE_QUANTILE = 0.75
 """Parts that are exchanged to leave a dead end have hulls above that quantile of all area."""
 
@@ -87,6 +92,15 @@ class Strip:
     poses: Floats
     lefts: Floats
 
+    @property
+    def left(self) -> int:
+        """Number of parts that found no room."""
+        return int(np.isnan(self.poses[:, 0]).sum())
+
+    def rank(self) -> tuple[int, float]:
+        """Order of strips, the best first: by what is left, then by length."""
+        return self.left, self.length
+
 
 class StripSearch:
     """Search over strips of one problem, by workers that start each pass from the same layout."""
@@ -98,15 +112,19 @@ class StripSearch:
         self.problem, self.ground = Problem(parts, ground), ground
         self.random = np.random.default_rng(seed)
         self.work, self.stop = work, stop
-        self.best = self.fallback()
-        length = ground.length_for(self.problem.area / START)
-        length = min(max(length, self.problem.widest), self.best.length)
+        self.best = self.shortest = self.fallback()
+        length = self.first_length()
         poses = self.first_poses(length)
         self.workers = [
             WorkerState.of(self.problem, length, poses, int(word))
             for word in self.random.integers(1, 2**63, workers)
         ]
         self.pool = ThreadPoolExecutor(workers)
+
+    def first_length(self) -> float:
+        """Length of the strip on which parts are strewn at first."""
+        length = self.ground.length_for(self.problem.area / START)
+        return min(max(length, self.problem.widest), self.best.length)
 
     def fallback(self) -> Strip:
         """All parts in columns, so that there is always a strip to show."""
@@ -189,8 +207,9 @@ class StripSearch:
         """Remember a layout without overlaps, on a strip no longer than need be."""
         boxes = self.layout.arrays[0][:, : len(self.problem)]
         self.best = Strip(self.extent(boxes), poses, boxes[X0].copy())
-        left = int(np.isnan(poses[:, 0]).sum())
-        told = f"{self.ground.measure} {self.best.length:.5g}"
+        self.shortest = min(self.shortest, self.best, key=Strip.rank)
+        left = self.shortest.left
+        told = f"{self.ground.measure} {self.shortest.length:.5g}"
         self.work.best_so_far = f"{left} parts left" if left else told
         return self.best
 
@@ -228,8 +247,12 @@ class StripSearch:
             self.put(length, self.first_poses(length), fresh=True)
 
     def explore(self, until: float) -> None:
-        """Shorten the strip again and again; from a dead end, go on from an earlier failure."""
+        """Shorten the strip again and again; from a dead end, go on from an earlier failure.
+
+        Ends where that is in vain: after many dead ends, which took as much work as all gains.
+        """
         failures: list[tuple[float, Floats]] = []
+        begun, gained, dead_ends, worth = self.work.done, self.work.done, 0, self.best.length
         self.shorter(self.best, SHRINKS[0][1])
         while not self.is_over(until):
             loss, poses, passes = self.separate(PATIENCE, until)
@@ -239,13 +262,33 @@ class StripSearch:
                 strip = self.keep(poses)
                 if passes > LABOUR:
                     strip = self.compacted(strip, share)
+                if strip.length < (1.0 - GAIN) * worth:
+                    gained, dead_ends, worth = self.work.done, 0, strip.length
                 self.shorter(strip, share)
                 continue
+            dead_ends += 1
+            if dead_ends >= DEAD_ENDS and self.work.done - gained > gained - begun:
+                return
             failures.append((loss, poses))
             failures.sort(key=lambda one: one[0])
             far = min(abs(self.random.normal(0.0, SPREAD)), 0.999)
             start = failures[int(far * len(failures))][1]
             self.put(self.layout.sheet[0], self.disrupted(start), fresh=True)
+
+    def begin_anew(self, until: float) -> None:
+        """Lay all parts from other places."""
+        self.best = self.fallback()
+        length = self.first_length()
+        self.put(length, self.first_poses(length), fresh=True)
+        self.lay_all(until)
+
+    def shorten(self) -> Strip:
+        """Explore, from other places again where that gains nothing; compress the shortest."""
+        self.explore(EXPLORED)
+        while not self.is_over(EXPLORED):
+            self.begin_anew(EXPLORED)
+            self.explore(EXPLORED)
+        return self.compress(self.shortest)
 
     def disrupted(self, poses: Floats) -> Floats:
         """Exchange two large parts of different shape."""
@@ -281,8 +324,7 @@ class StripSearch:
             self.step()
             self.work.start()
             self.lay_all(EXPLORED)
-            self.explore(EXPLORED)
-            return self.compress(self.best)
+            return self.shorten()
 
     def is_over(self, until: float) -> bool:
         """Whether a share of the work is done, or nobody waits for more."""
