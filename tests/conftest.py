@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import gc
 import os
 import time
@@ -9,6 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+import typer.testing
 from hypothesis import HealthCheck, settings
 
 from made_fonts import make_font_folders
@@ -84,6 +86,14 @@ def _nothing_by_chance() -> Iterator[None]:
         patch.setattr(compiled.listeners, "_tell_once", lambda: None)
         patch.setattr(cache, "DRAWINGS", _OfThisSession())
         patch.setattr(cache, "GLYPHS", _OfThisSession())
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _one_command_line() -> Iterator[None]:
+    """The command line is put together once, as in a process of its own, not at each call."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(typer.testing, "_get_command", functools.cache(typer.testing._get_command))
         yield
 
 

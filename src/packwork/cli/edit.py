@@ -338,17 +338,19 @@ def _written(
     ]
     faults = faults_in(files, made, drawing) if done.certified else []
     certified = done.certified and not faults
-    metrics = measure(made).as_dict()
-    summary = {
-        "metrics": metrics,
-        "items": len(made.items),
-        "certified": certified,
-        "in_the_way": done.in_the_way,
-        "unmet": session.unmet,
-        "advice": session.advice,
-        "moved": done.moved,
-    }
+    is_told = report is not None or not quiet
+    metrics = measure(made).as_dict() if is_told else None
+    advice = session.advice if is_told else ()
     if report is not None:
+        summary = {
+            "metrics": metrics,
+            "items": len(made.items),
+            "certified": certified,
+            "in_the_way": done.in_the_way,
+            "unmet": session.unmet,
+            "advice": advice,
+            "moved": done.moved,
+        }
         files.append((report, writers.json_bytes(summary)))
     with contextlib.ExitStack() as saved:
         for path in filter(is_session, outputs):
@@ -358,12 +360,13 @@ def _written(
     tell_coarse(made, drawing.dpi)
     console = Paper(quiet)
     with printing():
-        console.print(metrics_table(metrics, made.container.unit))
+        if metrics is not None:
+            console.print(metrics_table(metrics, made.container.unit))
         console.print(certificate_line(True, certified, broken=faults), soft_wrap=True)
         names = ", ".join(printable(str(path)) for path, _ in files)
         console.print(f"wrote {names}", soft_wrap=True)
     on_trust = on_trust_in(files, made) if certified else []
-    for line in (*done.in_the_way, *faults, *on_trust, *(() if quiet else session.advice)):
+    for line in (*done.in_the_way, *faults, *on_trust, *(() if quiet else advice)):
         say(line)
     return certified
 

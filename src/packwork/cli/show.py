@@ -24,6 +24,11 @@ class Paper(Console):
     def __init__(self, quiet: bool = False) -> None:
         super().__init__(quiet=quiet, highlight=False, markup=False)
 
+    def print(self, *shown: Any, **how: Any) -> None:
+        """Print, unless quiet: then nothing is laid out for nobody."""
+        if not self.quiet:
+            super().print(*shown, **how)
+
     def on_broken_pipe(self) -> None:
         """Leave it to :func:`printing`."""
         raise

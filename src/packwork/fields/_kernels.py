@@ -55,13 +55,23 @@ def distance_to(mask, out):
     """Distance of each pixel from the nearest True one, of which there is at least one."""
     height, width = mask.shape
     rows = _nearest_in_columns(mask)
-    away = np.empty(width, np.int64)
-    columns = np.empty(width, np.int64)
+    away, columns, stack = np.empty((3, width), np.int64)
     for r in range(height):
-        _nearest_in_row(rows[r], r, away, columns)
-        for c in range(width):
-            across = columns[c] - c
-            out[r, c] = np.sqrt(np.float64(away[columns[c]] + across * across))
+        first = 0
+        while first < width:
+            last = first + 1
+            while last < width and not mask[r, last]:
+                last += 1
+            # Between two True pixels of a row none is nearer that lies beyond them.
+            beyond = min(last + 1, width)
+            if mask[r, first] and last == first + 1:
+                out[r, first] = 0.0
+            else:
+                _nearest_in_row(rows[r, first:beyond], r, away, columns, stack)
+                for c in range(beyond - first):
+                    across = columns[c] - c
+                    out[r, first + c] = np.sqrt(np.float64(away[columns[c]] + across * across))
+            first = last
 
 
 @kernel
@@ -69,10 +79,9 @@ def nearest_to(mask, nearest_row, nearest_column):
     """Row and column of the True pixel, one at least, that is nearest to each."""
     height, width = mask.shape
     rows = _nearest_in_columns(mask)
-    away = np.empty(width, np.int64)
-    columns = np.empty(width, np.int64)
+    away, columns, stack = np.empty((3, width), np.int64)
     for r in range(height):
-        _nearest_in_row(rows[r], r, away, columns)
+        _nearest_in_row(rows[r], r, away, columns, stack)
         for c in range(width):
             nearest_row[r, c] = rows[r, columns[c]]
             nearest_column[r, c] = columns[c]
@@ -95,17 +104,16 @@ def _nearest_in_columns(mask):
 
 
 @helper
-def _nearest_in_row(rows, r, away, columns):
+def _nearest_in_row(rows, r, away, columns, stack):
     """Column in which the True pixel nearest to each pixel of row ``r`` lies, in ``columns``.
 
-    ``rows``: of the nearest in each column; ``away``: squared distances down columns, overwritten.
+    ``rows``: of the nearest in each column; ``away``: squared distances down columns, overwritten,
+    as is ``stack``: columns that are nearest to some point of the row.
     """
     width = len(rows)
     for c in range(width):
         down = np.int64(rows[c] - r)
         away[c] = -1 if rows[c] < 0 else down * down
-    # Columns that are nearest to some point of the row.
-    stack = np.empty(width, np.int64)
     last = -1
     for c in range(width):
         if away[c] < 0:

@@ -10,6 +10,9 @@ keep every part in one piece.
 
 from __future__ import annotations
 
+import bisect
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,25 +62,25 @@ take longer. Chosen."""
 class Thickness:
     """Morphological openings of a region by discs of several radii.
 
-    ``missing``: ``(m,)`` share of the region that is farther than some reach from every place that
-    a disc of that radius inside the region can cover. Both grow.
+    ``radii_px``: ``(m,)``, growing. ``missing_at``: share of the region that is farther than some
+    reach from every place that a disc of the radius of that index inside the region can cover; it
+    grows with the radius, and is asked only where it must be known.
     """
 
     radii_px: FloatArray
-    missing: FloatArray
+    missing_at: Callable[[int], float]
 
     def radius_for(self, missing: float) -> float:
         """Largest radius whose discs leave no more than that share of the region unreached.
 
-        >>> Thickness(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.0, 0.4])).radius_for(0.2)
+        >>> Thickness(np.array([1.0, 2.0, 4.0]), (0.0, 0.0, 0.4).__getitem__).radius_for(0.2)
         2.8284271247461903
         """
-        if self.missing[-1] <= missing:
-            return float(self.radii_px[-1])
-        after = int(np.argmax(self.missing > missing))
-        if after == 0:
-            return float(self.radii_px[0])
-        low, high = self.missing[after - 1 : after + 1]
+        count = len(self.radii_px)
+        after = bisect.bisect_right(range(count), missing, key=self.missing_at)
+        if after in {0, count}:
+            return float(self.radii_px[min(after, count - 1)])
+        low, high = self.missing_at(after - 1), self.missing_at(after)
         share = (missing - low) / (high - low)
         near, far = self.radii_px[after - 1 : after + 1]
         return float(near * (far / near) ** share)
@@ -85,10 +88,13 @@ class Thickness:
     def missing_for(self, radius_px: float) -> float:
         """Share of the region that discs of a radius leave unreached.
 
-        >>> Thickness(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.0, 0.4])).missing_for(4.0)
+        >>> Thickness(np.array([1.0, 2.0, 4.0]), (0.0, 0.0, 0.4).__getitem__).missing_for(4.0)
         0.4
         """
-        return float(np.interp(np.log(radius_px), np.log(self.radii_px), self.missing))
+        after = int(np.searchsorted(self.radii_px, radius_px))
+        about = sorted({max(after - 1, 0), min(after, len(self.radii_px) - 1)})
+        shares = [self.missing_at(k) for k in about]
+        return float(np.interp(np.log(radius_px), np.log(self.radii_px[about]), shares))
 
 
 def thickness(mask: BoolArray, reach_px: float) -> Thickness:
@@ -102,9 +108,13 @@ def thickness(mask: BoolArray, reach_px: float) -> Thickness:
     room = distance_to(np.pad(~mask, 1, constant_values=True))[1:-1, 1:-1] - 0.5
     radii = np.geomspace(0.5, max(float(room.max()), 1.0), STEPS)
     whole = int(np.count_nonzero(mask))
-    away = [mask & (distance_to(room >= radius) > radius + reach_px) for radius in radii]
-    missing = np.array([np.count_nonzero(left) / whole for left in away])
-    return Thickness(radii, np.maximum.accumulate(missing))
+
+    @functools.cache
+    def missing_at(k: int) -> float:
+        away = distance_to(room >= radii[k]) > radii[k] + reach_px
+        return int(np.count_nonzero(mask & away)) / whole
+
+    return Thickness(radii, missing_at)
 
 
 def _removable() -> BoolArray:

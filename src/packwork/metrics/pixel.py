@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
-from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.distance_transform import distance_to, label_components
 from packwork.fields.morphology import closed
 from packwork.geometry.outline import Outline, joined
@@ -59,16 +60,17 @@ def pixel_metrics(outlines: Sequence[Outline], container: Container) -> PixelMet
         return points * px_per_cu
 
     counts = _counts(outlines, to_px, shape)
+    is_in_some = counts > 0
     inside = _counts([container.outline], to_px, shape) > 0
     whole = max(int(np.count_nonzero(inside)), 1)
-    covered = int(np.count_nonzero(inside & (counts > 0)))
+    covered = int(np.count_nonzero(inside & is_in_some))
     uncovered = whole - covered
     return PixelMetrics(
         LC=covered / whole,
         LC_ratio=covered / uncovered if uncovered else float("inf"),
         OO=int(np.count_nonzero(counts > 1)) / whole,
-        EA=int(np.count_nonzero((counts > 0) & ~inside)) / whole,
-        LnU=_non_uniformity(counts > 0, inside),
+        EA=(int(np.count_nonzero(is_in_some)) - covered) / whole,
+        LnU=_non_uniformity(is_in_some, inside),
     )
 
 
@@ -79,9 +81,9 @@ Chosen."""
 
 def _counts(
     outlines: Sequence[Outline], to_px: Callable[[FloatArray], FloatArray], shape: tuple[int, int]
-) -> IntArray:
+) -> npt.NDArray[np.int32]:
     """Outlines that hold each pixel's centre; ``to_px`` takes points ``(n, 2)`` to pixels."""
-    counts = np.zeros(shape, dtype=np.int64)
+    counts = np.zeros(shape, dtype=np.int32)
     for first in range(0, len(outlines), AT_ONCE):
         points, starts = joined(outlines[first : first + AT_ONCE])
         counts += centre_count(to_px(points), starts, shape)

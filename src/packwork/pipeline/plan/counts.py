@@ -153,7 +153,7 @@ def _told(container: Container) -> tuple[Container, Thickness]:
     placed = (outline.points - [left, top]) * scale + 1.0
     mask = centre_count(placed, outline.starts, (shape[1], shape[0])) > 0
     if not mask.any():
-        return container, Thickness(np.array([0.5]), np.array([0.0]))
+        return container, Thickness(np.array([0.5]), lambda _: 0.0)
     return container, thickness(mask, REACH * RESOLUTION)
 
 
