@@ -102,7 +102,7 @@ def test_a_kernel_that_calls_another_is_kept_beside_it(package: Path, kind: str)
         numbers = "import numba; numba.njit(lambda: 1)(); "
         assert call(package, numbers + PROGRAM) == ("3", f"{compiled.NOTICE}\n")
         assert kept(package) == both
-        assert call(package) == ("3", "")
+    assert call(package) == ("3", "")
 
 
 @NEEDS_JIT

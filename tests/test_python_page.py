@@ -34,9 +34,18 @@ def short_runs(patch: pytest.MonkeyPatch, folder: Path) -> dict[str, Any]:
     return {}
 
 
-@pytest.fixture
-def names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
-    return short_runs(monkeypatch, tmp_path)
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("page")
+
+
+@pytest.fixture(scope="module")
+def names(folder: Path) -> dict[str, Any]:
+    """Names of the page, run once without the blocks of extras."""
+    with pytest.MonkeyPatch.context() as patch:
+        found = short_runs(patch, folder)
+        exec(blocks("python"), found)  # noqa: S102
+    return found
 
 
 def test_every_block_is_one_that_a_test_runs() -> None:
@@ -46,9 +55,8 @@ def test_every_block_is_one_that_a_test_runs() -> None:
     }  # fmt: skip
 
 
-def test_the_page_runs(names: dict[str, Any], tmp_path: Path) -> None:
-    exec(blocks("python"), names)  # noqa: S102
-    assert {path.name for path in tmp_path.iterdir()} == {
+def test_the_page_runs(names: dict[str, Any], folder: Path) -> None:
+    assert {path.name for path in folder.iterdir()} == {
         "heart.svg", "heart.png", "heart.geojson",
     }  # fmt: skip
     assert names["label"].startswith("circle at (")
@@ -75,12 +83,12 @@ EXTRAS = {"geopandas": "geopandas", "widget": "anywidget", "torch": "torch"}
 
 
 @pytest.fixture(scope="module")
-def with_extras(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """Names of the page, run once with the blocks of all extras that are installed."""
+def with_extras(names: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """Names of the page, gone on with by the blocks of all extras that are installed."""
     kinds = [f"python {kind}" for kind, module in EXTRAS.items() if find_spec(module)]
     with pytest.MonkeyPatch.context() as patch:
-        found = short_runs(patch, tmp_path_factory.mktemp("page"))
-        exec(blocks("python", *kinds), found)  # noqa: S102
+        found = names | short_runs(patch, tmp_path_factory.mktemp("extras"))
+        exec(blocks(*kinds), found)  # noqa: S102
     return found
 
 

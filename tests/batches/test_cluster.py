@@ -42,7 +42,7 @@ def home(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def plan_of(home: Path, out: str, count: int = 6) -> BatchPlan:
+def plan_of(home: Path, out: str, count: int = 4) -> BatchPlan:
     shapes = ["heart", "circle", "text:Z"]
     rows: list[dict[str, Any]] = [
         {"name": f"row{k}", "shape": shapes[k % 3], "art": "own.svg", "n": 4 + k}
@@ -106,13 +106,13 @@ def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
 ) -> None:
     monkeypatch.chdir(home)
     plan = plan_of(Path(), "alone")
-    assert statuses(run_batch(plan, batch_progress(plan), 1)) == ["made"] * 6
+    assert statuses(run_batch(plan, batch_progress(plan), 1)) == ["made"] * 4
     plan = plan_of(Path(), "far")
     found = run_batch(plan, batch_progress(plan), scheduler=whole_cluster.address)
-    assert statuses(found) == ["made"] * 6
+    assert statuses(found) == ["made"] * 4
     assert contents(Path("far")) == contents(Path("alone"))
     again = plan_of(Path(), "far")
-    assert len(batch_progress(again).kept) == 6
+    assert len(batch_progress(again).kept) == 4
 
 
 def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> None:
@@ -125,7 +125,7 @@ def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> N
         heard.append(outcome)
 
     found = run_batch(plan, batch_progress(plan), told=kill_one, scheduler=cluster.address)
-    assert statuses(found) == ["made"] * 6
+    assert statuses(found) == ["made"] * 4
 
 
 def test_a_row_that_ends_its_workers_fails_alone(

@@ -19,10 +19,10 @@ from benchmarks.robustness.hostile.stops import stop_at_random
 from benchmarks.robustness.hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
 from packwork.errors import ReadError
 
-INPUTS = 200
-LINES = 8
-DEMANDS = {"fonts": (4, 3), "parquet": (9, 39), "nested": (4, 3), "encodings": (4, 3),
-           "drawings": (6, 0)}  # fmt: skip
+INPUTS = 150
+LINES = 6
+DEMANDS = {"fonts": (3, 3), "parquet": (9, 39), "nested": (3, 3), "encodings": (3, 3),
+           "drawings": (4, 0)}  # fmt: skip
 """How many lines of each other part, by which seed: of the Parquet files one of each sort, two of
 them too large once they are read, and none that takes half a minute to make."""
 

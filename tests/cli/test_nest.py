@@ -212,7 +212,7 @@ def _hand(region: shapely.Polygon) -> bool:
 
 
 def test_the_smallest_square_is_as_long_as_high(shop: Path, packwork: Command) -> None:
-    line = "nest square disc.svg*4 bracket.svg*2 --rotate free --passes 200"
+    line = "nest square disc.svg*4 bracket.svg*2 --rotate free --passes 80"
     assert packwork(f"{line} -o a.geojson --report a.json").exit_code == 0
     layout = pw.Layout.load(shop / "a.geojson")
     side = layout.container.width

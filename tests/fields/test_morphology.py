@@ -1,4 +1,4 @@
-"""The middle line: inside, thin, in every part, in the middle."""
+"""The middle line: inside, thin, in every part, in the middle; thickness as by all openings."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as arrays
 from scipy import ndimage
 
 from packwork.arrays import BoolArray
-from packwork.fields.morphology import medial_axis
+from packwork.fields.morphology import STEPS, Thickness, medial_axis, thickness
 
 masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 14), st.integers(1, 14)))
 EIGHT = np.ones((3, 3))
@@ -41,3 +41,32 @@ def test_a_ring_keeps_its_hole() -> None:
     axis = medial_axis((away > 15) & (away < 27))
     np.testing.assert_allclose(away[axis], 21, atol=1.5)
     assert ndimage.label(~axis)[1] == 2
+
+
+@given(
+    shares=st.lists(st.integers(0, 40), min_size=6, max_size=9).map(sorted),
+    missing=st.integers(-1, 41) | st.integers(5, 20),
+    radius_px=st.floats(0.4, 20.0),
+)
+def test_thickness_is_that_of_all_radii(shares: list[int], missing: int, radius_px: float) -> None:
+    radii = np.geomspace(0.5, 16.0, len(shares))
+    found = Thickness(radii, shares.__getitem__)
+    over = np.flatnonzero(np.array(shares) > missing)
+    if len(over) in {0, len(shares)}:
+        expected = radii[-1 if len(over) == 0 else 0]
+    else:
+        about = [over[0] - 1, over[0]]
+        logs = np.interp(missing, np.take(shares, about), np.log(radii[about]))
+        expected = np.exp(logs)
+    assert found.radius_for(missing) == pytest.approx(expected)
+    wanted = np.interp(np.log(radius_px), np.log(radii), shares)
+    assert found.missing_for(radius_px) == pytest.approx(wanted)
+
+
+def test_few_openings_are_made() -> None:
+    away = np.hypot(*(np.indices((60, 60)) - 29.5))
+    made = list[int]()
+    found = thickness(away < 25, 2.0)
+    counted = Thickness(found.radii_px, lambda k: made.append(k) or found.missing_at(k))  # type: ignore[func-returns-value]
+    assert 15 < counted.radius_for(0.02) < 26
+    assert len(set(made)) < STEPS / 2

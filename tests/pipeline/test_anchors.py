@@ -36,7 +36,7 @@ def middles(layout: pw.Layout) -> tuple[np.ndarray, np.ndarray]:
 )
 def test_what_is_like_a_column_lies_there(kinds: str, side: str, axis: int, sign: int) -> None:
     layout = pw.fill(
-        "circle", list(NAMES), count=48, embeddings=kinds, anchors=f"{side}=warm", **QUICK
+        "circle", list(NAMES), count=24, embeddings=kinds, anchors=f"{side}=warm", **QUICK
     )
     assert layout.manifest["certified"]
     warm, cold = middles(layout)

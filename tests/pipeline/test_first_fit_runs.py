@@ -92,7 +92,7 @@ def test_thousands_of_words_fill_as_hundreds_do() -> None:
         assert _starts(layout) == "first-fit"
         return float(layout.metrics["LC_ink"])
 
-    assert ink(1_700) > ink(400) / 2
+    assert ink(1_700) > ink(150) / 2
 
 
 def test_thousands_of_turning_words_are_only_refined(monkeypatch: pytest.MonkeyPatch) -> None:

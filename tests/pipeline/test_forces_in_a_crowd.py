@@ -15,7 +15,7 @@ NAMES = [
 ]
 STRENGTHS = "", " strength=10"
 SEEDS = range(3)
-WORDS = {name: 100 * (k + 1) ** -0.7 for k, name in enumerate(NAMES[::2])}
+WORDS = {name: 100 * (k + 1) ** -0.7 for k, name in enumerate(NAMES[::3])}
 
 
 @cache

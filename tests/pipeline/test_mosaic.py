@@ -14,6 +14,7 @@ from PIL import Image
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry.outline import Outline
+from packwork.pipeline import Run
 from packwork.readers.builtin import builtin_container
 from packwork.readers.options import ReadOptions
 from packwork.readers.target import read_target
@@ -345,33 +346,40 @@ def test_a_broken_drawing_is_one_line(tmp_path: Path) -> None:
         pw.fill("square", "star", count=4, picture=str(tmp_path / "cut.svg"), **QUICK)
 
 
-@pytest.fixture
-def checks(tmp_path: Path) -> str:
+@pytest.fixture(scope="module")
+def checks(tmp_path_factory: pytest.TempPathFactory) -> str:
     """A picture of six by six squares in two colours."""
     board = np.indices((6, 6)).sum(axis=0) % 2
     pixels = np.where(board[..., None], (220, 180, 40), (20, 40, 140)).astype(np.uint8)
-    Image.fromarray(pixels).resize((240, 240), Image.Resampling.NEAREST).save(tmp_path / "c.png")
-    return str(tmp_path / "c.png")
+    path = tmp_path_factory.mktemp("checks") / "c.png"
+    Image.fromarray(pixels).resize((240, 240), Image.Resampling.NEAREST).save(path)
+    return str(path)
 
 
-def _told(picture: str, count: int, seed: int) -> str:
-    options = {**QUICK, "seed": seed, "effort": "draft"}
-    run = fill(
-        make_recipe(container="square", items=["square"], count=count, picture=picture, **options)
-    )
-    return " ".join(run.advice)
+def _squares(picture: str, count: int, seed: int = 0) -> Run:
+    options = {**QUICK, "seed": seed, "picture": picture}
+    return fill(make_recipe(container="square", items=["square"], count=count, **options))
+
+
+@pytest.fixture(scope="module")
+def many(checks: str) -> Run:
+    """As many squares as show the picture."""
+    return _squares(checks, 300)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_too_few_items_for_a_picture_are_told_of(checks: str, seed: int) -> None:
-    told = _told(checks, 12, seed)
+    told = " ".join(_squares(checks, 12, seed).advice)
     assert "the picture shows to" in told
     assert "would show it" in told
-    assert "the picture shows to" not in _told(checks, 300, seed)
 
 
-def test_shuffled_items_are_like_no_picture(checks: str) -> None:
-    layout = pw.fill("square", "square", count=300, picture=checks, **QUICK)
+def test_enough_items_for_a_picture_are_not_told_of(many: Run) -> None:
+    assert "the picture shows to" not in " ".join(many.advice)
+
+
+def test_shuffled_items_are_like_no_picture(checks: str, many: Run) -> None:
+    layout = many.layout
     target = read_target(checks, layout.container)
     assert correlation_with(layout, target) > LEAST
     for seed in range(4):

@@ -74,8 +74,9 @@ def to_one_side(sign: float) -> Any:
 def test_a_loss_that_is_always_zero_changes_nothing(
     loss: Any, sizes: str, caplog: pytest.LogCaptureFixture
 ) -> None:
-    plain = pw.fill("circle", ["star", "heart"], count=6, sizes=sizes, seed=1)
-    weighed = pw.fill("circle", ["star", "heart"], count=6, sizes=sizes, seed=1, losses={loss: 5.0})
+    asked = {"count": 6, "sizes": sizes, "seed": 1, "effort": "draft"}
+    plain = pw.fill("circle", ["star", "heart"], **asked)
+    weighed = pw.fill("circle", ["star", "heart"], losses={loss: 5.0}, **asked)
     np.testing.assert_array_equal(weighed.poses.x, plain.poses.x)
     np.testing.assert_array_equal(weighed.poses.scale, plain.poses.scale)
     assert f"the loss {loss.__name__} is zero wherever items are" in caplog.text

@@ -96,7 +96,7 @@ def check_file(run: pipeline.Run, path: Path) -> None:
     assert met(again) == []
 
 
-@settings(max_examples=20)
+@settings(max_examples=12)
 @given(scenario=any_scenario())
 def test_runs_keep_their_word(tmp_path_factory: pytest.TempPathFactory, scenario: Scenario) -> None:
     check(scenario, tmp_path_factory.mktemp("runs"))

@@ -14,7 +14,7 @@ from packwork.uses.words.fitted import BESIDE
 from packwork.uses.words.grown import barred
 
 NAMES = ("harbour", "tide", "gull", "mast", "rope", "oar", "in", "of")
-WORDS = {f"{NAMES[k % 8]}{chr(97 + k // 8)}": (k + 1) ** -0.5 for k in range(80)}
+WORDS = {f"{NAMES[k % 8]}{chr(97 + k // 8)}": (k + 1) ** -0.5 for k in range(64)}
 
 
 def _gaps(layout: pw.Layout) -> np.ndarray:
@@ -31,31 +31,32 @@ def _gaps(layout: pw.Layout) -> np.ndarray:
     return np.concatenate(found)
 
 
-def test_words_of_a_line_stand_apart_whatever_their_size() -> None:
-    layout = pw.words("circle", WORDS, sizes="shared", effort="draft")
+@pytest.fixture(scope="module")
+def wide() -> pw.Layout:
+    """Words two units apart, and their film."""
+    return pw.words("circle", WORDS, sizes="shared", padding="2", effort="draft", record=True)
+
+
+def test_words_of_a_line_stand_apart_whatever_their_size(wide: pw.Layout) -> None:
+    layout = pw.words("circle", WORDS, sizes="shared", padding="0", effort="draft")
     assert layout.manifest["certified"]
     assert layout.manifest["start"] == "first-fit"
     assert _gaps(layout).min() > 0.9 * BESIDE
     sizes = layout.poses.scale / layout.poses.scale[0]
     np.testing.assert_allclose(sizes, list(WORDS.values()), rtol=1e-6)
+    # Where room is asked for there is less for the words.
+    assert layout.poses.scale[0] > wide.poses.scale[0]
 
 
-def test_a_padding_that_is_asked_for_is_kept() -> None:
-    none, wide = (
-        pw.words("circle", WORDS, sizes="shared", padding=padding, effort="draft")
-        for padding in ("0", "2")
-    )
-    assert none.manifest["certified"]
+def test_a_padding_that_is_asked_for_is_kept(wide: pw.Layout) -> None:
     assert wide.manifest["certified"]
     assert wide.metrics["exact"]["min_gap"] >= 2.0
     assert _gaps(wide).min() > BESIDE
-    assert none.poses.scale[0] > wide.poses.scale[0]
 
 
-def test_a_film_shows_such_words_come_in() -> None:
-    layout = pw.words("circle", WORDS, sizes="shared", record=True)
-    assert layout.track is not None
-    assert 0 < (layout.track.at(0.3).scale > 0).sum() < len(WORDS)
+def test_a_film_shows_such_words_come_in(wide: pw.Layout) -> None:
+    assert wide.track is not None
+    assert 0 < (wide.track.at(0.3).scale > 0).sum() < len(WORDS)
 
 
 def test_words_grow_until_they_touch_and_keep_the_room_beside(

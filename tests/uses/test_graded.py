@@ -27,20 +27,30 @@ def words(container: object = "heart", weights: object = WEIGHTS, **options: obj
     return pw.words(container, weights, **{**QUICK, **options})  # type: ignore[arg-type]
 
 
-def test_no_word_is_larger_than_a_heavier_one() -> None:
-    layout = words()
-    assert [item.name for item in layout.items] == list(WEIGHTS)
-    assert (np.diff(layout.poses.scale) <= 1e-6).all()
-    assert layout.manifest["certified"]
+@pytest.fixture(scope="module")
+def heart() -> pw.Layout:
+    """Graded words in a heart."""
+    return words(smallest=8, largest=40)
 
 
-def test_the_report_says_how_far_from_true_each_is() -> None:
-    layout = words()
-    of_true = layout.manifest["words"]["of_true"]
+@pytest.fixture(scope="module")
+def plain() -> pw.Layout:
+    """Words in a heart, of whose sizes nothing is said."""
+    return pw.words("heart", WEIGHTS, effort="draft")
+
+
+def test_no_word_is_larger_than_a_heavier_one(heart: pw.Layout) -> None:
+    assert [item.name for item in heart.items] == list(WEIGHTS)
+    assert (np.diff(heart.poses.scale) <= 1e-6).all()
+    assert heart.manifest["certified"]
+
+
+def test_the_report_says_how_far_from_true_each_is(heart: pw.Layout, plain: pw.Layout) -> None:
+    of_true = heart.manifest["words"]["of_true"]
     heights = np.array(list(WEIGHTS.values()))
-    expected = layout.poses.scale / layout.poses.scale[0] / heights
+    expected = heart.poses.scale / heart.poses.scale[0] / (heights / heights[0])
     assert list(of_true.values()) == pytest.approx(expected.tolist(), abs=1e-4)
-    assert pw.words("heart", WEIGHTS, effort="draft").manifest["words"]["of_true"] == {}
+    assert plain.manifest["words"]["of_true"] == {}
 
 
 def test_a_thin_shape_is_filled_more_than_by_true_sizes(tmp_path: Path) -> None:
@@ -51,9 +61,8 @@ def test_a_thin_shape_is_filled_more_than_by_true_sizes(tmp_path: Path) -> None:
     assert (np.diff(graded.poses.scale) <= 1e-6).all()
 
 
-def test_letters_keep_their_bounds() -> None:
-    layout = words(smallest=8, largest=40)
-    sizes = layout.poses.scale * EM_PX
+def test_letters_keep_their_bounds(heart: pw.Layout) -> None:
+    sizes = heart.poses.scale * EM_PX
     assert sizes.max() <= 40 + 1e-9
     assert sizes.min() >= 8 - 1e-9
 
@@ -109,7 +118,7 @@ def test_a_run_that_is_stopped_has_the_first_words() -> None:
     assert layout.items[0].name == "lorem0"
 
 
-def test_thin_shapes_are_graded_by_default_and_fat_ones_true() -> None:
+def test_thin_shapes_are_graded_by_default_and_fat_ones_true(plain: pw.Layout) -> None:
     thin = pw.words("ring", WEIGHTS, effort="draft")
     assert thin.manifest["words"]["of_true"]
     assert pw.words("ring", WEIGHTS, effort="draft", sizes="shared").manifest["words"] == {
@@ -117,7 +126,7 @@ def test_thin_shapes_are_graded_by_default_and_fat_ones_true() -> None:
         "asked": 30,
         "of_true": {},
     }
-    assert not pw.words("heart", WEIGHTS, effort="draft").manifest["words"]["of_true"]
+    assert not plain.manifest["words"]["of_true"]
 
 
 def test_icons_alone_have_no_ranks() -> None:
@@ -181,14 +190,13 @@ def test_sizes_give_way_where_one_word_would_leave_the_container_bare() -> None:
     assert not few.manifest["words"]["of_true"]
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_a_cloud_by_default_shows_its_shape_or_sizes_gave_way(seed: int) -> None:
+def test_a_cloud_by_default_shows_its_shape_or_sizes_gave_way() -> None:
     """Where one word is far heavier than all others, the rest was specks at one side."""
-    text = _text(heavy=60, count=60)
-    found = pw.words("circle", text, count=60, seed=seed, effort="draft")
+    text = _text(heavy=40, count=40)
+    found = pw.words("circle", text, count=40, seed=1, effort="draft")
     assert found.certified
     assert found.metrics["shape"] >= 0.9 or found.manifest["words"]["of_true"]
-    true = pw.words("circle", text, count=60, seed=seed, effort="draft", sizes="shared")
+    true = pw.words("circle", text, count=40, seed=1, effort="draft", sizes="shared")
     assert found.metrics["shape"] >= true.metrics["shape"]
 
 

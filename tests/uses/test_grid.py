@@ -142,9 +142,9 @@ def test_one_photo_is_told_in_the_singular(album: Path, ramp: np.ndarray) -> Non
         pw.photos("square", album / "p00.png", picture=ramp, grid=True, count=36, repeats=5)
 
 
-@pytest.mark.parametrize("stripes", [5, 10])
-def test_a_picture_finer_than_the_tiles_is_told(album: Path, tmp_path: Path, stripes: int) -> None:
+def test_a_picture_finer_than_the_tiles_is_told(album: Path, tmp_path: Path) -> None:
     """Stripes show once each tile lies in one."""
+    stripes = 5
     row = np.repeat(np.arange(stripes) % 2 * 255, 320 // stripes).astype(np.uint8)
     Image.fromarray(np.tile(row, (320, 1))).save(tmp_path / "stripes.png")
     few, enough = (

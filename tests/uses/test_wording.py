@@ -276,8 +276,7 @@ def test_a_container_of_words_has_their_font_or_its_own() -> None:
         words_recipe("circle", WEIGHTS, container_font="DejaVu Sans")
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-@pytest.mark.parametrize("size", ["50%", "20%"])
+@pytest.mark.parametrize(("size", "seed"), [("50%", 0), ("20%", 1)])
 def test_no_word_is_larger_than_the_hero(size: str, seed: int) -> None:
     weights = {"licence": 10, "copyright": 30, "software": 25, "work": 12, "terms": 7, "use": 4}
     layout = pw.words("circle", weights, hero=f"licence={size}", seed=seed, effort="draft")

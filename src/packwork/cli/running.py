@@ -83,9 +83,8 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             saved = outputs.saved_recipe(recipe.model_copy(update={"seed": seed}))
         written = [*drawn, *saved, *films, *sheet_of(tried, outputs.choosing)]
         results = run.report(time.perf_counter() - began, START_UP.told())
-        # Looking at pictures of all items is for who reads of it, and waits for the end.
-        is_looked_at = not was_cut_short and (outputs.report is not None or not quiet)
-        if is_looked_at:
+        if is_looked_at := not was_cut_short and (outputs.report is not None or not quiet):
+            # Looks at pictures of all items, for which nobody waits who wants it to end.
             results["advice"] += _hard_to_see(run, outputs)
         results["advice"] += pipeline.coarse_photos(
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
