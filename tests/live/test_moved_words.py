@@ -21,8 +21,7 @@ def cloud(container: str, seed: int) -> pw.Layout:
     return pw.words(container, WEIGHTS, sizes="shared", padding=0, seed=seed, effort="draft")
 
 
-@pytest.mark.parametrize("container", ["circle", "heart"])
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize(("container", "seed"), [("circle", 0), ("circle", 1), ("heart", 0)])
 def test_the_largest_word_is_where_it_was_put_and_the_cloud_is_full(
     container: str, seed: int
 ) -> None:
@@ -69,13 +68,14 @@ def test_a_word_that_is_to_be_larger_than_the_cloud_is_as_large_as_there_is_room
 
 
 def test_a_cloud_whose_sizes_give_way_is_as_full_poured_anew_or_in_another_font() -> None:
-    layout = pw.words("bird", dict(WORDS), effort="draft")
+    words = dict(list(WORDS.items())[:16])
+    layout = pw.words("bird", words, effort="draft")
     session = layout.edit()
     session.apply(poured_again(session.document, 1))
     assert session.finish().certified
     assert (session.document.poses.x != layout.poses.x).any()
     assert covered(session.document) > 0.9 * covered(layout.edit().document)
-    session.words(dict(WORDS), font="DejaVu Serif")
+    session.words(words, font="DejaVu Serif")
     assert session.finish().certified
-    fresh = pw.words("bird", dict(WORDS), font="DejaVu Serif", effort="draft")
+    fresh = pw.words("bird", words, font="DejaVu Serif", effort="draft")
     assert covered(session.document) > 0.9 * covered(fresh.edit().document)

@@ -9,14 +9,14 @@ from packwork.compaction import separate
 from packwork.live.refilling import MOST_RUINED
 
 QUICK = {"effort": "draft"}
-WEIGHTS = {f"word{k}": 30.0 / (k + 3) for k in range(24)}
+WEIGHTS = {f"word{k}": 30.0 / (k + 3) for k in range(16)}
 
 
 def covered(layout: pw.Layout) -> float:
     return float(layout.metrics["LC"])
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("seed", [0, 1])
 @pytest.mark.parametrize("what", ["cloud", "icons"])
 def test_a_move_of_the_largest_leaves_the_container_full_and_certified(
     what: str, seed: int

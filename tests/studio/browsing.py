@@ -209,6 +209,14 @@ class Desk:
         self.settled()
         return self.look("JSON.stringify([...studio.collage.poses])")
 
+    def undo_all(self) -> None:
+        """Have the document as it began, for the next that use it."""
+        self.settled()
+        while self.look("studio.collage.state.can_undo"):
+            self.look("studio.connection.leap('undo')")
+            self.until("studio.collage.done >= studio.connection.count")
+            self.settled()
+
     def place(self, item: int) -> tuple[float, float]:
         """Where an item is on the window."""
         x, y = self.look(

@@ -614,14 +614,14 @@ def test_items_are_put_in_an_order_and_by_a_table(
 
 
 def test_what_is_drawn_anew_while_dragging_is_all_that_has_changed(browser: Any) -> None:
-    server = Server("heart", "builtin:icons", "-n", "60").start()
+    server = Server("heart", "builtin:icons", "-n", "24").start()
     desk = Desk(browser.new_page(viewport=WIDE), server.address)
     desk.settled()
-    start, end = desk.place(0), desk.place(30)
+    start, end = desk.place(0), desk.place(12)
     desk.page.mouse.move(*start)
     desk.page.mouse.down()
-    for step in range(40):
-        share = step / 39
+    for step in range(16):
+        share = step / 15
         desk.page.mouse.move(*(a + share * (b - a) for a, b in zip(start, end, strict=True)))
         desk.page.wait_for_timeout(15)
     off, was_partial = desk.look(

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from studio.browsing import PHONE, Desk, in_browser, own_desk
+from studio.browsing import PHONE, Desk, Server, in_browser
 
 pytestmark = in_browser
 
@@ -29,10 +28,18 @@ def halves(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    made = Server("circle", "star", "heart", "-n", "16").start()
+    yield made
+    made.stop()
+
+
 @pytest.fixture
-def desk(browser: Any) -> Iterator[Desk]:
-    with own_desk(browser, "circle", "star", "heart", "-n", "40") as made:
-        yield made
+def desk(open_desk: Callable[..., Desk]) -> Iterator[Desk]:
+    made = open_desk()
+    yield made
+    made.undo_all()
 
 
 def drop(desk: Desk, picture: Path, answer: str) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from PIL import Image, ImageDraw
 
-from studio.browsing import Desk, in_browser, own_desk
+from studio.browsing import Desk, Server, in_browser
 
 pytestmark = in_browser
 
@@ -33,10 +33,18 @@ DROP = """([files, place]) => {
 }"""
 
 
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    made = Server("circle", "star", "-n", "5").start()
+    yield made
+    made.stop()
+
+
 @pytest.fixture
-def desk(browser: Any) -> Iterator[Desk]:
-    with own_desk(browser, "circle", "star", "-n", "5") as made:
-        yield made
+def desk(open_desk: Callable[..., Desk]) -> Iterator[Desk]:
+    made = open_desk()
+    yield made
+    made.undo_all()
 
 
 @pytest.fixture
