@@ -23,6 +23,8 @@ const LONG = 6000;
 const FAINT = 0.3;
 /** Half a handle of the smallest items, px. */
 const LEAST_HALF = 2.5;
+/** Width over height from which an item may be letters: its pin is at its left end, where it covers none. */
+const WORDLIKE = 1.5;
 
 export class Stage {
   /**
@@ -339,10 +341,13 @@ export class Stage {
 
   /** @param {number} id */
   drawPin(id) {
-    const pose = this.collage.pose(id);
-    if (!pose) return;
+    const [item, pose] = [this.collage.item(id), this.collage.pose(id)];
+    if (!item || !pose) return;
     const { pen, colours } = this;
-    const { x, y } = this.view.toScreen(pose.x, pose.y);
+    const [width, height] = this.collage.look(item).size;
+    const [top, , , bottom] = this.collage.corners(id);
+    const isRead = item.is_word || width > WORDLIKE * height;
+    const { x, y } = isRead ? this.view.toScreen((top[0] + bottom[0]) / 2, (top[1] + bottom[1]) / 2) : this.view.toScreen(pose.x, pose.y);
     this.toWindow();
     pen.beginPath();
     pen.arc(x, y, 9, 0, 2 * Math.PI);
