@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import io
 
 import numpy as np
@@ -23,7 +24,13 @@ from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.metrics.violations import violations
 
-START = Document.from_layout(pw.fill("circle", ["star", "heart"], count=7, epochs=60, levels="50"))
+
+@functools.cache
+def start() -> Document:
+    """A small layout; made once a test needs it, for each process collects all tests."""
+    made = pw.fill("circle", ["star", "heart"], count=7, epochs=60, levels="50")
+    return Document.from_layout(made)
+
 
 (HEXAGON,) = pw.read_items("hexagon")
 
@@ -84,7 +91,7 @@ class AnySequence(RuleBasedStateMachine):
     @initialize()
     def begin(self) -> None:
         self.stream = io.StringIO()
-        self.session = Session(START, Library({"hexagon": HEXAGON}), Log(self.stream))
+        self.session = Session(start(), Library({"hexagon": HEXAGON}), Log(self.stream))
 
     @rule(command=commands)
     def apply(self, command: AnyCommand) -> None:
@@ -124,7 +131,7 @@ class AnySequence(RuleBasedStateMachine):
     def replay(self) -> None:
         self.session.log.flush()
         entries = list(read_entries(iter(self.stream.getvalue().splitlines()), "a log"))
-        again = Session.replay(START, entries)
+        again = Session.replay(start(), entries)
         for name in ("x", "y", "angle", "scale"):
             one, other = (getattr(s.document.poses, name) for s in (self.session, again))
             assert one.tobytes() == other.tobytes()
