@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,15 +24,21 @@ def place(page: Firefox, item: int) -> tuple[float, float]:
     return x, y
 
 
+@pytest.fixture
+def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
+    """A studio of its own, whose first document is called desk-1."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    made = Server("heart", "star", "moon", "-n", "8").start()
+    yield made
+    made.stop()
+
+
 @pytest.mark.skipif(firefox_path() is None, reason="no Firefox on this machine")
 @pytest.mark.xdist_group("browser")
-def test_five_tasks_in_firefox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # The first document of a studio of its own is called desk-1.
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+def test_five_tasks_in_firefox(server: Server, tmp_path: Path) -> None:
     (tmp_path / "profile").mkdir()
     noise = [Image.effect_noise((90, 60), 60 + k) for k in range(3)]
     Image.merge("RGB", noise).save(tmp_path / "sky.jpg")
-    server = Server("heart", "star", "moon", "-n", "8").start()
     with firefox(tmp_path / "profile") as page:
         page.goto(server.address)
         page.settled()
@@ -92,4 +99,3 @@ def test_five_tasks_in_firefox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         head = "studio.exporting.make('pdf', {}).then(made => made.slice(0, 5).text())"
         assert page.look(head) == "%PDF-"
         assert page.faults == []
-    server.stop()
