@@ -41,7 +41,9 @@ STYLE = """.packwork { --desk: #efece6; --paper: #fffdf9; --edge: #cfc8bb; --mar
   --marquee: #2457e61f; --free: #ffd08a; --taken: #0b1c5c; }
 .packwork canvas { display: block; width: 100%; touch-action: none; border-radius: 8px; }
 .packwork div { display: flex; gap: 6px; align-items: center; flex-wrap: wrap; padding: 6px 0; }
-.packwork button { min-height: 44px; padding: 0 14px; }
+.packwork button { min-height: 44px; padding: 0 14px; border: 1px solid var(--edge);
+  border-radius: 6px; background: var(--paper); color: #23272e; cursor: pointer; }
+.packwork button:focus-visible { outline: 2px solid var(--mark); outline-offset: 2px; }
 """
 
 
