@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Set
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from packwork import writers
 from packwork.errors import PackworkError
 from packwork.geometry.outline import regions as regions_of
+from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise, unclean
 from packwork.metrics.exact import PORTION
 from packwork.metrics.measure import exact_of
@@ -161,19 +164,42 @@ def on_trust_in_file(path: str | Path, layout: Layout, size: int = 0) -> tuple[s
     return (f"what {' and '.join(f'{tag}s' for tag in sorted(beyond))} paint is taken on trust",)
 
 
+STRIP = 1_000
+"""Items of which all that is near is looked at together. Larger takes memory, smaller more often
+what lies at the edge of a strip."""
+
+
 def is_clear(layout: Layout, gap: float) -> bool:
-    """Whether no item is nearer than a gap to another one, or to the container's edge."""
-    # By portions, so that not all outlines in place are in memory as well.
-    parts = np.array_split(np.arange(len(layout.items)), -(-len(layout.items) // PORTION) or 1)
-    regions = np.concatenate([regions_of(layout.placed(part.tolist())) for part in parts])
+    """Whether no item is nearer than a gap to another one, or to the container's edge.
+
+    By strips from left to right: only their regions are in memory.
+    """
+    if not layout.items:
+        return True
     whole = layout.container.outline.region
     edge = whole.boundary
     shapely.prepare([whole, edge])
-    if not shapely.covers(whole, regions).all():
-        return False
+    parts = np.array_split(np.arange(len(layout.items)), -(-len(layout.items) // STRIP))
+    boxes = np.array([one.bounds for part in parts for one in layout.placed(part.tolist())])
+    tree = shapely.STRtree(shapely.box(*boxes.T))
+    from_left = np.argsort(boxes[:, 0], kind="stable")
+    for begin in range(0, len(from_left), STRIP):
+        own = from_left[begin : begin + STRIP]
+        grown = boxes[own] + gap * np.array([-1.0, -1.0, 1.0, 1.0])
+        others = np.setdiff1d(tree.query(shapely.box(*grown.T))[1], own)
+        regions = regions_of(layout.placed(np.concatenate([own, others]).tolist()))
+        if not shapely.covers(whole, regions[: len(own)]).all():
+            return False
+        if not _are_apart(regions, len(own), edge, gap):
+            return False
+    return True
+
+
+def _are_apart(regions: NDArray[Any], count: int, edge: Region, gap: float) -> bool:
+    """Whether the first so many of some regions keep a gap to all of them and to an edge."""
     tree = shapely.STRtree(regions)
-    for begin in range(0, len(regions), PORTION):
-        portion = regions[begin : begin + PORTION]
+    for begin in range(0, count, PORTION):
+        portion = regions[begin : min(begin + PORTION, count)]
         shapely.prepare(portion)
         near = tree.query(portion, predicate="dwithin", distance=gap)
         shapely.destroy_prepared(portion)
