@@ -106,10 +106,8 @@ def test_a_part_that_lies_turned_over_stays_said_to(tmp_path: Path) -> None:
 
 def test_of_many_parts_an_effort_is_more_passes() -> None:
     parts = list(read_parts("builtin:star*9000", "mm", "none"))
-    assert [work_of(parts[:1], effort=effort).passes for effort in ("draft", "normal")] == [
-        3000,
-        30000,
-    ]
+    efforts = ("draft", "normal")
+    assert [work_of(parts[:1], effort=one).passes for one in efforts] == [27_000, 90_000]
 
 
 def test_a_search_ends_when_it_is_told_to() -> None:

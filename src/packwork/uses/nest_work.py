@@ -13,8 +13,9 @@ from packwork.uses.nested import SheetPart
 PASSES: dict[str, int] = {"draft": 1_000, "normal": 10_000, "best": 100_000}
 """Passes of a search, by effort: of 50 parts some 1, 10 and 100 s on two cores. Tried."""
 
-MANY = 3_000
-"""Parts from which passes grow as their number does: of fewer, each window has more. Chosen."""
+PER_PART = {"draft": 3, "normal": 10, "best": 100}
+"""Passes for each part at least: to lay one takes one or two, so that with fewer than that some of
+many parts find no room. Tried."""
 
 LONGER = 3
 """Times the work that is advised. Chosen."""
@@ -54,8 +55,7 @@ def work_of(
     if time is not None:
         return WorkBound(seconds=time)
     count = sum(part.count for part in parts)
-    passes = math.ceil(PASSES[effort] * max(count / MANY, 1.0))
-    return WorkBound(passes=passes, name=effort)
+    return WorkBound(passes=max(PASSES[effort], PER_PART[effort] * count), name=effort)
 
 
 def more_than(work: WorkBound) -> str:
