@@ -66,8 +66,7 @@ class Arrangement:
         own = np.concatenate([part.points for part in parts])
         starts = np.cumsum([0, *(len(part.points) for part in parts)])
         after, before = _neighbours(parts)
-        lengths = np.hypot(own[:, 0], own[:, 1])
-        arms = np.maximum.reduceat(lengths, starts[:-1])[:-1]
+        arms = np.maximum.reduceat(np.hypot(own[:, 0], own[:, 1]), starts[:-1])[:-1]
         boxes = np.tile(np.array(container.bounds), (len(parts), 1))
         edges = own[starts[-2] :], own[after[starts[-2] :]]
         stride = max(LEAST_STRIDE, math.isqrt(len(edges[0])))

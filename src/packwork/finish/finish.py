@@ -137,10 +137,12 @@ def finish(
         run.anneal()
         run.fine()
         run.level()
-    found = run.result()
-    conflicts = find_conflicts(container, outlines, found, run.gap)
+    found, gap, undersized, rounds = run.result(), run.gap, run.undersized, run.rounds
+    # Its polygons are done with; those among which conflicts are looked for take more than they.
+    del run
+    conflicts = find_conflicts(container, outlines, found, gap)
     return Finished(
-        found, not conflicts, conflicts, run.undersized, run.rounds, time.perf_counter() - began
+        found, not conflicts, conflicts, undersized, rounds, time.perf_counter() - began
     )
 
 
