@@ -109,7 +109,8 @@ def test_words_come_together_by_their_text(tmp_path: Path) -> None:
         session.finish()
         assert session.is_certified
         together.append(apartness(session.layout))
-    assert np.median(together) > np.median(plain)
+    # By chance they come nearer, too, but not by that.
+    assert np.median(together) > 1.1 * np.median(plain)
 
 
 def test_a_picture_is_shown_by_colours_alone(layout: pw.Layout) -> None:

@@ -134,6 +134,7 @@ def corners_of_export(desk: Desk, edge: str = "none") -> list[tuple[int, ...]]:
     desk.page.locator("#export").click()
     desk.page.locator("dialog.export input[value=png]").check()
     desk.page.locator("dialog.export [name=margin]").select_option(label=edge)
+    desk.page.locator("dialog.export [name=pixels]").fill("600")
     with desk.page.expect_download() as waited:
         desk.page.locator("dialog.export button.primary").click()
     with Image.open(BytesIO(Path(waited.value.path()).read_bytes())) as picture:
