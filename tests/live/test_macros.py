@@ -10,10 +10,17 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.live.commands.command import made, named_container
+from packwork.live.commands.container import SetContainer
 from packwork.live.commands.items import Duplicate
 from packwork.live.commands.placing import Move
 from packwork.live.commands.together import COMMANDS, Together
 from packwork.live.document import counted_weight
+from packwork.live.face.offers import container_of, labels_of
+from packwork.live.macros import brought, labelled, labels_in
+from packwork.pipeline.region_labels import PartLabel
+from packwork.scene.container import Container, on_canvas
+from packwork.units import canvas_size
 
 QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
 
@@ -329,7 +336,7 @@ def test_what_is_poor_is_told_as_of_a_run() -> None:
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_words_come_among_icons_with_their_share_of_what_is_covered(
-    icons: pw.Layout, seed: int
+    icons: pw.Layout, seed: int, tmp_path: Path
 ) -> None:
     session = icons.edit()
     session.mix({"bear": 4, "fox": 3, "owl": 2}, "40%", seed=seed)
@@ -346,6 +353,14 @@ def test_words_come_among_icons_with_their_share_of_what_is_covered(
             poses, side = document.poses, document.container.side
             session.move(0, x=float(poses.x[0]) + 0.03 * side, y=float(poses.y[0]))
             session.finish()
+            # What is moved and put back is not put there, and undo and redo keep what was.
+            session.move(1, x=float(poses.x[1]) + 0.03 * side, y=float(poses.y[1]))
+            session.undo()
+            session.undo()
+            assert not session.document.put
+            session.redo()
+            session.save(tmp_path / "put.packwork")
+            session = pw.Session.open(tmp_path / "put.packwork")
             before = session.document.poses
             session.mix(None, 0.7, seed=seed)
             after = session.document.poses
@@ -371,3 +386,39 @@ def test_a_share_is_of_words_among_others(icons: pw.Layout, cloud: pw.Layout) ->
             layout.edit().mix(source, 0.5)
     with pytest.raises(RecipeError, match="must be a share such as 70%"):
         icons.edit().mix({"elk": 1}, 2)
+
+
+def test_names_of_parts_follow_the_sheet_and_are_there_once(tmp_path: Path) -> None:
+    source = tmp_path / "map.svg"
+    shapes = (
+        '<rect id="Peru" width="50" height="60"/>',
+        '<rect id="Chile" x="50" width="50" height="60"/>',
+    )
+    page = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 60">{"".join(shapes)}</svg>'
+    source.write_text(page, encoding="utf-8")
+    land = container_of(str(source), None)
+    labels, told = labels_of(land)
+    assert not told
+    session = pw.fill("circle", ["star"], count=3, **QUICK).edit()
+    of_group = replace(labels[0].item, name="warm", source="label:warm")
+    session.apply(next(brought(session, [of_group])))
+
+    def fill(container: Container, names: list[PartLabel]) -> list[str]:
+        asset = named_container(session.library, container)
+        session.do_together([made(SetContainer, asset=asset), *labelled(session, names)])
+        return [item.name for item in session.document.items]
+
+    assert fill(land, labels) == [*3 * ["star"], "warm", "Peru", "Chile"]
+    before = session.document.poses.subset([4, 5])
+    half = on_canvas(land, canvas_size("300px"))
+    names = labels_in(session.document, half)
+    assert fill(half, names) == [*3 * ["star"], "warm", "Peru", "Chile"]
+    after, factor = session.document.poses.subset([4, 5]), half.side / land.side
+    for column in ("x", "y", "scale"):
+        assert getattr(after, column) == pytest.approx(factor * getattr(before, column))
+    assert session.document.held.all(axis=1).tolist() == 4 * [False] + 2 * [True]
+    session.remove(["star", "warm"])
+    assert fill(land, labels) == ["Peru", "Chile"]
+    # A collage has one item at least.
+    assert fill(half, []) == ["Peru", "Chile"]
+    assert not session.document.held.any()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from enum import IntEnum
 from functools import cached_property
@@ -61,6 +61,8 @@ class Document:
         The picture that items show from afar; None for none.
     behind
         Picture or gradient that covers the canvas behind all; None for none.
+    put
+        Numbers of items that a hand has put somewhere since a run has put them elsewhere.
 
     Examples
     --------
@@ -84,6 +86,7 @@ class Document:
     notes: tuple[Attached, ...] = ()
     mosaic: Mosaic | None = None
     behind: Item | None = None
+    put: frozenset[int] = frozenset()
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -205,10 +208,10 @@ class Document:
         far = np.maximum(np.abs(here.x - there.x), np.abs(here.y - there.y))
         return set(self.ids[mine[far <= SAME_PLACE * self.container.side]].tolist())
 
-    def with_held_places(self, numbers: Iterable[int]) -> Document:
-        """The document with the places of items held, of those that are there."""
+    def with_held_hand(self) -> Document:
+        """The document with the places held of what a hand has put somewhere."""
         held = self.held.copy()
-        held[np.isin(self.ids, list(numbers)), PROPERTIES.index("place")] = True
+        held[np.isin(self.ids, list(self.put)), PROPERTIES.index("place")] = True
         return replace(self, held=held)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from copy import deepcopy
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -92,8 +92,6 @@ class Marks:
         What lay beside items before the hand took them away.
     turned_by_hand
         Turned by hand since the last leap: polish leaves its angle.
-    put
-        Put somewhere by hand since a run has put it elsewhere, whatever was undone.
     recent
         Put somewhere or turned by hand since the last settle but one: polish leaves it as it is.
     unpolished
@@ -109,7 +107,6 @@ class Marks:
     turned: set[int] = field(default_factory=set)
     vacated: set[int] = field(default_factory=set)
     turned_by_hand: set[int] = field(default_factory=set)
-    put: set[int] = field(default_factory=set)
     recent: set[int] = field(default_factory=set)
     unpolished: set[int] = field(default_factory=set)
     polished: int = 0
@@ -119,14 +116,15 @@ class Marks:
         """The same, to be gone back to."""
         return deepcopy(self)
 
-    def note_hand(self, steps: Sequence[Command], before: Document, after: Document) -> None:
-        """Note what steps of a hand leave as it has put or turned it, and what a run has moved."""
+    def note_hand(self, steps: Sequence[Command], before: Document, after: Document) -> Document:
+        """Note what steps of a hand leave as it has turned it; the document, with what it put."""
         kept = {one for step in steps for one in step.keeps_angles}
         self.turned |= kept
         self.turned_by_hand |= kept
-        if any(step.kind == "arrange" for step in steps):
-            self.put &= before.unmoved_in(after)
-        self.put.update(one for step in steps for one in step.keeps_places)
+        is_run = any(step.kind == "arrange" for step in steps)
+        put = after.put & before.unmoved_in(after) if is_run else after.put
+        put |= {one for step in steps for one in step.keeps_places}
+        return after if put == after.put else replace(after, put=put)
 
     def settled(self) -> None:
         """Forget what was to be settled."""
@@ -135,9 +133,7 @@ class Marks:
 
     def leapt(self) -> None:
         """Forget all items: the document is another one."""
-        put = self.put
         self.keep(set())
-        self.put = put
 
     def keep(self, present: set[int]) -> None:
         """Forget items that are no more."""

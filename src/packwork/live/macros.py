@@ -13,14 +13,15 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, made, named_item, true_scale
 from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut, SetOption
-from packwork.live.commands.gestures import Hold
+from packwork.live.commands.gestures import Hold, Release
 from packwork.live.commands.items import Add, Remove, Replace, Weigh
 from packwork.live.document import Document, counted_weight, is_straight_word
 from packwork.live.neighbourhood.places import widest_places
 from packwork.phrasing import enumerated
-from packwork.pipeline.region_labels import LABEL, PartLabel
+from packwork.pipeline.region_labels import PART_LABEL, PartLabel
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.scene.colour import hex_colour
+from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.recolour import in_own_colours, one_colour, recoloured
 from packwork.uses.words.recipe import words_recipe
@@ -226,11 +227,12 @@ def mixed(
 
 
 def labelled(session: Session, labels: Sequence[PartLabel]) -> Iterator[Command]:
-    """Commands after which names lie on the parts of a container, held; those before are gone."""
+    """Commands after which names lie on the parts of a container, held; those before are gone.
+
+    Where these are all there is and no others come they stay, as items like any.
+    """
     document = session.document
-    before = [k for k, item in enumerate(document.items) if item.source.startswith(LABEL)]
-    if 0 < len(before) < len(document):
-        yield made(Remove, items=tuple(document.ids[before].tolist()))
+    before = tuple(document.ids[_part_labels(document)].tolist())
     for label in labels:
         longest = float(np.ptp(np.reshape(label.item.outline.bounds, (2, 2)), axis=0).max())
         area = label.item.outline.area * (label.size / longest) ** 2
@@ -239,6 +241,33 @@ def labelled(session: Session, labels: Sequence[PartLabel]) -> Iterator[Command]
     if labels:
         first = document.next_id
         yield made(Hold, items=tuple(range(first, first + len(labels))))
+    if before and (labels or len(before) < len(document)):
+        yield made(Remove, items=before)
+    elif before:
+        yield made(Release, items=before)
+
+
+def labels_in(document: Document, container: Container) -> list[PartLabel]:
+    """Names on the parts of a document's container, as they lie in one of another size."""
+    here, there = (
+        np.reshape(one.outline.bounds, (2, 2)) for one in (document.container, container)
+    )
+    scale = float(np.ptp(there, axis=0).max() / np.ptp(here, axis=0).max())
+    poses, labels = document.poses, list[PartLabel]()
+    for k in _part_labels(document):
+        item = document.items[k]
+        place = np.array([poses.x[k], poses.y[k]])
+        x, y = (there[0] + scale * (place - here[0])).tolist()
+        size = scale * float(
+            poses.scale[k] * np.ptp(np.reshape(item.outline.bounds, (2, 2)), 0).max()
+        )
+        labels.append(PartLabel(item, size, x, y))
+    return labels
+
+
+def _part_labels(document: Document) -> list[int]:
+    """Rows of names of the parts of a container."""
+    return [k for k, one in enumerate(document.items) if one.source.startswith(PART_LABEL)]
 
 
 def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[str, float]:
@@ -317,4 +346,4 @@ def prepared(
     commands, document = make(session), session.document
     for command in commands:
         document = command.applied(document, session.library)
-    return commands, document.with_held_places(session.marks.put if keeps_hand else ())
+    return commands, document.with_held_hand() if keeps_hand else document

@@ -208,7 +208,7 @@ class Session:
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)
         self.requests.note(command.steps, before, documents[-1])
-        self.marks.note_hand(command.steps, before, documents[-1])
+        documents[-1] = self.marks.note_hand(command.steps, before, documents[-1])
         for document in documents:
             self._solver.take(document)
         self._solver.place(placed & set(self.document.ids.tolist()))

@@ -64,8 +64,8 @@ PLACES, SIZES = 25, 5
 Chosen."""
 
 DIGITS = 6
-LABEL = "label:"
-"""Begin of the source of a plate."""
+LABEL, PART_LABEL = "label:", "part-label:"
+"""Begins of the source of a plate: of a group, and of a part."""
 
 LABEL_RULE = RuleSource("label_regions")
 
@@ -93,7 +93,7 @@ def _with_groups(job: Job, vectors: ItemVectors) -> Job:
     fits = [name for name, plate in plates.items() if plate.wide * em <= sides[name]]
     rows = unit_rows(vectors.of(job.items))
     means = [rows[groups == name].mean(axis=0) for name in fits]
-    items = tuple(plates[name].item(name) for name in fits)
+    items = tuple(plates[name].item(LABEL, name) for name in fits)
     asked = [_asked(job, plates[name].longest * em) for name in fits]
     told += _without_room([name for name in plates if name not in fits])
     if items:
@@ -137,7 +137,8 @@ def part_labels(
             narrow.append(name)
             continue
         em, x, y = found
-        labels.append(PartLabel(plates[name].item(name), plates[name].longest * em, x, y))
+        plate = plates[name]
+        labels.append(PartLabel(plate.item(PART_LABEL, name), plate.longest * em, x, y))
     return labels, told + _without_room(narrow)
 
 
@@ -175,8 +176,8 @@ class _Plate:
     def longest(self) -> float:
         return max(self.wide, self.high)
 
-    def item(self, name: str) -> Item:
-        """The plate as an item."""
+    def item(self, source: str, name: str) -> Item:
+        """The plate as an item, whose source begins so."""
         left, top, right, bottom = self.drawn.region.bounds
         half = np.array([self.wide, self.high]) / 2 - ROUND
         inner = shapely.box(*-half, *half)
@@ -191,7 +192,7 @@ class _Plate:
             f'<path fill="{LETTERS}" transform="{matrix_text(place)}" d="{self.drawn.path}"/>'
         )
         art = VectorArt(markup, affine.similarity(0.0, 0.0, 0.0, 1.0))
-        return Item(name, f"{LABEL}{name}", plate, plate, art, Label(name=name))
+        return Item(name, f"{source}{name}", plate, plate, art, Label(name=name))
 
 
 def _plates(names: Iterable[str]) -> tuple[dict[str, _Plate], list[ReadError]]:

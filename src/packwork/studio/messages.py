@@ -19,7 +19,7 @@ from packwork.live.commands.items import Replace
 from packwork.live.commands.together import AnyCommand
 from packwork.live.face.offers import container_of, items_of, labels_of
 from packwork.live.face.opening import opening_sent
-from packwork.live.macros import brought, labelled
+from packwork.live.macros import brought, labelled, labels_in
 from packwork.live.owner import Leap
 from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
@@ -207,7 +207,9 @@ class Room(PageRequest):
 
         def make(session: Session) -> list[Command]:
             asset = named_container(session.library, container)
-            return [made(SetContainer, asset=asset), *labelled(session, labels)]
+            is_same = self.source == SAME
+            names = labels_in(session.document, container) if is_same else labels
+            return [made(SetContainer, asset=asset), *labelled(session, names)]
 
         tab.workspace.pour(0, make)
 

@@ -90,6 +90,8 @@ class DocumentRecord(Options):
     next_id: Id | None = None
     manifest: dict[Text, Any] | None = None
     pictures: BehindRecord | None = None
+    put: tuple[Id, ...] | None = None
+    """Numbers of what a hand has put somewhere."""
     notes: tuple[NoteRecord, ...] | None = None
     """Of the first document: all others have them too."""
 
@@ -111,6 +113,7 @@ def records_of(
                 next_id=document.next_id,
                 manifest=dict(document.manifest),
                 pictures=_pictures_record(document, place),
+                put=tuple(sorted(document.put)) or None,
                 notes=tuple(map(_note_record, document.notes)) if before is None else None,
             )
         else:
@@ -128,6 +131,7 @@ def records_of(
                     if before.mosaic is document.mosaic and before.behind is document.behind
                     else _pictures_record(document, place)
                 ),
+                put=None if before.put == document.put else tuple(sorted(document.put)),
             )
         before, then = document, now
 
@@ -200,6 +204,7 @@ def _document(
     next_id = record.next_id if was is None or record.next_id is not None else was.next_id
     options = record.options if was is None or record.options is not None else was.options
     manifest = record.manifest if was is None or record.manifest is not None else was.manifest
+    put = (() if was is None else was.put) if record.put is None else record.put
     pictures = record.pictures
     mosaic, behind = (None, None) if was is None else (was.mosaic, was.behind)
     if pictures is not None:
@@ -222,6 +227,7 @@ def _document(
         notes=tuple(map(_note_of, record.notes or ())) if before is None else before.notes,
         mosaic=mosaic,
         behind=behind,
+        put=frozenset(put),
     )
     _check_numbers(document)
     return sized(document, "item"), columns

@@ -53,7 +53,6 @@ class MarksRecord(Options):
     turned: _Ids = ()
     left: _Ids = ()
     by_hand: _Ids = ()
-    put: _Ids = ()
     lately: _Ids = ()
     rough: _Ids = ()
     polished: Annotated[int, Field(ge=0, le=2**53)] = 0
