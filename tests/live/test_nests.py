@@ -241,6 +241,9 @@ def test_a_straight_line_over_a_notch_leaves_its_part() -> None:
     assert not room.holds(inside, ArcLine(ends, np.zeros(2)))
     assert room.holds_path("M1 8H8M1 1V8")
     assert not room.holds_path("M1 8H8M1 1H8")
+    # The line that closes a path is cut, too.
+    assert room.holds_path("M1 1V8H8V1")
+    assert not room.holds_path("M1 1V8H8V1Z")
     assert not room.holds(ArcLine(np.array([[1.0, 1.0], [1.0, 8.0], [8.0, 8.0], [8.0, 1.0]]),
                                   np.zeros(4), is_closed=True))  # fmt: skip
 

@@ -368,6 +368,57 @@ def test_values_of_any_kind_are_refused_in_one_line(good: bytes, data: st.DataOb
     refused(stored(parts))
 
 
+DRAWN = """<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="30mm" viewBox="0 0 40 30">
+<path d="M2 2h20c9 3 9 16 0 20H2z"/></svg>"""
+
+
+@pytest.fixture(scope="module")
+def cut(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    folder = tmp_path_factory.mktemp("cut")
+    (folder / "a.svg").write_text(DRAWN, encoding="utf-8")
+    session = pw.nest("100x80mm", [str(folder / "a.svg")], passes=1).layouts[0].edit()
+    session.save(folder / "a.packwork")
+    return (folder / "a.packwork").read_bytes()
+
+
+def with_path(cut: bytes, path: str) -> bytes:
+    def spoil(parts: dict[str, bytes]) -> None:
+        (name,) = (one for one in parts if one.startswith("items/"))
+        item = json.loads(parts[name])
+        assert "C" in item["art"]["path"]
+        item["art"]["path"] = path
+        parts[name] = json.dumps(item).encode()
+
+    return changed(cut, spoil)
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ("M9 9Z", "that leave their part"),
+        ("M9 9", "that leave their part"),
+        ("M9 9L12 12ZM13 13Z", ""),
+        ("M13 13ZM9 9L12 12Z", ""),
+        ("M9 9L12 12ZM13 13H900Z", "that leave their part"),
+    ],
+)
+def test_paths_with_pieces_that_draw_nothing_are_read(cut: bytes, path: str, said: str) -> None:
+    assert said in refused(with_path(cut, path))
+    assert bool(said) == bool(refused(with_path(cut, path)))
+
+
+PIECES = [
+    *"MmZzLlHhVvCcSsQqTtAa", "M9 9", "M9 9Z", "M12 12Z", "M12 12L13 9", "L13 9Z", "11 12 ", "3 ",
+    "-", ".", "e", ",", "1e99", "2 2 0 0 1 13 13",
+]  # fmt: skip
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(pieces=st.lists(st.sampled_from(PIECES), max_size=12))
+def test_paths_of_any_kind_are_read_or_refused(cut: bytes, pieces: list[str]) -> None:
+    refused(with_path(cut, "M9 9" + "".join(pieces)))
+
+
 def changed(good: bytes, change: Callable[[dict[str, bytes]], None]) -> bytes:
     parts = dict(unpacked(good))
     change(parts)

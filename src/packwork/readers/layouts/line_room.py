@@ -15,7 +15,7 @@ from packwork.geometry.polygon import Region
 from packwork.readers.reading import UnfitError, one_budget
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
-from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.path_data import SubPath, parse_path
 
 LINES_OFF = 1e-4
 """How far lines for a machine may lie beyond their part's outline, as a share of its extent.
@@ -48,6 +48,8 @@ class LineRoom:
     (True, False)
     >>> room.holds_path("M1 1C2 9 7 9 8 1Z"), room.holds_path("M1 1C2 19 7 19 8 1Z")
     (True, False)
+    >>> room.holds_path("M1 1Z"), room.holds_path("M1 1L2 2ZM3 3Z")
+    (False, True)
     >>> room.holds(half, matrix=2.0 * affine.identity())
     False
     """
@@ -97,13 +99,16 @@ class LineRoom:
         return self._covers(seen, ends[lasts], of_line[side], matrix)
 
     def holds_path(self, path: str, matrix: FloatArray = _SAME) -> bool:
-        """Whether all that SVG path data draws lies in it."""
+        """Whether SVG path data draws something, and all of it lies in it."""
         try:
             with one_budget():
-                pieces = [one.segments for one in parse_path(path)]
-            cubics = np.concatenate(pieces)
-        except (UnfitError, ValueError):
+                # A point alone draws nothing.
+                pieces = [_whole(one) for one in parse_path(path) if len(one.segments)]
+        except UnfitError:
             return False
+        if not pieces:
+            return False
+        cubics = np.concatenate(pieces)
         if not self._is_near(cubics[:, [0, 3]].reshape(-1, 2), matrix):
             return False
         corners = cubics @ matrix[:, :2].T
@@ -154,3 +159,11 @@ class LineRoom:
         counts = np.bincount(of_line) + 1
         drawn = shapely.linestrings(whole, indices=np.repeat(np.arange(len(lasts)), counts))
         return bool(shapely.covers(self._region, drawn).all())
+
+
+def _whole(piece: SubPath) -> FloatArray:
+    """Cubics of a piece of a path, the line that closes it among them."""
+    begin, end = np.array(piece.start), piece.segments[-1, 3]
+    if not piece.is_closed or (begin == end).all():
+        return piece.segments
+    return np.concatenate([piece.segments, [[end, end, begin, begin]]])
