@@ -75,6 +75,8 @@ OPTIONS = [
     ("--stretch nan", "--stretch: "),
     ("--stretch inf", "--stretch: "),
     ("--rotate twist", "rotate: use free, upright, none, 30"),
+    ("--rotate 22,5", "--rotate: 22,5 may be 22.5 degrees or two angles; write 22.5, or 22,5,"),
+    ("--rotate 11,25", "11,25 may be 11.25 degrees"),
     ("--levels fine", "levels: use resolutions like 50,200,600"),
     ("--levels 3", "levels: a level has"),
     ("--epochs 0", "epochs: "),

@@ -126,6 +126,7 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest square bracket.svg*2001", "2,001 parts are more than 2,000"),
         ("nest 300mm nowhere.svg*3", "no such file"),
         ("nest 300mm bracket.svg --rotate round", "rotate"),
+        ("nest 300mm bracket.svg --rotate 22,5", "--rotate: 22,5 may be 22.5 degrees"),
         ("nest 300mm bracket.svg --kerf wide", "wide"),
         ("nest 300mm bracket.svg -o a.doc", "a.doc"),
     ],

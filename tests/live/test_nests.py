@@ -48,6 +48,7 @@ def session_of(layout: pw.Layout) -> Session:
 
 
 def test_a_nest_keeps_its_gap_its_sizes_and_its_angles() -> None:
+    assert session_of(nested(rotate="22,5")).document.options.rotate == "22,5"
     session = session_of(nested(rotate="0,180"))
     options = session.document.options
     assert (options.padding, options.sizes, options.rotate) == (2.0, "fixed", "0,180")

@@ -136,8 +136,8 @@ def nest(
         files = list(options.output or (DEFAULT_OUTPUT,))
         every = [*files, *([report] if report else [])]
         sheets, counted = read_request(
-            sheet, parts or [], options.optional, options.rotate, mirror=options.mirror,
-            holes=options.holes, engraving=Engraving(options.engrave),
+            sheet, parts or [], options.optional, shared.typed_rotation(options.rotate),
+            mirror=options.mirror, holes=options.holes, engraving=Engraving(options.engrave),
         )  # fmt: skip
         lengths = options.lengths(sheets[0])
         _check_files(files, every, no_clobber)

@@ -6,6 +6,7 @@ Some options only command lines have: names of files, and what is printed.
 from __future__ import annotations
 
 import inspect
+import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
@@ -109,6 +110,9 @@ class Terminal(Options):
     """Print nothing but warnings and errors; advice on what came of a run is in --report."""
 
 
+_HALVES = re.compile(r"\d+,[1-9]|[1-9]\d*,[27]5")
+"""Halves and quarters of degrees with a comma, as most of Europe writes them."""
+
 Command = Callable[..., None]
 AnyOptions = TypeVar("AnyOptions", bound=Options)
 
@@ -187,6 +191,8 @@ def of_run(verb: Verbs, asked: Mapping[str, Any]) -> dict[str, Any]:
     said = {name: value for name, value in asked.items() if name in names}
     if "losses" in said:
         said["losses"] = loss_weights(said["losses"])
+    if said.get("rotate") is not None:
+        said["rotate"] = typed_rotation(said["rotate"])
     return said
 
 
@@ -248,6 +254,29 @@ def loss_weights(losses: list[str] | None) -> dict[str, float]:
     if any(":" in name for name in weights):
         find_own_modules()
     return weights
+
+
+def typed_rotation(text: str) -> str:
+    """The same text as it was typed, refused where its comma may be that of a decimal.
+
+    What is stored, or said in Python, has its meaning already.
+
+    Examples
+    --------
+    >>> typed_rotation("0,90"), typed_rotation("22,5,")
+    ('0,90', '22,5,')
+    """
+    from packwork.errors import RecipeError
+
+    plain = text.strip()
+    if _HALVES.fullmatch(plain) is None:
+        return text
+    number = plain.replace(",", ".")
+    raise RecipeError(
+        "rotate",
+        f"{plain} may be {number} degrees or two angles; write {number}, or {plain}, with a comma "
+        "at the end for both",
+    )
 
 
 def find_own_modules() -> None:

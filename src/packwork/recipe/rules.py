@@ -53,10 +53,6 @@ _HERO = re.compile(
 )
 
 
-_HALVES = re.compile(r"\d+,[1-9]|[1-9]\d*,[27]5")
-"""Halves and quarters of degrees with a comma, as most of Europe writes them."""
-
-
 def checked_length(value: object) -> object:
     """The same value, if it is a length of the grammar; percents of whatever it turns out.
 
@@ -109,12 +105,6 @@ class Rotation(Options):
         if plain in TURNED:
             return cls(choices=tuple(math.radians(v) for v in TURNED[plain]))
         numbers = [_degrees(part, text) for part in plain.split(",") if part.strip()]
-        if _HALVES.fullmatch(plain):
-            raise RecipeError(
-                "rotate",
-                f"{plain} may be {plain.replace(',', '.')} degrees or two angles; write "
-                f"{plain.replace(',', '.')}, or {plain}, with a comma at the end for both",
-            )
         if "," in plain and numbers:
             return cls(choices=tuple(math.radians(v) for v in numbers))
         if len(numbers) == 1 and 0 < numbers[0] <= 180:
@@ -173,12 +163,10 @@ def rotation_text(value: object) -> object:
     Examples
     --------
     >>> rotation_text((90,)), rotation_text(30), rotation_text((22, 5))
-    ('90,', '30', '22,5,')
+    ('90,', '30', '22,5')
     """
     text = as_text(value)
-    if isinstance(value, tuple | list) and (len(value) == 1 or _HALVES.fullmatch(str(text))):
-        return f"{text},"
-    return text
+    return f"{text}," if isinstance(value, tuple | list) and len(value) == 1 else text
 
 
 def known_rotation(value: object) -> object:
