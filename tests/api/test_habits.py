@@ -178,8 +178,8 @@ def test_cells_may_stand_where_a_column_may() -> None:
 @pytest.mark.parametrize("kind", [list, tuple, iter, np.array])
 def test_words_are_counted(kind: Any) -> None:
     tokens = ["bear", "fox", "bear", "owl"]
-    cased = kind(["Bear", "fox", "bear", "bear", "owl"])
-    assert {item.name for item in pw.words("heart", cased, **DRAFT).items} == set(tokens)
+    cased = ["The", "the", "the", "NATO"]
+    assert {item.name for item in pw.words("heart", kind(cased), **DRAFT).items} == set(cased)
     assert pw.words("heart", kind(tokens), **DRAFT) == pw.words("heart", Counter(tokens), **DRAFT)
 
 

@@ -266,7 +266,38 @@ def test_totals_are_kept_on_demand(tmp_path: Path) -> None:
     ("rows", "totals"),
     [
         ([("A", 60), ("B", 40), ("Total 2024", 100)], [2]),
-        ([("Total", 120), ("A", 60), ("B", 40)], [0]),
+        ([("Total", 100), ("A", 60), ("B", 40)], [0]),
+        ([("Total", 120), ("A", 60), ("B", 40)], []),
+        ([("All", 100), ("A", 60), ("B", 40)], []),
+        ([("A", 60), ("Subtotal", 70), ("B", 40)], []),
+        ([("A", 60), ("Returns", -20), ("B", 40), ("Total", 80)], [3]),
+        (
+            [
+                ("N", 2),
+                ("N", 3),
+                ("N Ergebnis", 5),
+                ("S", 4),
+                ("S Ergebnis", 4),
+                ("Gesamtergebnis", 9),
+            ],
+            [2, 4, 5],
+        ),
+        (
+            [
+                ("a", 2),
+                ("b", 3),
+                ("Jan Total", 5),
+                ("c", 4),
+                ("Feb Total", 4),
+                ("N Total", 9),
+                ("d", 1),
+                ("Jan Total", 1),
+                ("S Total", 1),
+                ("Grand Total", 10),
+            ],
+            [2, 4, 5, 7, 8, 9],
+        ),
+        ([("Berlin Shell", 30), ("Total", 30), ("BP", 10)], []),
         ([("A", 6), ("Subtotal", 6), ("B", 4), ("Subtotal", 4), ("Grand total", 10)], [1, 3, 4]),
         ([("A", 33), ("B", 33), ("C", 33), ("Gesamt", 98)], [3]),
         ([("Shell", 60), ("Total", 70), ("BP", 40)], []),
@@ -282,7 +313,35 @@ def test_totals_are_kept_on_demand(tmp_path: Path) -> None:
 def test_a_total_is_called_one_and_comes_to_the_others(
     rows: list[tuple[str, float]], totals: list[int]
 ) -> None:
-    assert total_rows([[name] for name, _ in rows], [number for _, number in rows]) == totals
+    found = total_rows([[name] for name, _ in rows], [number for _, number in rows])
+    assert found == {k: rows[k][0] for k in totals}
+
+
+PIVOT = (
+    "Region;Monat;Umsatz\nNord;Jan;120,5\nNord;Feb;99,5\nNord Ergebnis;;220\n"
+    "Süd;Jan;300\nSüd;Feb;250,25\nStorno;Feb;-10\nSüd Ergebnis;;540,25\nGesamtergebnis;;760,25\n"
+)
+
+
+def test_totals_of_a_pivot_table_are_named_by_what_calls_them_so(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text(PIVOT, encoding="utf-8")
+    read = marks(file, size_by="Umsatz", label_by="Monat")
+    assert [item.name for item in read.items] == ["Jan", "Feb", "Jan", "Feb"]
+    named = "is the total of others: Nord Ergebnis, Süd Ergebnis, Gesamtergebnis; --keep-totals"
+    assert any(named in told for told in read.notices)
+    asked = WordOptions(source=str(file), label_by="Region", size_by="Umsatz")
+    assert {item.name for item in read_word_items(asked).items} == {"Nord", "Süd"}
+
+
+def test_a_value_of_another_column_is_no_total(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Land;Art;Menge\nA;x;1\nB;y;2\nC;Total;3\n", encoding="utf-8")
+    assert [item.name for item in marks(file).items] == ["A", "B", "C"]
+    file.write_text("Land;Menge\nA;1\nB;2\nTotal;9\n", encoding="utf-8")
+    read = marks(file)
+    assert [item.name for item in read.items] == ["A", "B", "Total"]
+    assert any("shown though called a total" in told for told in read.notices)
 
 
 def test_a_weight_may_stand_there_twice_if_it_is_the_same(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -58,16 +59,17 @@ def words_of(table: Pairs, file: str, *, keeps_totals: bool = False) -> TableRea
     count = len(table.rows)
     notices = {why: _left_out(why, which, count) for why, which in said.items()}
     told = [text for why, text in notices.items() if why in _EMPTY]
-    numbers = [pair.number for pair in sound]
-    totals = [] if keeps_totals else total_rows([[pair.name] for pair in sound], numbers)
-    if totals:
-        which = [sound[k] for k in totals]
-        sound = [pair for k, pair in enumerate(sound) if k not in totals]
+    numbered = [pair for pair in table.rows if math.isfinite(pair.number)]
+    numbers = [pair.number for pair in numbered]
+    found = {} if keeps_totals else total_rows([[pair.name] for pair in numbered], numbers)
+    which = [numbered[k] for k in found if numbered[k].is_sound]
+    if which:
+        sound = [pair for k, pair in enumerate(numbered) if k not in found and pair.is_sound]
         told.append(
             f"{_left_out('that is the total of others', which, count)}; --keep-totals makes words "
             "of totals too"
         )
-    elif sound and is_sum_last(numbers):
+    elif sound and numbered[-1] is sound[-1] and is_sum_last(numbers):
         told.append(
             f"{sound[-1].name[:40]!r} ({sound[-1].where}) is the sum of the others by its weight; "
             "it is a word as they are: take it out of the table if it is none"

@@ -167,7 +167,8 @@ def _check_count(count: int, table: Table, column: str) -> None:
 
 def row_name(table: Table, row: int, label_by: str | None) -> str:
     """What a row is called in messages: by its label or, without one, by its number."""
-    return f"row {row + 1}" if label_by is None else cell_text(table.rows[row].get(label_by))[:40]
+    label = None if label_by is None else table.rows[row].get(label_by)
+    return f"row {row + 1}" if is_missing(label) else cell_text(label)[:40]
 
 
 def left_out(
@@ -181,8 +182,13 @@ def left_out(
     >>> left_out(Table("data", ("land",), rows), "land", "is missing", [1], None)
     'left out 1 row of 2 whose land is missing: row 2'
     """
-    names = [row_name(table, k, label_by) for k in which]
-    count = f"{number_of(len(which), 'row')} of {len(table.rows)}"
+    return left_out_named(table, column, why, [row_name(table, k, label_by) for k in which])
+
+
+def left_out_named(table: Table, column: str, why: str, names: Sequence[str]) -> str:
+    """The same of rows that are called by these names."""
+    count = f"{number_of(len(names), 'row')} of {len(table.rows)}"
+    names = [name[:40] for name in names]
     return f"left out {count} whose {column} {why}: {enumerated(names, MOST_NAMED)}"
 
 

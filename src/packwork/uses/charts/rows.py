@@ -25,8 +25,13 @@ from packwork.readers.tables.cells import (
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import MOST_NAMED
 from packwork.readers.tables.table import Row, Table, read_table
-from packwork.readers.tables.totals import is_sum_last, total_rows
-from packwork.uses.charts.groups import LARGE, Groups, left_out, round_up, row_name
+from packwork.readers.tables.totals import (
+    called_total,
+    is_sum_last,
+    names_a_part,
+    total_rows,
+)
+from packwork.uses.charts.groups import LARGE, Groups, left_out, left_out_named, round_up, row_name
 
 COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")
 """Options that name columns."""
@@ -109,22 +114,39 @@ def without_totals(
     >>> without_totals(Table("data", ("a", "n"), rows), "n", "a", {0: 2.0, 1: 3.0, 2: 5.0})[0]
     {0: 2.0, 1: 3.0}
     """
-    which = list(numbers)
-    others = [name for name in table.columns if name != column]
-    texts = [
-        [cell_text(cell) for name in others if isinstance(cell := table.rows[k].get(name), str)]
-        for k in which
-    ]
-    totals = {which[place] for place in total_rows(texts, list(numbers.values()))}
-    if not totals and is_sum_last(list(numbers.values())):
+    signed = {k: any_number(row.get(column)) for k, row in enumerate(table.rows)}
+    which = [k for k, number in signed.items() if abs(number) <= FARTHEST]
+    texts = _names_of_rows(table, column, label_by)
+    called = total_rows([texts[k] for k in which], [signed[k] for k in which])
+    totals = {which[place]: text for place, text in called.items() if which[place] in numbers}
+    told = {}
+    if totals:
+        names = [text or row_name(table, k, None) for k, text in totals.items()]
+        said = left_out_named(table, column, "is the total of others", names)
+        told[f"{said}; --keep-totals shows totals too"] = False
+    elif is_sum_last([signed[k] for k in which]):
         name = row_name(table, which[-1], label_by)
-        told = f"{name} is the sum of the others by its number, and is shown as they are"
-        return dict(numbers), {told: False}
-    if not totals:
-        return dict(numbers), {}
-    told = left_out(table, column, "is the total of others", sorted(totals), label_by)
-    kept = {k: number for k, number in numbers.items() if k not in totals}
-    return kept, {f"{told}; --keep-totals shows totals too": False}
+        told[f"{name} is the sum of the others by its number, and is shown as they are"] = False
+    doubtful = [called_total(texts[k])[:40] for k in numbers if k not in totals]
+    if any(doubtful):
+        named = enumerated([text for text in doubtful if text], MOST_NAMED)
+        told[f"shown though called a total, as it is not the sum of others: {named}"] = False
+    return {k: number for k, number in numbers.items() if k not in totals}, told
+
+
+def _names_of_rows(table: Table, column: str, label_by: str | None) -> list[list[str]]:
+    """Texts of each row that may name it: label, first text, and others' totals of parts."""
+    texts = [name for name in table.columns if name != column and not is_numeric(table.rows, name)]
+    naming = {label_by, *texts[:1]}
+    if label_by in table.columns and label_by not in (column, *texts):
+        texts.append(label_by)
+
+    def text(row: Row, name: str) -> str:
+        cell = row.get(name)
+        is_name = isinstance(cell, str) and (name in naming or names_a_part(cell))
+        return cell_text(cell) if is_name and not is_missing(cell) else ""
+
+    return [[text(row, name) for name in texts] for row in table.rows]
 
 
 def sizes(

@@ -13,7 +13,6 @@ from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.tables.pairs import PairColumns, pairs_of_rows
 from packwork.readers.tables.table import is_frame, rows_of_frame
 from packwork.readers.words.options import WordOptions
-from packwork.readers.words.source import folded
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.pictures import check_no_names, known_palette
 from packwork.recipe.refusals import validated
@@ -98,8 +97,7 @@ def _plain_source(source: object, own: dict[str, Any]) -> object:
         return source
     words = list(source) if isinstance(source, Iterable) else []
     if words and all(isinstance(word, str) for word in words):
-        counts, written = folded(Counter(words))
-        return {written[word]: count for word, count in counts.items()}
+        return dict(Counter(words))
     pairs = getattr(source, "items", None)
     try:
         return dict(pairs())  # type: ignore[misc]
