@@ -90,8 +90,8 @@ SHORT_ARC = math.pi / 5
 the radius, longer ones by more. Derived."""
 
 WIDEST_ARC = 1e6
-"""Largest radius of an arc, in the path's unit: programs that count in single precision, or bound
-their numbers, lose larger ones. A parabola of so little bend is within rounding of it. Chosen."""
+"""Largest radius of an arc, in the path's unit, whatever else would do: programs that count in
+single precision, or bound their numbers, lose larger ones. Chosen."""
 
 
 def arc_path_data(line: ArcLine, digits: int) -> str:
@@ -104,6 +104,11 @@ def arc_path_data(line: ArcLine, digits: int) -> str:
     'M2 0A2 2 0 0 1 1.94 0.49A2 2 0 0 1 1.76 0.96'
     >>> arc_path_data(ArcLine(np.array([[0.0, 0.0], [80.0, 0.0]]), np.array([1e-5, 0.0])), 4)
     'M0 0Q40 -0.0008 80 0'
+
+    The parabola is one only where that is within half of the last digit:
+
+    >>> arc_path_data(ArcLine(np.array([[-3e6, 0.0], [3e6, 0.0]]), np.array([0.1, 0.0])), 0)
+    'M-3000000 0A15150000 15150000 0 0 1 3000000 0'
     """
     made = [f"M{points_text(line.points[:1], digits)}"]
     # A straight side at the end of a closed line is drawn by its Z.
@@ -114,8 +119,10 @@ def arc_path_data(line: ArcLine, digits: int) -> str:
         if abs(bulge) <= STRAIGHT:
             made.append(f"L{points_text(end[None], digits)}")
             continue
-        if radius_of(start, end, bulge) > WIDEST_ARC:
-            chord = end - start
+        chord = end - start
+        # Of one sagitta, the two differ by a quarter of the bulge's square times that, at most.
+        off = abs(bulge) ** 3 * math.hypot(*chord) / 8.0
+        if off <= 0.5 * 10.0**-digits and radius_of(start, end, bulge) > WIDEST_ARC:
             top = (start + end) / 2.0 + bulge * np.array([chord[1], -chord[0]])
             made.append(f"Q{points_text(np.array([top, end]), digits)}")
             continue
