@@ -30,6 +30,12 @@ def words(container: object = "heart", weights: object = WEIGHTS, **options: obj
 @pytest.fixture(scope="module")
 def heart() -> pw.Layout:
     """Graded words in a heart."""
+    return words()
+
+
+@pytest.fixture(scope="module")
+def bounded() -> pw.Layout:
+    """The same with letters of bounded sizes."""
     return words(smallest=8, largest=40)
 
 
@@ -39,10 +45,11 @@ def plain() -> pw.Layout:
     return pw.words("heart", WEIGHTS, effort="draft")
 
 
-def test_no_word_is_larger_than_a_heavier_one(heart: pw.Layout) -> None:
-    assert [item.name for item in heart.items] == list(WEIGHTS)
-    assert (np.diff(heart.poses.scale) <= 1e-6).all()
-    assert heart.manifest["certified"]
+def test_no_word_is_larger_than_a_heavier_one(heart: pw.Layout, bounded: pw.Layout) -> None:
+    for layout in (heart, bounded):
+        assert [item.name for item in layout.items] == list(WEIGHTS)
+        assert (np.diff(layout.poses.scale) <= 1e-6).all()
+        assert layout.manifest["certified"]
 
 
 def test_the_report_says_how_far_from_true_each_is(heart: pw.Layout, plain: pw.Layout) -> None:
@@ -61,8 +68,8 @@ def test_a_thin_shape_is_filled_more_than_by_true_sizes(tmp_path: Path) -> None:
     assert (np.diff(graded.poses.scale) <= 1e-6).all()
 
 
-def test_letters_keep_their_bounds(heart: pw.Layout) -> None:
-    sizes = heart.poses.scale * EM_PX
+def test_letters_keep_their_bounds(bounded: pw.Layout) -> None:
+    sizes = bounded.poses.scale * EM_PX
     assert sizes.max() <= 40 + 1e-9
     assert sizes.min() >= 8 - 1e-9
 
