@@ -63,7 +63,8 @@ ring starts, and then is off by twice that."""
 def outer_simplified(region: Region, tolerance: float) -> Region:
     """Region with fewer vertices that holds all of ``region``.
 
-    Its boundary is within about one and a half times ``tolerance`` of the old one.
+    Its boundary is seldom farther than one and a half times ``tolerance`` off the old one, and the
+    area grows by less than that of a band twice as wide as ``tolerance``.
 
     >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
     >>> cover = outer_simplified(disc, 0.01)

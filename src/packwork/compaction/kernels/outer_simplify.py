@@ -68,7 +68,7 @@ def simplify_outward(points, tolerance):
     """Vertices of a ring whose polygon holds that of ``points``, the cheapest changes first.
 
     The polygon lies where a positive ring has its inside. No change grows it by more than
-    ``tolerance``, together they may by a third more. Takes n log n steps.
+    ``tolerance``; together they may by several times that, which is rare. Takes n log n steps.
     """
     count = points.shape[0]
     points = points.copy()
