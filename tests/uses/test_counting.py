@@ -20,7 +20,7 @@ from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
 from packwork.pipeline.run import RunContext
 from packwork.pipeline.state import RunState
 from packwork.recipe import Recipe, make_recipe
-from packwork.scene.container import Container
+from packwork.scene.container import Container, repeating
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.steps.measure import RemarkCount
@@ -176,14 +176,26 @@ def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     every = words_recipe("tail", weights, sizes="shared")
     assert "; --sizes graded, " in advised(every, with_tail(4))
     # Automatic sizes have tried that.
-    assert "; --target-coverage 0.6," in advised(words_recipe("tail", weights), with_tail(4))
+    assert "; --repeat auto," in advised(words_recipe("tail", weights), with_tail(4))
     most = words_recipe("tail", weights, count=65)
     assert "-n 70" not in advised(most, with_tail(4))
     six = words_recipe("tail", dict(list(weights.items())[:6]))
     assert "--sizes graded" not in advised(six, with_tail(4))
-    assert "; --target-coverage 0.6," in advised(six, with_tail(4))
+    assert "; --repeat auto," in advised(six, with_tail(4))
     graded = words_recipe("tail", weights, sizes="graded")
-    assert "; --target-coverage 0.6," in advised(graded, with_tail(4))
+    assert "; --repeat auto," in advised(graded, with_tail(4))
+
+
+def test_what_a_run_cannot_do_is_no_advice() -> None:
+    weights = {f"word{k}": float(20 - k) for k in range(6)}
+    again = words_recipe("tail", weights, repeat="auto")
+    assert advised(again, with_tail(4)) == ""
+    tile = repeating(square_container(), "square")
+    few = words_recipe("page", weights, tile="square", sizes="shared")
+    assert advised(few, tile).endswith("; --sizes free would show it")
+    assert advised(words_recipe("page", weights, tile="square", sizes="free"), tile) == ""
+    many = make_recipe(container="page", items=["star"], count=400, tile="square", sizes="free")
+    assert advised(many, tile) == ""
 
 
 def test_of_a_container_of_thin_lines_more_items_are_not_the_advice() -> None:

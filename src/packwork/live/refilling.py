@@ -162,7 +162,8 @@ def _advice_on_shape(document: Document) -> tuple[str, ...]:
         # No job is read for nothing.
         return ()
     try:
-        return (str(advice(job_again(document, 0, {}), len(layout.items), seen)),)
+        found = advice(job_again(document, 0, {}), len(layout.items), seen)
+        return () if found is None else (str(found),)
     except PackworkError:
         return ()
 

@@ -139,7 +139,7 @@ class Advise(RunStep):
         if seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE:
             return state
         found = advice(state.job, len(layout.items), seen)
-        return state.with_finding(found.sentence, **found.values)
+        return state if found is None else state.with_finding(found.sentence, **found.values)
 
 
 @final
@@ -153,8 +153,8 @@ class TellOneColour(RunStep):
         return state.with_finding(Sentence.RUN_TOGETHER) if is_one else state
 
 
-def advice(job: Job, count: int, seen: ShapeMetrics) -> Finding:
-    """Advice on a layout of ``count`` items that does not show the container's shape."""
+def advice(job: Job, count: int, seen: ShapeMetrics) -> Finding | None:
+    """Advice on a layout of ``count`` items that does not show its container, if any helps."""
     if seen.bare_parts > 1:
         poor = Sentence.EMPTY_PARTS.of(empty=seen.bare_parts, parts=seen.parts)
     elif seen.bare > MOST_BARE:
@@ -165,12 +165,13 @@ def advice(job: Job, count: int, seen: ShapeMetrics) -> Finding:
     if lines is not None:
         remedy = Sentence.OTHER_CONTAINER.of(width=lines, unit=job.container.unit)
     else:
-        remedy = job.use.remedy(job) or _remedy(job, count)
-    return Finding(Sentence.POOR_SHAPE, {"poor": poor, "remedy": remedy})
+        own = job.use.inner.remedy(job)
+        remedy = _remedy(job, count) if own is None else own
+    return Finding(Sentence.POOR_SHAPE, {"poor": poor, "remedy": remedy}) if remedy else None
 
 
 def _remedy(job: Job, count: int) -> str:
-    """Remedy for a shape that does not show, in the words of the options."""
+    """Remedy for a shape that does not show, in the words of the options; empty if none helps."""
     plan = job.plan
     needed = items_needed(job.container, "free", plan.size_ratio).count
     if plan.sizes == "free" and needed > CLEARLY_MORE * count:
@@ -179,13 +180,16 @@ def _remedy(job: Job, count: int) -> str:
         return Sentence.FREE_SIZES.of()
     if plan.sizes == "shared":
         return Sentence.FREE_AND_MORE.of(count=max(needed, count))
-    return smaller_copies(plan.voids, ITEMS_REACH)
+    if job.container.lattice is not None:
+        # Between items that repeat no copies are laid.
+        return ""
+    if plan.voids.target is None:
+        return Sentence.COPIES.of(reach=ITEMS_REACH)
+    return more_copies(plan.voids)
 
 
-def smaller_copies(voids: VoidPlan, reach: float) -> str:
-    """Advice about what fills voids, with which ``reach`` of the container comes to be covered."""
-    if voids.target is None:
-        return Sentence.COPIES.of(reach=reach)
+def more_copies(voids: VoidPlan) -> str:
+    """Advice about copies in voids that leave the container bare."""
     if voids.most is not None:
         return Sentence.MORE_COPIES.of(count=np.ceil(2 * voids.most))
     return Sentence.SMALLER_COPIES.of()

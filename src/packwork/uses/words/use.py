@@ -29,7 +29,7 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.steps.close_gap import RemarkGap, close_gap
 from packwork.steps.control import Replan, Retry
-from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, smaller_copies
+from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, more_copies
 from packwork.steps.track import StartRecording
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer
@@ -71,10 +71,6 @@ CLOSE = 0.1
 """Gap between words at most where none was asked for, over the side of a word's share of the
 container. Larger leaves thousands of words too little room to be read, smaller lets fewer stand
 closer than they usually do. By eye: from 900 words in a circle on."""
-
-WORDS_REACH = 0.6
-"""Share of a container that smaller copies of words come to cover. Larger is not always reached,
-and then counts as not met. Tried."""
 
 
 @final
@@ -249,10 +245,16 @@ class WordsUse(Use):
             said.append(Sentence.MORE_WORDS.of(count=count))
         # Fewer leave it bare with whatever sizes; of automatic ones graded ones have been tried.
         was_tried = job.recipe.sizes == AUTO and self.count >= MANY
-        if job.plan.sizes == "shared" and found >= MANY and can_give_way(job) and not was_tried:
+        if job.container.lattice is not None:
+            if job.plan.sizes != "free":
+                said.append(Sentence.FREE_SIZES.of())
+        elif job.plan.sizes == "shared" and found >= MANY and can_give_way(job) and not was_tried:
             said.append(Sentence.GRADED.of())
-        else:
-            said.append(smaller_copies(job.plan.voids, WORDS_REACH))
+        elif job.plan.voids.target is not None:
+            said.append(more_copies(job.plan.voids))
+        elif self.options.repeat == "none" and job.plan.is_exact:
+            # A share of the container that is asked for may not be reached, and counts as not met.
+            said.append(Sentence.REPEATED.of())
         return "; ".join(said)
 
     def of_true(self, layout: Layout) -> dict[str, float]:
