@@ -272,12 +272,37 @@ def test_a_frame_around_all_parts_is_told_and_is_none(caplog: pytest.LogCaptureF
                 [(x, 10), (x + 50, 10), (x + 50, 60), (x, 60)], close=True,
                 dxfattribs={"layer": "Cut"},
             )  # fmt: skip
+        space.add_circle((35, 35), 5, dxfattribs={"layer": "Cut"})
         for edge in (0, 5):
             corners = [(edge, edge), (210 - edge, edge), (210 - edge, 90), (edge, 90)]
             space.add_lwpolyline(corners, close=True, dxfattribs={"layer": "Rahmen_A4"})
 
     assert len(parts(draw)) == 2
     assert "left out: 2 around all else on layer 'Rahmen_A4' (a frame;" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("layer", "inner", "rings", "is_told"),
+    [
+        ("FRAME", [((20, 30), 8), ((80, 30), 8)], 3, True),
+        ("FRAME", [((50, 30), 20), ((50, 30), 8)], 2, True),
+        ("bike_subframe", [((20, 30), 8), ((80, 30), 8)], 3, False),
+        ("bike_subframe", [((30, 30), 18), ((30, 30), 8), ((80, 30), 8)], 3, False),
+    ],
+)
+def test_the_contour_of_a_part_is_no_frame(
+    layer: str, inner: list[tuple[tuple[int, int], int]], rings: int, is_told: bool,
+    caplog: pytest.LogCaptureFixture,
+) -> None:  # fmt: skip
+    def draw(space: Modelspace) -> None:
+        corners = [(0, 0), (100, 0), (100, 60), (0, 60)]
+        space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+        for middle, radius in inner:
+            space.add_circle(middle, radius, dxfattribs={"layer": "HOLES"})
+
+    assert len(max(parts(draw), key=area_mm2).cut) == rings
+    assert ("layer 'FRAME': the outline around all else is taken" in caplog.text) == is_told
+    assert "left out" not in caplog.text
 
 
 @pytest.mark.parametrize("place", [(60.0, 20.0), (300.0, 20.0)])

@@ -53,8 +53,14 @@ ENGRAVED = re.compile(r"engrav|etch|grav|mark|text|score|raster|scribe", re.IGNO
 IGNORED = re.compile(r"constr|dimension|guide|\bdims?\b|border|title", re.IGNORECASE)
 """Names of layers of what is no part of a piece."""
 
-FRAME = re.compile(r"frame|rahmen|cadre|cornice|marco\b|ramka", re.IGNORECASE)
-"""Names of layers of what a sheet is drawn with."""
+FRAME = re.compile(
+    r"(?<![^\W\d_])(frame|rahmen|cadre|cornice|marco|ramka)(?![^\W\d_])", re.IGNORECASE
+)
+"""Names of layers of what a sheet is drawn with: whole words, with digits, or lines, about them."""
+
+LEAST_FRAMED = 3
+"""Rings, one in another, from which what a frame is around is parts: one, with two, may be the
+window of a part and what falls out of it. Chosen."""
 
 OURS = {"container", "room"}
 """Layers of the sheet in drawings that we wrote."""
@@ -145,7 +151,7 @@ def cad_parts(
         else:
             (engraved if ENGRAVED.search(piece.layer) else cut).append(piece)
     rings, loose = rings_of(cut)
-    parts, doubled = nested(_without_frame(rings, left_out))
+    parts, doubled = _nested_unframed(rings, left_out)
     if not parts:
         raise UnfitError(_why_none(cut, loose, engraved, left_out))
     if len(parts) > MOST_ITEMS:
@@ -164,19 +170,30 @@ def cad_parts(
     ]
 
 
-def _without_frame(rings: list[Ring], left_out: Counter[str]) -> list[Ring]:
-    """Rings but those of a layer of frames, if each of them is drawn around all others."""
+def _nested_unframed(rings: list[Ring], left_out: Counter[str]) -> tuple[list[RingPart], int]:
+    """Parts of rings, as :func:`nested`, without the frame of a sheet.
+
+    Rings of a layer of frames are one if each is drawn around all others, and these are parts with
+    holes. Plain rings in it may be the holes of a part: then it is one, and that is told.
+    """
     frames = [ring for ring in rings if FRAME.search(ring.layer)]
     others = [ring for ring in rings if not FRAME.search(ring.layer)]
     if not others or not frames:
-        return rings
+        return nested(rings)
     inner = shapely.union_all([shapely.box(*ring.polygon.bounds) for ring in others])
     if not all(ring.polygon.covers(inner) for ring in frames):
-        return rings
+        return nested(rings)
+    parts, doubled = nested(others)
+    holes = sum(len(part.holes) for part in parts)
+    if not holes or holes + len(parts) < LEAST_FRAMED:
+        for name in dict.fromkeys(ring.layer[:40] for ring in frames):
+            notice(f"layer {name!r}: the outline around all else is taken for a part's; if it is "
+                   "the frame of the sheet, call its layer border")  # fmt: skip
+        return nested(rings)
     for ring in frames:
         name = repr(ring.layer[:40])
         left_out[f"around all else on layer {name} (a frame; another layer's name keeps it)"] += 1
-    return others
+    return parts, doubled
 
 
 def tell_left_out(left_out: Counter[str]) -> None:
