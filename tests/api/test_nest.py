@@ -70,6 +70,7 @@ def test_what_is_in_the_way_is_one_line() -> None:
     [
         ("100mm", TILE, {"passes": 0}, "passes"),
         ("100mm", TILE, {"time": float("nan")}, "time"),
+        ("100mm", TILE, {"time": 1.0, "passes": 9}, "one of them"),
         ("100mm", TILE, {"effort": "most"}, "one of draft, normal, best, not 'most'"),
         ("100mm", TILE, {"time": float("inf")}, "time"),
         ("100mm", (TILE, -1), {"passes": 1}, "use 0 or more"),
@@ -104,10 +105,10 @@ def test_a_part_that_lies_turned_over_stays_said_to(tmp_path: Path) -> None:
     assert again.layouts[0].manifest["nest"]["mirrored"] == [1]
 
 
-def test_of_many_parts_an_effort_is_more_passes() -> None:
+def test_of_many_parts_an_effort_is_more_places() -> None:
     parts = list(read_parts("builtin:star*9000", "mm", "none"))
     efforts = ("draft", "normal")
-    assert [work_of(parts[:1], effort=one).passes for one in efforts] == [27_000, 90_000]
+    assert [work_of(parts[:1], effort=one).places for one in efforts] == [9_000_000, 36_000_000]
 
 
 def test_a_search_ends_when_it_is_told_to() -> None:

@@ -47,6 +47,7 @@ class StripCompaction:
         # Neighbours near each other: the programme's matrix is a band.
         order = np.argsort(poses[:, 0], kind="stable")
         self.moving = order[moving[order]]
+        self.steps = 0
         kinds = [problem.parts[kind] for kind in problem.shape_of[self.moving]]
         self.reach = np.array([kind.reach if kind.turns is None else 0.0 for kind in kinds])
         own = [
@@ -82,6 +83,7 @@ class StripCompaction:
         trust, hair = FIRST_TRUST * self.unit, HAIR * self.unit
         best, length = self.arrangement.places[:count].copy(), self.length
         while trust > LAST_TRUST * self.unit:
+            self.steps += 1
             self.arrangement.put(items, best + self.step(trust, hair))
             is_worth = self.length < (1.0 - share) * length
             if is_worth and not len(self.arrangement.conflicts(self.pairs(0.0), 0.5 * hair)):

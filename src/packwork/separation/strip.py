@@ -51,33 +51,50 @@ SPREAD = 0.25
 """Reach of a new attempt down the list of failures, in deviations of its length."""
 
 
+PASS_PLACES = 100
+"""Places whose pricing takes as long as all else in a worker's pass. Tried."""
+
+
 @dataclass
 class WorkBound:
-    """Work that a search may do: passes, or seconds, whichever ends first."""
+    """Work that a search may do: passes, places or seconds, whichever ends first."""
 
     passes: float = math.inf
     seconds: float = math.inf
     name: str = ""
     """Of an effort, where the bound is one."""
+    places: float = math.inf
+    """Places that may be priced, by all workers together."""
     begun: float = math.nan
     done: int = 0
+    """Passes."""
+    priced: int = 0
     best_so_far: str = "searching"
     """For people who wait."""
 
     def start(self) -> None:
         """Count from now on."""
-        self.begun, self.done = time.perf_counter(), 0
+        self.begun, self.done, self.priced = time.perf_counter(), 0, 0
 
     def part(self, share: float) -> WorkBound:
         """Bound of a share of the work that is left."""
         left = self.seconds - (time.perf_counter() - self.begun)
-        return WorkBound(max((self.passes - self.done) * share, 1.0), max(left * share, 1e-9))
+        return WorkBound(
+            max((self.passes - self.done) * share, 1.0), max(left * share, 1e-9),
+            places=max((self.places - self.priced) * share, 1.0),
+        )  # fmt: skip
+
+    def add(self, part: WorkBound) -> None:
+        """Count what was done within a part."""
+        self.done += part.done
+        self.priced += part.priced
 
     @property
     def share(self) -> float:
         """Share of the work that is done."""
         elapsed = time.perf_counter() - self.begun
-        return max(self.done / self.passes, elapsed / max(self.seconds, 1e-9))
+        counted = max(self.done / self.passes, self.priced / self.places)
+        return max(counted, elapsed / max(self.seconds, 1e-9))
 
 
 @dataclass(frozen=True)
@@ -161,7 +178,7 @@ class StripSearch:
 
     def step(self) -> None:
         """Run one pass in each worker; all go on from the one of the lowest weighted loss."""
-        list(self.pool.map(WorkerState.move, self.workers))
+        priced = sum(self.pool.map(WorkerState.move, self.workers))
         best = min(range(len(self.workers)), key=lambda k: (self.workers[k].weighted, k))
         for k, worker in enumerate(self.workers):
             if k != best:
@@ -169,6 +186,7 @@ class StripSearch:
         for worker in self.workers:
             worker.raise_weights()
         self.work.done += 1
+        self.work.priced += priced + PASS_PLACES * len(self.workers)
 
     def put(self, length: float, poses: Floats, *, fresh: bool = False) -> None:
         """Give all workers a length and poses; ``fresh``: and weights of 1."""
@@ -219,6 +237,8 @@ class StripSearch:
         last &= strip.lefts >= self.ground.start_at(strip.length)
         compaction = StripCompaction(self.problem, strip.poses, last, strip.length)
         self.put(strip.length, compaction.run(share))
+        # A step takes about as long for each part as to price a place.
+        self.work.priced += compaction.steps * len(compaction.moving)
         shorter = self.extent(self.layout.arrays[0][:, : len(self.problem)]) < strip.length
         return self.keep(self.layout.poses) if shorter and self.layout.loss == 0.0 else strip
 

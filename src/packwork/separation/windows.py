@@ -82,14 +82,14 @@ def lay_on_sheets(
         first = work.part(TOGETHER if required else 1.0)
         first.start()
         missing, required = laying.lay_together(joined, required, first)
-        work.done += first.done
+        work.add(first)
     if not ((required or joined) and optional):
         missing += laying.lay(required + optional, work)
     else:
         first = work.part(1.0 - FILLING)
         first.start()
         missing += laying.lay(required, first)
-        work.done += first.done
+        work.add(first)
         missing += laying.fill(optional, work) if not missing else Counter(optional)
     return sorted(laying.laid.values(), key=lambda one: one.sheet), missing
 
@@ -115,7 +115,7 @@ def lay_on_strip(
             seed=int(random.integers(2**31)), workers=workers, work=bound, stop=stop,
         )  # fmt: skip
         strip = search.run()
-        work.done += bound.done
+        work.add(bound)
         kinds += np.repeat(own, [counts[kind] for kind in own]).tolist()
         found.append(strip.poses + np.array([length, 0.0, 0.0, 0.0]))
         length += strip.length
@@ -160,7 +160,7 @@ class _Laying:
             bound = work if is_all else work.part(1.0 if not queue else min(area / whole, 1.0))
             found, left = self._search(window, chosen, bound)
             if not is_all:
-                work.done += bound.done
+                work.add(bound)
             if not found:
                 # Too large for these sheets.
                 queue, at = window + queue, chosen.stop
@@ -211,13 +211,13 @@ class _Laying:
                 missing += Counter(one)
             trials.done += bound.done
             work.best_so_far = f"{len(on_sheet)} sheets"
-        work.done += trials.done
+        work.add(trials)
         for n, k in enumerate(sorted(on_sheet), start=1):
             room = self.sheets[k].area - self.area(on_sheet[k])
             taken = self._taken(loose, room) if loose else 0
             bound = work.part(1.0 / (len(on_sheet) - n + 1))
             laid, left = self._search([*on_sheet[k], *loose[:taken]], [k], bound)
-            work.done += bound.done
+            work.add(bound)
             if not any(left[kind] for kind in on_sheet[k]):
                 found[k] = laid[0]
                 loose = [*left.elements(), *loose[taken:]]
@@ -236,7 +236,7 @@ class _Laying:
                 continue
             trial = work.part(TRIAL)
             laid, left = self._search(every, [k], trial, shrinks=False)
-            work.done += trial.done
+            work.add(trial)
             if not left:
                 on_sheet[k], found[k] = every, laid[0]
                 return k
@@ -254,7 +254,7 @@ class _Laying:
             window, queue = queue[:MOST_IN_WINDOW], queue[MOST_IN_WINDOW:]
             bound = work.part(WINDOW / (len(used) - first) if len(used) - first > WINDOW else 1.0)
             found, left = self._search(window, chosen, bound, shrinks=False)
-            work.done += bound.done
+            work.add(bound)
             for one in found:
                 self._keep(one)
             queue = [*left.elements(), *queue]
