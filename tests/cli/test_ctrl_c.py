@@ -15,7 +15,9 @@ from pathlib import Path
 import pytest
 from typer.testing import Result
 
-from packwork import pipeline
+from packwork import pipeline, writers
+from packwork.cli.failure import WATCH
+from packwork.uses.nested import NestedSheets
 
 Command = Callable[..., Result]
 
@@ -90,6 +92,41 @@ def test_ctrl_c_in_each_stage_writes_the_best_so_far(
     assert "still rough" not in result.stderr or worth == "not certified"
     assert "--effort" not in result.stderr
     assert f"\n{worth}: " in result.stdout
+
+
+def test_ctrl_c_while_a_nest_is_written_keeps_it(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pressed = []
+
+    def pressed_on_entry(*asked: object) -> bytes:
+        if not pressed:
+            pressed.append(signal.SIGINT)
+            signal.raise_signal(signal.SIGINT)
+        # Who listens for a program that hangs lets it write.
+        assert WATCH.keeps_results
+        return encoded(*asked)
+
+    encoded = writers.encoded
+    monkeypatch.setattr("packwork.writers.encoded", pressed_on_entry)
+    result = packwork("nest 300x200mm builtin:star@40mm*2 --passes 20 -o a.geojson")
+    assert result.exit_code == 130
+    assert result.stderr.endswith("packwork: stopped by Ctrl-C; this is the best so far\n")
+    assert item_count(folder / "a.geojson") == 2
+
+
+def test_ctrl_c_before_a_part_is_laid_writes_no_nest(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def nothing(*asked: object, **named: object) -> NestedSheets:
+        signal.raise_signal(signal.SIGINT)
+        return NestedSheets((), (), (), {})
+
+    monkeypatch.setattr("packwork.uses.nesting.nest", nothing)
+    result = packwork("nest 300x200mm builtin:star@40mm*2 --passes 20 -o a.geojson")
+    assert result.exit_code == 130
+    assert result.stderr == "packwork: stopped before there was anything to write\n"
+    assert not list(folder.iterdir())
 
 
 def test_ctrl_c_after_all_is_written_changes_nothing(

@@ -11,7 +11,7 @@ import typer
 from pydantic import Field
 
 from packwork.cli import options as shared
-from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
+from packwork.cli.failure import INTERRUPTED, SHORTFALL, WATCH, Interrupt, clear_errors
 from packwork.cli.options import SideFiles, Terminal
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
@@ -122,7 +122,6 @@ def nest(
     [bold]packwork nest swim.json --time 60 -o swim.geojson[/]
     """
     with clear_errors():
-        from packwork import writers
         from packwork.cli.show import Paper, tell_advice
         from packwork.cli.terminal import say
         from packwork.display.bar import TerminalBar
@@ -149,22 +148,20 @@ def nest(
             bar.tell(min(work.share, 1.0), work.best_so_far)
             return interrupt.pressed
 
-        with bar.showing(), interrupt.listening():
-            found = nest_parts(counted, sheets, **lengths, seed=options.seed, work=work, stop=stop)
-        drawn, faults = _drawn(found, files)
+        with interrupt.listening():
+            with bar.showing():
+                found = nest_parts(
+                    counted, sheets, **lengths, seed=options.seed, work=work, stop=stop
+                )
+            if interrupt.pressed and not found.sheets:
+                raise KeyboardInterrupt
+            written, faults = _write(found, files, report, no_clobber)
+            interrupt.is_over = True
+            WATCH.finish()
         certified = found.certified and not faults
-        if no_clobber:
-            writers.check_new([path for path, _ in drawn])
-        if report is not None:
-            said = {**found.report(), "certified": certified, "faults": faults}
-            drawn.append((report, writers.json_bytes(said)))
-        with _sessions(found, files) as sessions:
-            drawn += sessions
-            writers.write_all(drawn)
         console.print(_summary(found, sheets[0], certified))
         tell_advice(found.advice if certified else (), console)
-        console.print("wrote " + ", ".join(str(path) for path, _ in drawn))
-        written = {path for path, _ in drawn}
+        console.print("wrote " + ", ".join(map(str, written)))
         if older := [str(one) for path in files for one in _numbered(path) if one not in written]:
             say(f"of an earlier nest: {', '.join(older)}")
         for fault in faults:
@@ -198,6 +195,24 @@ def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None
         check_no_input(path)
     if no_clobber:
         writers.check_new([*every, *numbered])
+
+
+def _write(
+    found: NestedSheets, files: list[Path], report: Path | None, no_clobber: bool
+) -> tuple[list[Path], list[str]]:
+    """Write all files or none; returns them, and what is wrong with them."""
+    from packwork import writers
+
+    drawn, faults = _drawn(found, files)
+    if no_clobber:
+        writers.check_new([path for path, _ in drawn])
+    if report is not None:
+        said = {**found.report(), "certified": found.certified and not faults, "faults": faults}
+        drawn.append((report, writers.json_bytes(said)))
+    with _sessions(found, files) as sessions:
+        drawn += sessions
+        writers.write_all(drawn)
+    return [path for path, _ in drawn], faults
 
 
 def _numbered(path: Path) -> list[Path]:
