@@ -186,6 +186,17 @@ def family_of(file: str) -> set[str]:
     return {name for k in range(faces) for name in _families(hb.Face(blob, k))}
 
 
+def families_of_face(data: bytes, index: int) -> set[str]:
+    """The same of one face of a font file's bytes.
+
+    >>> families_of_face(Path(bundled_file()).read_bytes(), 0)
+    {'Inter Display'}
+    """
+    import uharfbuzz as hb
+
+    return _families(hb.Face(data, index))
+
+
 def _families(face: Any) -> set[str]:
     """Families of a face, all its weights under one name.
 

@@ -76,6 +76,9 @@ def test_a_file_and_a_log_keep_how_each_was_drawn(drawn: pw.Layout, tmp_path: Pa
     assert gradient_text(behind) == "radial-gradient(#000080, #ff000080, #ffc0cb)"
     assert behind is not None
     assert gradient_text(replace(behind, source=f"{behind.source}, url(x)")) == ""
+    for angle in ("-0.00001", "0.000001", "9999.5"):
+        session.background(f"linear-gradient({angle}deg, navy, pink)")
+        assert gradient_text(session.document.behind).startswith("linear-gradient(")
     session.background("ivory")
     session.save(tmp_path / "a.packwork")
     again = pw.Session.open(tmp_path / "a.packwork")

@@ -18,6 +18,7 @@ from packwork.live.commands.together import COMMANDS, Together
 from packwork.live.document import counted_weight
 from packwork.live.face.offers import container_of, labels_of
 from packwork.live.macros import brought, labelled, labels_in
+from packwork.live.relayout import poured_again
 from packwork.pipeline.region_labels import PartLabel
 from packwork.scene.container import Container, on_canvas
 from packwork.units import canvas_size
@@ -369,6 +370,22 @@ def test_words_come_among_icons_with_their_share_of_what_is_covered(
     for _ in range(3):
         session.undo()
     assert session.document.poses.x.tobytes() == icons.poses.x.tobytes()
+
+
+def test_of_what_is_held_only_what_has_no_room_gives_way(icons: pw.Layout) -> None:
+    poses = icons.poses
+    x, y = poses.x.copy(), poses.y.copy()
+    x[5], y[5] = x[3], y[3]
+    x[7], x[8], y[8] = -icons.container.side, 0.0, 0.0
+    document = replace(
+        icons.edit().document, poses=replace(poses, x=x, y=y), put=frozenset({0, 3, 5, 7, 8})
+    )
+    put = poured_again(document.with_held_hand(), 0)
+    there = dict(zip(put.items, np.array(put.poses)[:, :2].tolist(), strict=True))
+    # What finds no place in a run is left where it is.
+    places = {k: (x[k], y[k]) for k in sorted(document.put)}
+    moved = [k for k, at in places.items() if there.get(k, at) != pytest.approx(at, rel=1e-9)]
+    assert moved == [5, 7, 8]
 
 
 @pytest.mark.parametrize("weightless", [2, 9])

@@ -11,7 +11,10 @@ import shapely
 
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.svg.container import named_parts
+from packwork.readers.reading import SHAPES_NS
+from packwork.readers.svg import container
+from packwork.readers.svg.container import MOST_PARTS, container_of_svg, named_parts, parts_of_svg
+from packwork.readers.svg.drawing import LARGESSE
 from packwork.scene.swatch import representative_colour
 
 QUICK = {"levels": "60", "epochs": 60, "effort": "draft", "seed": 0}
@@ -142,6 +145,40 @@ def test_ids_that_programs_give_are_no_names() -> None:
     assert [name for name, _ in found] == ["Peru", "A"]
     title = b'<svg><path id="path1"><title> New \n York </title></path><rect id="Ohio"/></svg>'
     assert [name for name, _ in named_parts(title)] == ["New York", "Ohio"]
+
+
+def test_parts_that_go_without_names_are_told() -> None:
+    names = ["Peru", "Chile", *(f"part {'x' * 60} {k}" for k in "ab")]
+    shapes = "".join(f'<path id="{name}" d="M0 0h9v9z"/>' for name in names)
+    told = list[str]()
+    found = list(named_parts(f"<svg>{shapes}</svg>".encode(), told.append))
+    assert [name for name, _ in found] == ["Peru", "Chile"]
+    assert told == ["2 of its parts go without: a name has at most 60 letters"]
+    many = "".join(f'<path id="p{k}q" d="M0 0h9v9z"/>' for k in range(MOST_PARTS + 2))
+    told.clear()
+    assert len(list(named_parts(f"<svg>{many}</svg>".encode(), told.append))) == MOST_PARTS
+    assert told == ["300 of its 302 parts are named, the first"]
+
+
+def test_a_part_brings_only_definitions_that_it_refers_to(tmp_path: Path) -> None:
+    sky = '<defs><linearGradient id="sky"><stop stop-color="#123"/></linearGradient></defs>'
+    plain = '<path id="Peru" fill="#123456" d="M0 0h9v9z"/>'
+    shaded = '<path id="Chile" fill="url(#sky)" d="M9 0h9v9z"/>'
+    found = dict(named_parts(f"<svg>{sky}{plain}{shaded}</svg>".encode()))
+    assert [b"<stop" in found[name] for name in ("Peru", "Chile")] == [False, True]
+
+
+def test_parts_together_take_as_much_work_as_a_container(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shapes = '<path id="Peru" d="M0 0h9v9z"/><path id="Chile" d="M0 0h3v3z"/>'
+    data = f'<svg viewBox="0 0 9 9">{shapes}</svg>'.encode()
+    land = container_of_svg(data, "land", "land.svg")
+    assert len(parts_of_svg(data, land)) == 2
+    told = list[str]()
+    monkeypatch.setattr(container, "_BYTE_NS", 0.75 * LARGESSE * SHAPES_NS / len(data))
+    assert [name for name, _ in parts_of_svg(data, land, told.append)] == ["Peru"]
+    assert told == ["the part Chile and those after it are not named: it has too large parts"]
 
 
 def test_hostile_names_stay_text(tmp_path: Path) -> None:

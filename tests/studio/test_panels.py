@@ -83,6 +83,28 @@ def test_words_are_changed_in_place_in_a_font_of_the_machine(
     assert desk.look(f"studio.collage.item({joy}).name") == "joy"
     names = desk.look("studio.collage.items.map(item => item.name)")
     assert sorted(names) == ["Glück", "hope", "joy", "peace"]
+    # What the words have now is asked for by its family, also in a page that did not choose it.
+    font = desk.page.get_by_label("Font", exact=True)
+    family = desk.look("studio.panels.choices.fonts.find(one => /sans|serif/.test(one))")
+    font.select_option(family)
+    desk.until(f"studio.collage.scene.font === '{family}'")
+    desk.settled()
+    desk.page.reload()
+    desk.settled()
+    desk.page.locator("#tab-words").click()
+    desk.until(f"studio.words.font.field.value === '{family}'")
+    assert desk.look("studio.words.font.value") == family
+    assert not desk.look(
+        "[...studio.words.font.field.options].some(one => /[/]/.test(one.value + one.text))"
+    )
+    # A font that nobody can ask for is shown, and stands for no other.
+    desk.look("studio.words.font.show('Own.otf')")
+    assert desk.look(
+        "[studio.words.font.value, studio.words.font.field.selectedOptions[0].text]"
+    ) == [None, "Own.otf"]
+    desk.page.locator("#bar [data-do=undo]").click()
+    desk.until(f"studio.collage.scene.font !== '{family}'")
+    desk.settled()
     for _ in range(2):
         desk.page.locator("#bar [data-do=undo]").click()
     desk.until("studio.collage.items.some(item => item.name === 'moon')")

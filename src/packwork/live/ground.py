@@ -74,7 +74,8 @@ def gradient(text: str, container: Container) -> Item | None:
         f'<{met[1]}Gradient id="{key}" gradientUnits="userSpaceOnUse" {ends}>{stops}'
         f'</{met[1]}Gradient><path fill="url(#{key})" d="{_rectangle(box)}"/>'
     )
-    turned = "" if met[1] == "radial" else f"{np.degrees(angle):.9g}deg, "
+    degrees = f"{np.degrees(angle):.6f}".rstrip("0").rstrip(".")
+    turned = "" if met[1] == "radial" else f"{degrees}deg, "
     said = ", ".join(hex_colour(one) + f"{one[3]:02x}" * (one[3] < 255) for one in colours)
     plain = f"{met[1]}-gradient({turned}{said})"
     return Item("gradient", plain, box, box, VectorArt(markup, np.eye(2, 3)))

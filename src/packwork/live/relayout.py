@@ -47,9 +47,6 @@ from packwork.uses.words.use import with_sizes_that_give_way
 BY_TEXT = FROM_TEXT
 """Stands for vectors that are made from the text of the words."""
 
-HOLD = RuleSource("hold")
-"""What asks for pins, where a message says it."""
-
 
 def poured_again(
     document: Document,
@@ -90,12 +87,17 @@ def _together(
         job = job_again(document, seed, {} if is_by_text else asked)
     if is_by_text:
         job = replace(job, vectors=_vectors_by_text(document, asked))
-    try:
-        layout, kept = run_shown(replace(job, asked=_asked(document)), shown, stop)
-    except RecipeError as error:
-        if error.key != HOLD.key:
-            raise
-        layout, kept = run_shown(job, shown, stop)
+    asked_of = list(_asked(document))
+    while True:
+        try:
+            layout, kept = run_shown(replace(job, asked=tuple(asked_of)), shown, stop)
+            break
+        except RecipeError as error:
+            # It has no room where it is held: it is in nobody's way.
+            row = next((k for k, one in enumerate(asked_of) if _is_of(one, error)), None)
+            if row is None:
+                raise
+            asked_of[row] = ItemRules()
     poses = layout.poses
     if document.kind.refusal:
         # Where there is too little room for that, a settle takes it back and says so.
@@ -187,14 +189,20 @@ def _mosaic_again(document: Document, seed: int, mosaic: Mosaic) -> Job:
 
 
 def _asked(document: Document) -> tuple[ItemRules, ...]:
-    """Rules that holds make for each item, as pins do."""
-    rules = [pin_of(document, k) for k in range(len(document))]
-    return tuple(
-        ItemRules().merged(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)
-        if pin
-        else ItemRules()
-        for item, pin in zip(document.items, rules, strict=True)
-    )
+    """Rules that holds make for each item on the canvas, as pins do."""
+    found = []
+    for k, item in enumerate(document.items):
+        one, pin = ItemRules(), pin_of(document, k)
+        if pin and min(document.poses.x[k], document.poses.y[k]) >= 0:
+            rule = Rule(items=(item.name,), pin=Pin.model_validate(pin))
+            one = one.merged(rule, RuleSource(f"hold {k}"))
+        found.append(one)
+    return tuple(found)
+
+
+def _is_of(one: ItemRules, error: RecipeError) -> bool:
+    """Whether a refusal is of what was asked for an item."""
+    return any(source.key == error.key for source in one.sources.values())
 
 
 def _vectors_by_text(document: Document, asked: Mapping[str, Any]) -> ItemVectors:

@@ -26,7 +26,7 @@ from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.reading import notice, reading_file
 from packwork.readers.regions import canvas_box
 from packwork.readers.saliency import QuietOptions, container_around
-from packwork.readers.svg.container import container_of_svg, parts_of_svg
+from packwork.readers.svg.container import Tell, container_of_svg, parts_of_svg
 from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.container import Container, on_canvas, placed_container
 from packwork.scene.layout import sheet
@@ -98,15 +98,15 @@ def read_container(
         return closed_slits(container, reading.close_gaps)
 
 
-def read_parts(container: Container) -> list[tuple[str, Region]]:
+def read_parts(container: Container, tell: Tell = notice) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of a container that was read from an SVG.
 
-    None of any other.
+    None of any other. ``tell``: told what goes without a name, and why.
     """
     path = Path(container.source)
     if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):
         return []
-    return parts_of_svg(read_bytes(path, MAX_BYTES), container)
+    return parts_of_svg(read_bytes(path, MAX_BYTES), container, tell)
 
 
 def _container(

@@ -18,7 +18,7 @@ from packwork.live.document import (
     halos_of,
     is_straight_word,
 )
-from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, path_of
+from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, font_told, path_of
 from packwork.live.ground import gradient_text, underlays
 from packwork.live.kinds import COLLAGE, Kind
 from packwork.live.mosaic import Mosaic
@@ -285,8 +285,8 @@ def _crop_of(art: Art) -> tuple[float, float, float] | None:
 
 
 def _font_of(items: Sequence[Item]) -> str:
-    """Name of the font that most words begin with; empty where there are none."""
-    names = Counter(one.text.runs[0].font.name for one in items if one.text and one.text.runs)
+    """Name of the font that most words begin with, as pages know it; empty without words."""
+    names = Counter(font_told(one.text.runs[0].font) for one in items if one.text and one.text.runs)
     return names.most_common(1)[0][0][:MOST_TOLD] if names else ""
 
 

@@ -6,12 +6,12 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, get_args
 
 from packwork.errors import ReadError
-from packwork.fonts import installed_families
+from packwork.fonts import families_of_face, installed_families
 from packwork.geometry.outline import Outline
 from packwork.live import ground
 from packwork.live.face.exporting import missing
@@ -36,7 +36,7 @@ from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
-from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
+from packwork.scene.item import FlatArt, FontFile, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.notation import decimals, matrix_text, path_data
 from packwork.scene.palette import PALETTES
 from packwork.uses.words.recipe import words_recipe
@@ -167,6 +167,27 @@ def offered_fonts() -> tuple[str, ...]:
     return tuple(sorted(installed_families()))
 
 
+@lru_cache(maxsize=16)
+def font_told(font: FontFile) -> str:
+    """Name by which pages know a font: of a family that is offered, or of its file without folders.
+
+    Examples
+    --------
+    >>> from packwork.readers.fonts.fallback import open_fonts
+    >>> font_told(open_fonts([]).faces[0].file), font_told(FontFile(b"", "/some/where/Own.ttf"))
+    ('inter display', 'Own.ttf')
+    """
+    installed = installed_families()
+    if font.name.lower() in installed:
+        return font.name.lower()
+    if any(font.name in files for files in installed.values()):
+        families = sorted(one.lower() for one in families_of_face(font.data, font.index))
+        for family in families:
+            if font.name in installed.get(family, ()):
+                return family
+    return font.name.replace("\\", "/").rpartition("/")[2]
+
+
 def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
     """Container of a bundled name, ``text:WORD`` or a file that was given."""
     return read_container(source, canvas, font=font)
@@ -177,10 +198,12 @@ def labels_of(container: Container) -> tuple[list[PartLabel], list[str]]:
 
     Never of one that a session names: what stands there as its file may be any on this machine.
     """
-    parts = read_parts(container)
+    short = list[str]()
+    parts = read_parts(container, short.append)
     labels, told = part_labels(parts, container.side)
     none = f"{container.name} names no parts: an SVG does, by the titles or ids of its shapes"
-    return labels, [str(one) for one in told] if parts else [none]
+    lines = [f"{container.name}: {line}" for line in short]
+    return labels, [*lines, *map(str, told)] if parts else [*lines, none]
 
 
 def picture_of(source: str, *, is_behind: bool = False) -> Item:

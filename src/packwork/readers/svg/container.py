@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import copy
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 import shapely
@@ -20,9 +20,22 @@ from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.pictures.silhouette import LEAST_WHITE
-from packwork.readers.reading import UnfitError, notice, reading_file
+from packwork.readers.reading import (
+    TooRichError,
+    UnfitError,
+    notice,
+    one_budget,
+    reading_file,
+    spend,
+)
 from packwork.readers.regions import canvas_box, clean_union, tell_if_full
-from packwork.readers.svg.drawing import WHOLE_PAGE, PaintedDrawing, is_near_white, read_drawing
+from packwork.readers.svg.drawing import (
+    LARGESSE,
+    WHOLE_PAGE,
+    PaintedDrawing,
+    is_near_white,
+    read_drawing,
+)
 from packwork.readers.svg.ink import Follower, Ink, TracedInk
 from packwork.readers.svg.resvg import TRACE_PX, page_picture
 from packwork.readers.svg_syntax.coordinates import Page
@@ -32,6 +45,8 @@ from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
 
 MOST_WHITES = 2_000
 """White shapes whose place among the others is looked at; more are passed over. Chosen."""
+
+Tell: TypeAlias = Callable[[str], object]
 
 _HALF = 0.5
 _SPECIAL = frozenset({"mask", "filter"})
@@ -181,16 +196,15 @@ def inside_of_svg(data: bytes) -> Region:
     return _without_whites(drawing, _inside(drawing.ink))
 
 
-def parts_of_svg(data: bytes, container: Container) -> list[tuple[str, Region]]:
+def parts_of_svg(
+    data: bytes, container: Container, tell: Tell = notice
+) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of the SVG that a container was read from.
 
-    Parts that paint nothing are left out.
+    Parts that paint nothing are left out. ``tell``: told what goes without a name, and why.
     """
     with reading_file(container.source):
-        found = []
-        for name, document in named_parts(data):
-            with contextlib.suppress(UnfitError):
-                found.append((name, _inside(read_drawing(document).ink)))
+        found = _regions_of(named_parts(data, tell), tell)
         if not found:
             return []
         bounds = np.reshape(_inside(read_drawing(data).ink).bounds, (2, 2))
@@ -204,6 +218,25 @@ def parts_of_svg(data: bytes, container: Container) -> list[tuple[str, Region]]:
 
     parts = [(name, placed(region)) for name, region in found]
     return [(name, region) for name, region in parts if region.area > 0]
+
+
+def _regions_of(parts: Iterable[tuple[str, bytes]], tell: Tell) -> list[tuple[str, Region]]:
+    """Names and regions, CSS pixels, of parts that paint something.
+
+    All together may take as much work as one container.
+    """
+    found = list[tuple[str, Region]]()
+    with one_budget(LARGESSE):
+        for name, document in parts:
+            try:
+                spend(_BYTE_NS * len(document), "has too large parts")
+                found.append((name, _inside(read_drawing(document).ink)))
+            except TooRichError as error:
+                tell(f"the part {name} and those after it are not named: it {error.what}")
+                break
+            except UnfitError:
+                continue
+    return found
 
 
 def stated_unit(root: ET.Element) -> Unit | None:
@@ -257,6 +290,9 @@ MOST_PARTS = 300
 LONGEST = 60
 """Letters of a name. Longer ones are remarks. Chosen."""
 
+_BYTE_NS = 1e3
+"""For parsing and cleaning a byte of a part, at most. Measured."""
+
 _LAYER = "{http://www.inkscape.org/namespaces/inkscape}label"
 _NAMES = (_LAYER, "title", "name", "data-name", "aria-label")
 """Attributes that hold names, before ids."""
@@ -266,41 +302,56 @@ _GIVEN_BY_PROGRAMS = re.compile(
     r"|text|tspan|shape|vector|object|xmlid|svgid)?[-_ ]*[\d_-]*|.*\d{4,}.*",
     re.IGNORECASE,
 )
+_REFERS = re.compile(r"url\(|href", re.IGNORECASE)
 _SHAPES = frozenset({"g", "a", "path", "rect", "circle", "ellipse", "polygon", "polyline", "use"})
 _UNSEEN = frozenset({"defs", "style", "symbol", "clipPath", "mask", "linearGradient"})
 
 
-def named_parts(data: bytes) -> list[tuple[str, bytes]]:
+def named_parts(data: bytes, tell: Tell = notice) -> Iterator[tuple[str, bytes]]:
     """Names of at most ``MOST_PARTS`` parts of an SVG, and documents that show nothing else.
 
     They are the children of one element, the first inwards from the root that has two with
     names: of a layer of Inkscape, a title, an attribute for names, or an id that no program made.
+    What goes without for its long name, or beyond that many, is told.
 
     >>> data = b'<svg><g><path id="Peru" d="M0 0h9v9z"/><path id="Chile" d="M9 0h2v9z"/></g></svg>'
     >>> [(name, len(document) < 90) for name, document in named_parts(data)]
     [('Peru', True), ('Chile', True)]
     """
     root = parse_xml(unpacked(data))
-    way = [root]
+    way, remarks = [root], 0
     while True:
         children = [child for child in way[-1] if tag_of(child) in _SHAPES]
         found = [(name, child) for child in children if (name := name_of(child))]
+        remarks += sum(any(map(len, _said(one))) and not name_of(one) for one in children)
         if len(found) > 1:
             break
         groups = [child for child in children if tag_of(child) in {"g", "a"}]
         if len(groups) != 1:
-            return []
+            found = []
+            break
         way.append(groups[0])
-    return [(name, _alone(way, child)) for name, child in found[:MOST_PARTS]]
+    if remarks:
+        tell(f"{remarks} of its parts go without: a name has at most {LONGEST} letters")
+    if len(found) > MOST_PARTS:
+        tell(f"{MOST_PARTS} of its {len(found):,} parts are named, the first")
+    sheets = "".join("".join(one.itertext()) for one in root.iter() if tag_of(one) == "style")
+    for name, child in found[:MOST_PARTS]:
+        yield name, _alone(way, child, is_whole="url(" in sheets)
 
 
-def _alone(way: list[ET.Element], part: ET.Element) -> bytes:
-    """The document with one part of what is drawn."""
+def _alone(way: list[ET.Element], part: ET.Element, *, is_whole: bool) -> bytes:
+    """The document with one part of what is drawn, and what is defined where it refers to that.
+
+    ``is_whole``: whether styles may refer to it.
+    """
+    drawn = ET.tostring(part, encoding="unicode") + "".join(str(one.attrib) for one in way)
+    kept = _UNSEEN if is_whole or _REFERS.search(drawn) else frozenset({"style"})
     inner = part
     for element in reversed(way):
         outer = copy.copy(element)
         for child in list(outer):
-            if tag_of(child) not in _UNSEEN:
+            if tag_of(child) not in kept:
                 outer.remove(child)
         outer.append(inner)
         inner = outer
@@ -313,10 +364,14 @@ def name_of(element: ET.Element) -> str:
     >>> name_of(ET.Element("g", {"id": "Engrave"})), name_of(ET.Element("g", {"id": "g12"}))
     ('Engrave', '')
     """
+    return next((text for text in _said(element) if 0 < len(text) <= LONGEST), "")
+
+
+def _said(element: ET.Element) -> list[str]:
+    """Texts of an element that may be its name, the best first."""
     titles = [child.text for child in element if tag_of(child) == "title"]
     said = [*titles, *(element.get(key) for key in _NAMES), _own(element.get("id", ""))]
-    plain = (" ".join((text or "").split()) for text in said)
-    return next((text for text in plain if 0 < len(text) <= LONGEST), "")
+    return [" ".join((text or "").split()) for text in said]
 
 
 def _own(name: str) -> str:

@@ -16,11 +16,13 @@ export class FontField {
     this.told = changed;
     /** What the studio is told; null until one is chosen. @type {string | null} */
     this.value = null;
-    /** Fonts that words were seen in, by name: what the studio was told then. @type {Map<string, string | null>} */
+    /** Batches of font files, by their names. @type {Map<string, string>} */
     this.known = new Map();
     /** Name of the font that words have now. */
     this.seen = "";
     this.field = h("select", { "aria-label": label, onchange: () => this.changed() }, option(BUNDLED, "Inter Display, bundled"), option(OWN, "A font file …"));
+    /** Stands for a font that words have and nobody can ask for. */
+    this.other = h("option", { value: "other", disabled: "" });
     this.element = h("label", { class: "row" }, label, this.field);
   }
 
@@ -35,11 +37,14 @@ export class FontField {
     if (name === this.seen) return;
     this.seen = name;
     if (!name) return;
-    if (!this.known.has(name)) this.known.set(name, this.value);
-    this.value = this.known.get(name) ?? null;
-    const known = this.value ?? name.toLowerCase();
-    if (![...this.field.options].some((one) => one.value === known)) this.field.prepend(option(known, name));
-    this.field.value = known;
+    const known = this.known.get(name) ?? name;
+    this.other.remove();
+    const isOffered = [...this.field.options].some((one) => one.value === known);
+    // The bundled font by name has no other for letters that it lacks.
+    this.value = !isOffered || (known === BUNDLED && this.value !== BUNDLED) ? null : known;
+    this.other.textContent = name;
+    if (!isOffered) this.field.prepend(this.other);
+    this.field.value = isOffered ? known : this.other.value;
   }
 
   /** What was chosen last is not to be had. */
@@ -54,6 +59,7 @@ export class FontField {
     const there = new Set([...this.field.options].map((one) => one.value));
     const families = (choices?.fonts ?? []).filter((/** @type {string} */ one) => !there.has(one));
     this.field.querySelector(`[value=${OWN}]`)?.before(...families.map((/** @type {string} */ one) => option(one, named(one))));
+    if (families.length && this.field.value === this.other.value) this.refused();
   }
 
   changed() {
@@ -68,6 +74,7 @@ export class FontField {
   /** @param {string} batch of the file @param {string} name */
   own(batch, name) {
     this.value = `file:${batch}`;
+    this.known.set(name, this.value);
     this.field.prepend(option(this.value, name));
     this.field.value = this.value;
     this.told(name);

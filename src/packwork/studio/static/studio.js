@@ -43,6 +43,8 @@ const WIDE = 700;
 /** What is left free beside the canvas, and above it for the bar of what is chosen, px. */
 const MARGIN = 28;
 const ABOVE = 62;
+/** What the focus can be on. */
+const FOCUSABLE = ":is(button, input, select, textarea):not(:disabled)";
 /** Subject of the line about what was asked for and not had. */
 const MISSED = "not as asked";
 
@@ -333,11 +335,13 @@ export class Studio {
 
   /** Have the focus in the next part of the page. @param {number} step */
   goRound(step) {
-    const parts = ["bar", "canvas", "choice", "tabs", "panel", "foot"].map(byId).filter((one) => one.checkVisibility());
-    const at = parts.findIndex((one) => one.contains(document.activeElement));
-    const part = parts[(at < 0 && step < 0 ? parts.length - 1 : at + step + parts.length) % parts.length];
-    const first = part === this.canvas ? part : part.querySelector("button:not(:disabled), input, select, textarea");
-    if (first instanceof HTMLElement) first.focus();
+    const parts = ["bar", "canvas", "choice", "tabs", "panel", "foot"].map(byId);
+    const stops = parts.map((part) => (part === this.canvas ? [part] : [...part.querySelectorAll(FOCUSABLE)]).find((one) => one.checkVisibility({ visibilityProperty: true })));
+    const there = parts.filter((_, k) => stops[k]);
+    const at = there.findIndex((one) => one.contains(document.activeElement));
+    const next = there[(at < 0 && step < 0 ? there.length - 1 : at + step + there.length) % there.length];
+    const stop = stops[parts.indexOf(next)];
+    if (stop instanceof HTMLElement) stop.focus();
   }
 
   /** @param {number} step */
