@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,7 @@ from packwork.recipe import make_recipe
 from packwork.steps.control import BestOf, Replan, Retry, UnlessTight
 
 PLAIN = [
-    "Place", "Levels", "Finish", "TellShortfalls", "Measure", "TellLineWeights", "Advise",
-    "TellOneColour",
+    "Place", "Levels", "Finish", "TellShortfalls", "Measure", "Advise", "TellOneColour",
 ]  # fmt: skip
 
 
@@ -56,11 +56,19 @@ def test_a_plain_run_is_six_steps() -> None:
 )
 def test_each_wish_is_a_step_of_its_own(options: dict[str, Any], more: set[str]) -> None:
     extra = names(**options)
-    grows = options.get("sizes", "free") == "free" and "stroke_width" not in options
     for name in PLAIN:
-        if grows or name != "TellLineWeights":
-            extra.remove(name)
+        extra.remove(name)
     assert set(extra) == more
+
+
+def test_lines_are_looked_at_where_most_items_are_drawn_in_lines(tmp_path: Path) -> None:
+    line, filled = tmp_path / "line.svg", tmp_path / "filled.svg"
+    line.write_text('<svg><path d="M0 0h99" stroke="red"/></svg>', encoding="utf-8")
+    filled.write_text('<svg><path d="M0 0h99v99z" stroke="red"/></svg>', encoding="utf-8")
+    found = names(items=[str(line), str(line), str(filled)])
+    assert set(found) - set(PLAIN) == {"TellLineWeights"}
+    assert names(items=[str(line), str(filled)]) == PLAIN
+    assert names(items=[str(line)], sizes="fixed").count("TellLineWeights") == 0
 
 
 def test_a_film_is_recorded_by_steps_of_its_own() -> None:

@@ -14,7 +14,12 @@ from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.readers.svg.thinner import LineDrawing, has_traced_lines, line_drawing
+from packwork.readers.svg.thinner import (
+    MOST_LOOKED,
+    LineDrawing,
+    has_traced_lines,
+    line_drawing,
+)
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.steps.finish import finished
@@ -74,9 +79,6 @@ def evened(job: Job, poses: Poses, *, tells: bool = True) -> Job:
 UNLIKE = 3.0
 """Times as wide as others that lines have to be to be told. Larger passes pictures that look as if
 several hands had drawn them, smaller blames free sizes that differ little. By eye."""
-
-MOST_LOOKED = 60
-"""Drawings at most whose lines are measured for that: some 5 ms each. Chosen."""
 
 
 @final

@@ -14,6 +14,7 @@ import numpy as np
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
+from packwork.readers.svg.thinner import are_lines
 from packwork.recipe.rules import Rotation
 from packwork.steps.appearance import CountBeside, Dress, StandOut
 from packwork.steps.assign_by_colour import AssignByColour
@@ -147,7 +148,7 @@ def reporting(
     steps: list[RunStep] = [Measure(), *found]
     if job.plan.has_even_lines:
         steps.insert(0, EvenLines())
-    elif job.plan.sizes == "free":
+    elif job.plan.sizes == "free" and are_lines(job.items):
         steps.append(TellLineWeights())
     if job.plan.least_dpi is not None:
         steps.append(TellCoarse())
