@@ -132,6 +132,19 @@ def test_steps_without_rows_keep_their_place_among_bars() -> None:
     assert [name for name in said if name in {"4", "2", "0"}] == ["4", "2", "2"]
 
 
+def test_sums_over_bars_have_the_decimals_of_the_table() -> None:
+    rows = [
+        {"land": "A", "eur": "12345,50"}, {"land": "A", "eur": "12110,75"},
+        {"land": "B", "eur": "7000,1"}, {"land": "B", "eur": "0,4"},
+    ]  # fmt: skip
+    for unit in (1000, None):  # no mark is cut for 10 cents of 1000
+        layout = pw.chart("none", rows, size_by="eur", by="land", unit=unit, **QUICK)
+        assert {"24.456,25", "7.000,50"} <= {note.says for note in layout.notes}
+    thirds = [{"land": name, "eur": 1000 / 3} for name in "AAB"]
+    layout = pw.chart("none", thirds, size_by="eur", by="land", **QUICK)
+    assert {"666.7", "333.3"} <= {note.says for note in layout.notes}
+
+
 @pytest.mark.parametrize("width", [200, 297, 331.7])
 def test_names_that_just_fit_are_written_in_full(width: float) -> None:
     names = ["Robusta/Arabica", "Arabica", "Arabica/Robusta", "Robusta"]

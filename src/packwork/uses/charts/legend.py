@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.geometry.outline import Outline
 from packwork.readers.charts import ChartOptions
+from packwork.readers.tables.cells import any_number
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout, Note
 from packwork.uses.charts.colours import UNKNOWN, ChartColours
@@ -36,7 +37,9 @@ from packwork.uses.charts.layout import (
     Cell,
     Chart,
 )
-from packwork.uses.charts.pen import Pen, shortened, spoken
+from packwork.uses.charts.marks import ChartRead
+from packwork.uses.charts.pen import Pen, places_of, shortened, spoken
+from packwork.uses.charts.rows import SPECK
 
 INK = "#2d3748"
 LEAST_CONTRAST = 7.0
@@ -63,6 +66,10 @@ GAP_EM = 0.5
 
 RULE_EM = 0.09
 """Width of the line that bars stand on. Chosen by eye."""
+
+MOST_PLACES = 4
+"""Decimals at most that sums are written with, as their table has them: more are results of
+arithmetic. Chosen."""
 
 PALE = 0.3
 """How much paper is in the ink of what is less important. Chosen by eye."""
@@ -94,8 +101,12 @@ def legend_notes(chart: Chart, layout: Layout) -> tuple[Note, ...]:
 
 def _groups(pen: Pen, chart: Chart, layout: Layout) -> None:
     frame, options, cells = chart.frame, chart.options, chart.cells
-    sums, decimal = _sums(layout), chart.read.decimal
-    written = {cell.name: spoken(sums.get(cell.name, 0.0), decimal) for cell in cells}
+    sums, places = _sums(chart.read, layout), _places(chart.read)
+    if places is not None:
+        places = places_of(round(number, places) for number in sums.values())
+    written = {
+        cell.name: spoken(sums.get(cell.name, 0.0), chart.read.decimal, places) for cell in cells
+    }
     pale = readable(between((pen.ink, options.paper), PALE), options.paper, PALE_CONTRAST)
     if not chart.has_bars:
         _over_copies(pen, cells, written, frame.em, pale)
@@ -172,12 +183,38 @@ def _fitting(text: str, width: float) -> float:
     return FULL * width / max(Pen.width(text, 1.0), 1e-9)
 
 
-def _sums(layout: Layout) -> Mapping[str, float]:
+def _sums(read: ChartRead, layout: Layout) -> Mapping[str, float]:
+    """Sum of what is drawn of each group, and of specks that no mark was cut for."""
     found: dict[str, float] = {}
     for item in layout.items:
         if item.datum is not None:
             found[item.datum.group] = found.get(item.datum.group, 0.0) + item.datum.value
+    of_rows: dict[str, list[float]] = {}
+    groups = (read.groups[k] for k in read.group_of)
+    for group, amount in dict(
+        zip(read.row_of.tolist(), zip(groups, _amounts(read), strict=True), strict=True)
+    ).values():
+        of_rows.setdefault(group, []).append(amount)
+    for group in of_rows.keys() & found.keys():
+        whole = math.fsum(of_rows[group])
+        specks = SPECK * (read.options.unit or 0.0) * len(of_rows[group])
+        if abs(whole - found[group]) <= specks:
+            found[group] = whole
     return found
+
+
+def _amounts(read: ChartRead) -> list[float]:
+    """``(n,)`` what the row of each mark says; without a column of sizes, what the mark does."""
+    column = read.options.size_by
+    if column is None:
+        return list(map(float, read.values))
+    return [any_number(row.get(column)) for row in read.rows]
+
+
+def _places(read: ChartRead) -> int | None:
+    """Decimals of the column of sizes; None if those are too many to be shown."""
+    places = places_of(set(_amounts(read)))
+    return places if places <= MOST_PLACES else None
 
 
 def _tops(layout: Layout) -> Mapping[str, float]:
@@ -225,8 +262,11 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     heading = options.size_by or "rows"
     if not chosen:
         # Marks are larger than a key may be, or specks.
-        ends = dict.fromkeys(read.ends)
-        heading += f": {' – '.join(spoken(end, read.decimal) for end in ends)}"
+        is_told = _places(read) is not None
+        heading += ": " + " – ".join(
+            spoken(end, read.decimal, places_of([end]) if is_told else None)
+            for end in dict.fromkeys(read.ends)
+        )
     pen.write(heading, frame.left, y + 1.2 * em, em)
     x = frame.left
     for number in chosen:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
@@ -157,23 +158,35 @@ def shortened(text: str, em: float, room: float) -> str:
     return "…"
 
 
-def spoken(number: float, decimal: str = ".") -> str:
+def spoken(number: float, decimal: str = ".", places: int | None = None) -> str:
     """Number as people say it, or as the table that it comes from would write it.
 
     With a decimal comma points group thousands, and no English names stand for large numbers.
+    With ``places``, it has so many decimals; else four to six digits are said.
 
     Examples
     --------
     >>> spoken(5e8), spoken(2000), spoken(0.5), spoken(2e-5), spoken(3e20)
     ('500 million', '2,000', '0.5', '0.00002', '3e20')
-    >>> spoken(5e8, ","), spoken(2000, ","), spoken(0.5, ",")
-    ('500.000.000', '2.000', '0,5')
+    >>> spoken(5e8, ","), spoken(2000, ","), spoken(0.5, ","), spoken(24456.2, ",", 2)
+    ('500.000.000', '2.000', '0,5', '24.456,20')
     """
-    text = _english(number, is_named=decimal == ".")
+    text = _english(number, is_named=decimal == ".", places=places)
     return text if decimal == "." else text.translate(str.maketrans(".,", ",."))
 
 
-def _english(number: float, *, is_named: bool) -> str:
+def places_of(numbers: Iterable[float]) -> int:
+    """Decimals of the number that has most, up to nine.
+
+    Examples
+    --------
+    >>> places_of([1.0, 2.25, 0.5]), places_of([]), places_of([1 / 3])
+    (2, 0, 9)
+    """
+    return max((len(f"{n:.9f}".rstrip("0").partition(".")[2]) for n in numbers), default=0)
+
+
+def _english(number: float, *, is_named: bool, places: int | None) -> str:
     size = abs(number)
     if size and not SMALLEST_PLAIN <= size < LARGEST_NAMED:
         digits, _, power = f"{number:.4g}".partition("e")
@@ -181,6 +194,8 @@ def _english(number: float, *, is_named: bool) -> str:
     for name, unit in (("billion", 1e9), ("million", 1e6)):
         if size >= unit and is_named:
             return f"{number / unit:,.4g} {name}"
+    if places is not None:
+        return f"{number:,.{places}f}"
     if size >= 1e6:
         return f"{float(f'{number:.6g}'):,.0f}"
     if 0 < size < 1e-4:
