@@ -362,6 +362,16 @@ def test_any_bytes_are_an_instance_or_refused(data: bytes) -> None:
             assert read_instance(path).parts
 
 
+def test_parts_that_come_apart_when_they_are_cut_are_named(folder: Path, packwork: Command) -> None:
+    (folder / "bike.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="12mm" viewBox="0 0 30 12">'
+        '<circle cx="6" cy="6" r="5"/><circle cx="24" cy="6" r="5"/></svg>', encoding="utf-8"
+    )  # fmt: skip
+    result = packwork("nest 300x200mm bike.svg*3 builtin:star@40mm --passes 9 -o a.geojson")
+    said = "packwork: of several pieces, which come apart when they are cut: bike (2)\n"
+    assert (result.exit_code, said in result.stderr) == (0, True)
+
+
 def test_a_tool_is_a_distance_of_parts(folder: Path, packwork: Command) -> None:
     result = packwork("nest 300x200mm builtin:star --tool 150mm --passes 3")
     assert result.exit_code == 2

@@ -27,6 +27,7 @@ from packwork.separation.windows import (
     lay_on_strip,
 )
 from packwork.uses.fewer_sheets import advice_on_sheets
+from packwork.uses.loose_pieces import tell_pieces
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
 from packwork.uses.tool_reach import tell_unreached
 
@@ -82,6 +83,7 @@ def nest(
     parts = [one for one in parts if one.count]
     _check(parts, sheets)
     gap = max(gap, tool)
+    tell_pieces(parts)
     if tool:
         tell_unreached(parts, tool, sheets[0].unit)
     margin = gap if margin is None else margin
