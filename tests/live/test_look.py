@@ -203,3 +203,5 @@ def test_a_gradient_without_end_is_refused_before_it_is_parted() -> None:
     container = pw.fill("circle", "star", count=1, **QUICK).container
     with pytest.raises(RecipeError, match="a gradient takes 20,000 characters at most"):
         gradient(f"linear-gradient({'red,' * 250_000}red)", container)
+    with pytest.raises(RecipeError, match="not 26,9"):
+        gradient(f"linear-gradient({'red,' * 2_990}red)", container)

@@ -176,6 +176,9 @@ def test_parts_together_take_as_much_work_as_a_container(
     land = container_of_svg(data, "land", "land.svg")
     assert len(parts_of_svg(data, land)) == 2
     told = list[str]()
+    stops = iter([False, True])
+    assert len(parts_of_svg(data, land, told.append, lambda: next(stops))) == 1
+    assert told.pop() == "stopped: the part Chile and those after it are not named"
     monkeypatch.setattr(container, "_BYTE_NS", 0.75 * LARGESSE * SHAPES_NS / len(data))
     assert [name for name, _ in parts_of_svg(data, land, told.append)] == ["Peru"]
     assert told == ["the part Chile and those after it are not named: it has too large parts"]

@@ -48,9 +48,7 @@ def gradient(text: str, container: Container) -> Item | None:
     """
     if (met := _GRADIENT.fullmatch(text)) is None:
         return None
-    if len(text) > LONGEST:
-        many = f"{LONGEST:,} characters at most, not {len(text):,}"
-        raise RecipeError("background", f"a gradient takes {many}")
+    _check_length(text)
     parts = _COMMA.split(met[2])
     turn = _ANGLE.fullmatch(parts[0]) if met[1] == "linear" else None
     colours = [parse_colour("background", one.strip()) for one in parts[turn is not None :]]
@@ -78,7 +76,15 @@ def gradient(text: str, container: Container) -> Item | None:
     turned = "" if met[1] == "radial" else f"{degrees}deg, "
     said = ", ".join(hex_colour(one) + f"{one[3]:02x}" * (one[3] < 255) for one in colours)
     plain = f"{met[1]}-gradient({turned}{said})"
+    # It is told in this form, which names of colours may be shorter than.
+    _check_length(plain)
     return Item("gradient", plain, box, box, VectorArt(markup, np.eye(2, 3)))
+
+
+def _check_length(text: str) -> None:
+    if len(text) > LONGEST:
+        many = f"{LONGEST:,} characters at most, colours as numbers, not {len(text):,}"
+        raise RecipeError("background", f"a gradient takes {many}")
 
 
 def gradient_text(behind: Item | None) -> str:

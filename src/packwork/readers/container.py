@@ -16,6 +16,7 @@ from packwork.errors import ReadError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
+from packwork.progress import Stop, never
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
@@ -98,15 +99,17 @@ def read_container(
         return closed_slits(container, reading.close_gaps)
 
 
-def read_parts(container: Container, tell: Tell = notice) -> list[tuple[str, Region]]:
+def read_parts(
+    container: Container, tell: Tell = notice, stop: Stop = never
+) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of a container that was read from an SVG.
 
-    None of any other. ``tell``: told what goes without a name, and why.
+    None of any other. ``tell``, ``stop``: as of :func:`parts_of_svg`.
     """
     path = Path(container.source)
     if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):
         return []
-    return parts_of_svg(read_bytes(path, MAX_BYTES), container, tell)
+    return parts_of_svg(read_bytes(path, MAX_BYTES), container, tell, stop)
 
 
 def _container(

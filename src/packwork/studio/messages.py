@@ -201,7 +201,7 @@ class Room(PageRequest):
     def _pour(self, tab: Tab) -> None:
         container = self._container(tab)
         is_sent = self.names and self.source.startswith(FILES)
-        labels, told = labels_of(container) if is_sent else ([], [])
+        labels, told = labels_of(container, tab.workspace.is_stopped) if is_sent else ([], [])
         for line in told:
             tab.workspace.say(tab.importer.without_folder(line), is_error=False)
 

@@ -64,6 +64,7 @@ class Workspace:
         self._drawer = ThreadPoolExecutor(1, "drawing")
         self._scenes = Scenes()
         self._stop = threading.Event()
+        self.is_stopped = self._stop.is_set
         self._moment: View | None = None
         self._busy, self._progress, self._number = "", 0.0, 0
         self._desk: tuple[Owner, Keeper | None] | None = None

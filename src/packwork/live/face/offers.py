@@ -19,6 +19,7 @@ from packwork.live.mosaic import MOST_PX
 from packwork.live.options import LiveOptions
 from packwork.options import SizeMode, offered
 from packwork.pipeline.region_labels import PartLabel, part_labels
+from packwork.progress import Stop, never
 from packwork.readers.builtin import (
     NAMES,
     builtin_container,
@@ -193,13 +194,13 @@ def container_of(source: str, canvas: str | None, font: str | None = None) -> Co
     return read_container(source, canvas, font=font)
 
 
-def labels_of(container: Container) -> tuple[list[PartLabel], list[str]]:
+def labels_of(container: Container, stop: Stop = never) -> tuple[list[PartLabel], list[str]]:
     """Names of the parts of a container whose file was just read, and what has to be told of them.
 
     Never of one that a session names: what stands there as its file may be any on this machine.
     """
     short = list[str]()
-    parts = read_parts(container, short.append)
+    parts = read_parts(container, short.append, stop)
     labels, told = part_labels(parts, container.side)
     none = f"{container.name} names no parts: an SVG does, by the titles or ids of its shapes"
     lines = [f"{container.name}: {line}" for line in short]

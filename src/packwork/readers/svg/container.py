@@ -15,6 +15,7 @@ import shapely
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import difference, intersection, union
 from packwork.geometry.polygon import Region, silhouette
+from packwork.progress import Stop, never
 from packwork.readers.gate.door import parse_xml, unpacked
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
@@ -197,14 +198,15 @@ def inside_of_svg(data: bytes) -> Region:
 
 
 def parts_of_svg(
-    data: bytes, container: Container, tell: Tell = notice
+    data: bytes, container: Container, tell: Tell = notice, stop: Stop = never
 ) -> list[tuple[str, Region]]:
     """Names and regions, canvas units, of the parts of the SVG that a container was read from.
 
-    Parts that paint nothing are left out. ``tell``: told what goes without a name, and why.
+    Parts that paint nothing are left out. ``tell``: told what goes without a name, and why; once
+    ``stop`` is true, so does what is left.
     """
     with reading_file(container.source):
-        found = _regions_of(named_parts(data, tell), tell)
+        found = _regions_of(named_parts(data, tell), tell, stop)
         if not found:
             return []
         bounds = np.reshape(_inside(read_drawing(data).ink).bounds, (2, 2))
@@ -220,14 +222,19 @@ def parts_of_svg(
     return [(name, region) for name, region in parts if region.area > 0]
 
 
-def _regions_of(parts: Iterable[tuple[str, bytes]], tell: Tell) -> list[tuple[str, Region]]:
+def _regions_of(
+    parts: Iterable[tuple[str, bytes]], tell: Tell, stop: Stop
+) -> list[tuple[str, Region]]:
     """Names and regions, CSS pixels, of parts that paint something.
 
-    All together may take as much work as one container.
+    All together may take as much work as one container. Once stopped, those before.
     """
     found = list[tuple[str, Region]]()
     with one_budget(LARGESSE):
         for name, document in parts:
+            if stop():
+                tell(f"stopped: the part {name} and those after it are not named")
+                break
             try:
                 spend(_BYTE_NS * len(document), "has too large parts")
                 found.append((name, _inside(read_drawing(document).ink)))
