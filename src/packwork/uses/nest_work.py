@@ -13,9 +13,9 @@ from packwork.uses.nested import SheetPart
 PLACES: dict[str, int] = {"draft": 500_000, "normal": 4_000_000, "best": 40_000_000}
 """Places that a search prices, by effort: of a hundred parts some 5, 20 and 200 s. Tried."""
 
-PER_PART: dict[str, int] = {"draft": 1_000, "normal": 4_000, "best": 20_000}
-"""Places for each part at least: of a thousand parts on sheets all find room, on six sheets in 33 s
-of processor time, on five in 99 s. Tried."""
+PER_PART: dict[str, int] = {"draft": 2_000, "normal": 4_000, "best": 20_000}
+"""Places for each part at least: of a thousand parts on sheets all find room, on six sheets in 67 s
+of processor time, on five in 99 s. With 1,000, a fifth of ten thousand found none. Tried."""
 
 LONGER = 3
 """Times the work that is advised. Chosen."""
