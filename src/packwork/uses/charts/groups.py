@@ -166,7 +166,7 @@ def _check_count(count: int, table: Table, column: str) -> None:
 
 
 def row_name(table: Table, row: int, label_by: str | None) -> str:
-    """What a row is called in messages: by its label or, without one, by its number."""
+    """Name of a row in messages: its label or, without one, its number."""
     label = None if label_by is None else table.rows[row].get(label_by)
     return f"row {row + 1}" if is_missing(label) else cell_text(label)[:40]
 
