@@ -44,12 +44,12 @@ FILES = [
 IN_ITS_OWN_WORDS = {
     "--count", "--font", "--color-by", "--add", "--hold", "--output", "--report", "--contact-sheet",
     "--sizes", "--series", "--picture", "--rotate", "--time", "--seed", "--margin",
-    "--preflight",
+    "--effort", "--preflight",
 }  # fmt: skip
 """Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
 which a film does with its last picture; files of each row of a table, and a table of all;
 sizes of a layout that is there, and a picture under it; a table and its column, and a column of the
-chart's; angles, seconds, seeds and margin of a nest;
+chart's; angles, seconds, seeds, effort and margin of a nest;
 a look at a file that is there."""
 
 

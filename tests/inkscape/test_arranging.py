@@ -86,7 +86,7 @@ def test_a_clone_that_was_not_chosen_stays_where_it_is() -> None:
 
 
 def test_parts_keep_their_size_on_the_page_and_what_finds_no_room_is_named() -> None:
-    options = {"passes": 60, "margin": 2.0, "kerf": 1.0, "time": 5.0, "seed": 0}
+    options = {"passes": 60, "margin": 2.0, "kerf": 1.0, "seed": 0}
     page = (-5.0, -5.0, 60.0, 40.0)
     found = arranging.nest(OpenDrawing(DRAWING), None, page, OBJECTS, options, never)
     before, after = OpenDrawing(DRAWING), changed(found.transforms)

@@ -459,7 +459,8 @@ def test_drawings_go_through_the_gate(good: bytes) -> None:
 
 
 SCRIBBLE = np.random.default_rng(0).uniform(-50, 50, (3_000, 2))
-ONE_IN_ANOTHER = np.tile([[0, 0], [9, 0], [9, 9.0]], (3_000, 1))
+NESTED = np.linspace(1.0, 0.1, 3_000)[:, None, None] * np.array([[-3, -3], [6, -3], [-3, 6.0]])
+ONE_IN_ANOTHER = NESTED.reshape(-1, 2)
 
 
 @pytest.mark.parametrize("part", ["items/", "containers/"])

@@ -23,7 +23,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine
 from packwork.geometry.bezier import FLATTENING
-from packwork.geometry.overlay import buffered, intersection, valid
+from packwork.geometry.overlay import buffered, intersection, union, valid
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.phrasing import number_of
 from packwork.readers.dxf.entities import (
@@ -180,7 +180,7 @@ def _nested_unframed(rings: list[Ring], left_out: Counter[str]) -> tuple[list[Ri
     others = [ring for ring in rings if not FRAME.search(ring.layer)]
     if not others or not frames:
         return nested(rings)
-    inner = shapely.union_all([shapely.box(*ring.polygon.bounds) for ring in others])
+    inner = union(shapely.box(*ring.polygon.bounds) for ring in others)
     if not all(ring.polygon.covers(inner) for ring in frames):
         return nested(rings)
     parts, doubled = nested(others)
