@@ -204,6 +204,11 @@ class Desk:
             "&& studio.collage.hasPoses && studio.collage.hand.size === 0 && !studio.isEasing)"
         )
 
+    def answered(self) -> None:
+        """Wait until all that was asked is done and lies, however soon it came to rest."""
+        self.until("studio.collage.done >= studio.connection.count")
+        self.settled()
+
     def rested(self) -> str:
         """Wait until nothing is won back any more; where all lies then."""
         self.settled()
@@ -214,8 +219,7 @@ class Desk:
         self.settled()
         while self.look("studio.collage.state.can_undo"):
             self.look("studio.connection.leap('undo')")
-            self.until("studio.collage.done >= studio.connection.count")
-            self.settled()
+            self.answered()
 
     def place(self, item: int) -> tuple[float, float]:
         """Where an item is on the window."""

@@ -31,8 +31,7 @@ def test_a_group_is_made_dragged_and_taken_apart_by_keys(open_desk: Callable[...
     assert row.get_attribute("aria-pressed") == "true"
     before = desk.look(f"studio.collage.pose({group})")
     desk.page.keyboard.press("ArrowRight")
-    desk.until("studio.collage.state.moving")
-    desk.settled()
+    desk.answered()
     after = desk.look(f"studio.collage.pose({group})")
     assert after["scale"] == pytest.approx(before["scale"], rel=0.6)
     assert after != before

@@ -31,8 +31,7 @@ def test_several_are_lined_up_by_a_button_and_by_keys(open_desk: Callable[..., D
     desk.page.locator("#canvas").focus()
     desk.page.keyboard.press("Alt+Shift+H")
     assert desk.look(sent) == count + 2
-    desk.until("studio.collage.state.moving")
-    desk.settled()
+    desk.answered()
     for _ in range(2):
         desk.page.keyboard.press("Control+z")
     desk.until(f"JSON.stringify([...studio.collage.poses]) === {json.dumps(before)}")
