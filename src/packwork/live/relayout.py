@@ -94,7 +94,7 @@ def _together(
             break
         except RecipeError as error:
             # It has no room where it is held: it is in nobody's way.
-            row = next((k for k, one in enumerate(asked_of) if _is_of(one, error)), None)
+            row = next((k for k, one in enumerate(asked_of) if _concerns(one, error)), None)
             if row is None:
                 raise
             asked_of[row] = ItemRules()
@@ -200,7 +200,7 @@ def _asked(document: Document) -> tuple[ItemRules, ...]:
     return tuple(found)
 
 
-def _is_of(one: ItemRules, error: RecipeError) -> bool:
+def _concerns(one: ItemRules, error: RecipeError) -> bool:
     """Whether a refusal is of what was asked for an item."""
     return any(source.key == error.key for source in one.sources.values())
 

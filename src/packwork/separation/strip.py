@@ -52,7 +52,7 @@ SPREAD = 0.25
 
 
 PASS_PLACES = 100
-"""Places whose pricing takes as long as all else in a worker's pass. Tried."""
+"""Places whose pricing takes about as long as all else in a worker's pass: an estimate."""
 
 
 @dataclass
