@@ -10,10 +10,12 @@ from hypothesis.extra import numpy as arrays
 from scipy import ndimage
 
 from packwork.arrays import BoolArray
-from packwork.fields.morphology import STEPS, Thickness, medial_axis, thickness
+from packwork.fields.morphology import STEPS, Thickness, _removable, medial_axis, thickness
 
 masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 14), st.integers(1, 14)))
 EIGHT = np.ones((3, 3))
+CLOCKWISE = [(1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1), (0, 1), (1, 1)]
+"""Shifts that bring each neighbour to its pixel, from the one above on."""
 
 
 @given(mask=masks)
@@ -24,6 +26,19 @@ def test_the_axis_is_inside_and_in_as_many_pieces_as_the_region(mask: BoolArray)
     parts, count = ndimage.label(mask, EIGHT)
     assert set(np.unique(parts[axis])) == set(range(1, count + 1))
     assert ndimage.label(axis, EIGHT)[1] == count
+
+
+@given(mask=masks)
+def test_the_axis_is_what_turns_over_all_pixels_leave(mask: BoolArray) -> None:
+    image, removable, unchanged = np.pad(mask, 2).astype(int), _removable(), 0
+    turn = 0
+    while unchanged < 2:
+        around = [np.roll(image, shift, (0, 1)) for shift in CLOCKWISE]
+        code = sum(one << bit for bit, one in enumerate(around))
+        goes = (image == 1) & removable[turn][code]
+        image[goes], turn = 0, 1 - turn
+        unchanged = 0 if goes.any() else unchanged + 1
+    np.testing.assert_array_equal(medial_axis(mask), image[2:-2, 2:-2])
 
 
 @pytest.mark.parametrize("width", [5, 9, 15])

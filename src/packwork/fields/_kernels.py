@@ -171,29 +171,49 @@ def thin(image, removable, rows, cols):
     """Clear pixels of ``image`` (0 or 1, framed by zeros) in two turns until none is removable.
 
     ``removable[turn, code]`` says which go, by their eight neighbours: bit 0 is the one above,
-    the others follow clockwise. ``rows`` and ``cols`` hold the pixels that are 1, and are spent.
+    the others follow clockwise; none goes among eight. ``rows`` and ``cols`` hold the pixels that
+    are 1, and are spent.
     """
-    left = rows.size
-    gone = np.empty(left, np.int64)
+    # Only those at an edge can go: inside, pixels wait until the edge comes to them.
+    is_at_edge = np.zeros(image.shape, np.bool_)
+    left = 0
+    for k in range(rows.size):
+        r, c = rows[k], cols[k]
+        if _neighbours(image, r, c) != 255:
+            is_at_edge[r, c] = True
+            rows[left], cols[left] = r, c
+            left += 1
+    gone = np.empty((rows.size, 2), np.int64)
     turns_without_change = 0
     turn = 0
     while turns_without_change < 2:
         removed = 0
-        for k in range(left):
-            r, c = rows[k], cols[k]
-            code = image[r - 1, c] | image[r - 1, c + 1] << 1 | image[r, c + 1] << 2
-            code |= image[r + 1, c + 1] << 3 | image[r + 1, c] << 4 | image[r + 1, c - 1] << 5
-            code |= image[r, c - 1] << 6 | image[r - 1, c - 1] << 7
-            if removable[turn, code]:
-                gone[removed] = k
-                removed += 1
-        for k in gone[:removed]:
-            image[rows[k], cols[k]] = 0
         kept = 0
         for k in range(left):
-            if image[rows[k], cols[k]]:
-                rows[kept], cols[kept] = rows[k], cols[k]
+            r, c = rows[k], cols[k]
+            if removable[turn, _neighbours(image, r, c)]:
+                gone[removed, 0], gone[removed, 1] = r, c
+                removed += 1
+            else:
+                rows[kept], cols[kept] = r, c
                 kept += 1
+        for k in range(removed):
+            image[gone[k, 0], gone[k, 1]] = 0
         left = kept
+        for k in range(removed):
+            for r in range(gone[k, 0] - 1, gone[k, 0] + 2):
+                for c in range(gone[k, 1] - 1, gone[k, 1] + 2):
+                    if image[r, c] and not is_at_edge[r, c]:
+                        is_at_edge[r, c] = True
+                        rows[left], cols[left] = r, c
+                        left += 1
         turns_without_change = 0 if removed else turns_without_change + 1
         turn = 1 - turn
+
+
+@helper
+def _neighbours(image, r, c):
+    """Eight neighbours of a pixel as bits."""
+    code = image[r - 1, c] | image[r - 1, c + 1] << 1 | image[r, c + 1] << 2
+    code |= image[r + 1, c + 1] << 3 | image[r + 1, c] << 4 | image[r + 1, c - 1] << 5
+    return code | image[r, c - 1] << 6 | image[r - 1, c - 1] << 7

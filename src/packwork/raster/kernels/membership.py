@@ -9,9 +9,9 @@ from packwork.compiled import kernel
 def count_centres(points, starts, counts):
     """Add, for each pixel, the winding of all rings round its centre.
 
-    ``counts`` has one row more than the image and receives differences down the
-    columns; a running sum turns them into counts. A boundary through a centre counts
-    the item below and to the right of it.
+    ``counts`` has one row more than the image: differences down the columns, and all zero before,
+    of which running sums are made. A boundary through a centre counts the item below and to the
+    right of it.
     """
     height = counts.shape[0] - 1
     width = counts.shape[1]
@@ -46,3 +46,7 @@ def count_centres(points, starts, counts):
                         row += 1
                 counts[row, column] += sign
                 column += 1
+    # Row by row: down single columns takes ten times as long.
+    for row in range(1, height):
+        for column in range(width):
+            counts[row, column] += counts[row - 1, column]
