@@ -42,7 +42,7 @@ _IN_TABLES: Mapping[str, tuple[str, ...]] = {
         "container", "weights", "start", "font", "items", "keep_clear", "filler", "force",
         "picture", "arrange", "embeddings",
     ),
-    "words": ("source", "stopwords", "color_by", "fonts", "container_font"),
+    "words": ("source", "stopwords", "keep_words", "color_by", "fonts", "container_font"),
     "chart": ("data", "mark"),
     "photos": ("sources", "shape"),
     "pile": ("emit",),
@@ -254,7 +254,7 @@ def _renamed(key: str, value: Any, rename: Rename) -> Any:
     if key == "color_by" and not Path(value).suffix:
         return value  # a column
     renamed = rename(value)
-    if key == "stopwords" and not _is_list_file(value, renamed):
+    if key in {"stopwords", "keep_words"} and not _is_list_file(value, renamed):
         return value  # words
     return value if renamed.startswith(BUILTIN) and key not in _SHAPES else renamed
 

@@ -41,6 +41,7 @@ _TYPED: Mapping[str, str] = {
     "start": "init initial from resume continue layout previous",
     "stay": "keep_places keep stable",
     "stopwords": "stop_words exclude ignore",
+    "keep_words": "keep include whitelist allow",
     "language": "lang locale",
     "phrases": "ngrams ngram bigrams collocations",
     "min_word_length": "min_length min_letters",

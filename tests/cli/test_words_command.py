@@ -58,7 +58,10 @@ def test_function_words_that_are_left_out_are_told_and_can_be_kept(
 ) -> None:
     (folder / "t.txt").write_text("To be or not to be: that is the question.", encoding="utf-8")
     line = QUICK.replace("-q", "")
-    told = "7 function words are left out (to, be, or and 4 more); --language none keeps them"
+    told = (
+        "7 function words are left out (to, be, or and 4 more); --keep-words keeps those that it "
+        "names, --language none all"
+    )
     assert told in packwork(f"words circle t.txt {line} -o c.svg --report r.json").stdout
     assert told in json.loads(Path("r.json").read_text(encoding="utf-8"))["remarks"]
     kept = packwork(f"words circle t.txt {line} -o c.svg --language none").stdout

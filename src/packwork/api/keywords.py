@@ -423,6 +423,10 @@ class WordsKeywords(
     """Further words to leave out, with commas between them, or a file of them. A word that is left
     out takes its plural and its other forms along."""
 
+    keep_words: str | Path | Sequence[str | Path] | AbstractSet[str] | None
+    """Words to count though they are function words or too short, with commas between them, or a
+    file of them."""
+
     min_word_length: int
     """Letters that a word of a text has at least; one syllable of Korean is a word anyway. Default:
     2."""
@@ -437,8 +441,8 @@ class WordsKeywords(
     """2 also counts pairs of words that often stand together, 3 triples too. Default: 1."""
 
     plurals: Literal["merge", "keep"]
-    """merge: English plurals count as their singular, if that stands in the text too. Default:
-    'merge'."""
+    """merge: plurals of English, German, French, Spanish, Portuguese, Italian and Dutch count with
+    their singular, if both stand in the text. Default: 'merge'."""
 
     along: Literal["limbs", "edge"] | None
     """Words follow curves, and are set again until these are full; the heaviest are a cloud in what

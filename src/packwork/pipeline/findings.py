@@ -105,7 +105,10 @@ class Sentence(Enum):
         Told.REMARK,
         "auto chose {many}, to reach into parts {width:.3g} {unit} wide",
     )
-    STOPWORDS = Told.REMARK, "{many} left out ({names}); --language none keeps them"
+    STOPWORDS = (
+        Told.REMARK,
+        "{many} left out ({names}); --keep-words keeps those that it names, --language none all",
+    )
     GIVES_WAY = (
         Told.REMARK,
         "{why}, so sizes of words give way; --sizes shared keeps proportions",

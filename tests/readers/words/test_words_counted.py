@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections import Counter
+from importlib.resources import files
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -38,7 +39,12 @@ def tokens(text: str) -> list[str]:
         ("نحن نحب العسل", ["نحن", "نحب", "العسل"]),
         ("می\u200cخواهم", ["می\u200cخواهم"]),
         ("हिन्दी में", ["हिन्दी", "में"]),
-        ("soft\u00adhyphen well-known", ["softhyphen", "well", "known"]),
+        ("soft\u00adhyphen well-known", ["softhyphen", "well-known"]),
+        (
+            "Jean\u2011Paul, E-Mail--not twenty-six -- nor",
+            ["Jean-Paul", "E-Mail", "not", "twenty-six", "nor"],
+        ),
+        ("Ein- und Ausgang 3-4 COVID-19 2024-05-01", ["Ein", "und", "Ausgang", "COVID-19"]),
         ("B2B 2024 ½ 3rd", ["B2B", "3rd"]),
         ("'tis 'quoted'", ["tis", "quoted"]),
         ("see https://a.org/x?y=1 and a.b@c.org", ["see", "and"]),
@@ -85,6 +91,72 @@ def test_forms_of_one_word_count_together_and_look_as_they_mostly_do() -> None:
     assert counted(text, language="en") == {"bear": 5.0, "NASA": 3.0, "nasal": 1.0}
     assert counted(text, language="en", case="upper", count=1) == {"BEAR": 5.0}
     assert counted(text, language="en", plurals="keep")["bears"] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("language", "text", "expected"),
+    [
+        ("de", "Lampe Lampen Lampen Baum Bäume Kind Kinder Kindern Jahr Jahre Jahren Jahres",
+         {"Lampen": 3, "Baum": 2, "Kind": 3, "Jahr": 4}),
+        ("de", "Reis Reise Arbeit Arbeiter Burg Bürger Wein weinen Not Note",
+         {"Reis": 1, "Reise": 1, "Arbeit": 1, "Arbeiter": 1, "Burg": 1, "Bürger": 1, "Wein": 1,
+          "weinen": 1, "Not": 1, "Note": 1}),
+        ("fr", "cheval chevaux chevaux maison maisons jeu jeux fil fils",
+         {"chevaux": 3, "maison": 2, "jeu": 2, "fil": 1, "fils": 1}),
+        ("es", "canción canciones luz luces casa casas", {"canción": 2, "luz": 2, "casa": 2}),
+        ("pt", "nação nações animal animais papel papéis flor flores",
+         {"nação": 2, "animal": 2, "papel": 2, "flor": 2}),
+        ("it", "libro libri casa case amica amiche luogo", {"libro": 2, "casa": 2, "amica": 2}),
+        ("nl", "kat katten boom bomen huis huizen tafel tafels",
+         {"kat": 2, "boom": 2, "huis": 2, "tafel": 2}),
+        ("pl", "dom domy", {"dom": 1, "domy": 1}),
+        ("en", "new news glass glasses", {"new": 1, "news": 1, "glass": 2}),
+    ],
+)  # fmt: skip
+def test_plurals_count_with_singulars_that_are_there(
+    language: str, text: str, expected: dict[str, float]
+) -> None:
+    found = counted(text, language=language)
+    assert {word: n for word, n in found.items() if word != "luogo"} == expected
+
+
+GERMAN = (
+    "Die Menschen leben heute in den Jahren, und der Mensch ist nicht das, was er war. "
+    "Heute ist die Zeit der Menschen, und sie ist gut."
+)
+
+
+def test_only_function_words_are_left_out() -> None:
+    found = counted(GERMAN)
+    assert found["Menschen"] == 3.0
+    assert {"heute", "Jahren", "Zeit", "gut"} <= set(found)
+    assert not {"die", "und", "nicht"} & set(found)
+
+
+@pytest.mark.parametrize("asked", ["nicht,er", ["nicht", "er"], {"Nicht", "ER"}])
+def test_words_are_kept_though_they_say_little(asked: object) -> None:
+    found = counted(GERMAN, keep_words=asked)
+    assert found["nicht"] == 1.0
+    assert found["er"] == 1.0
+    assert "und" not in found
+    assert "er" not in counted(GERMAN, keep_words=asked, stopwords="er")
+
+
+def test_words_of_a_letter_are_kept_that_are_named() -> None:
+    assert counted("R and C and the R code", keep_words="R") == {"R": 2.0, "code": 1.0}
+
+
+def test_content_words_are_of_the_lists_that_they_are_taken_from() -> None:
+    stopwordsiso = pytest.importorskip("stopwordsiso")
+    lines = files("packwork.bundled").joinpath("words", "content.txt").read_text("utf-8")
+    for code, *words in map(str.split, lines.splitlines()):
+        assert set(map(str.casefold, words)) <= {w.casefold() for w in stopwordsiso.stopwords(code)}
+        assert not set(words) & stop_words(code)
+
+
+def test_pronouns_come_off_french_verbs() -> None:
+    text = "Il est là, et elle est dans la maison, répondit-il. Oui, répondit-elle, peut-être."
+    assert counted(text, language="fr")["répondit"] == 2.0
 
 
 def test_phrases_are_counted_and_taken_off_their_words() -> None:

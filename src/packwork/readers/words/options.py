@@ -95,6 +95,13 @@ def _texts(given: Any) -> Any:
     return sorted(texts) if isinstance(given, Set) else texts
 
 
+_Named: TypeAlias = Annotated[
+    tuple[str, ...],
+    BeforeValidator(_texts),
+    Offer(takes=str | Path | tuple[str | Path, ...] | Set[str] | None, metavar="WORDS|FILE"),
+]
+
+
 def _path_text(font: Any) -> Any:
     return str(font) if isinstance(font, Path) else font
 
@@ -130,13 +137,13 @@ class WordOptions(Options):
     """Whose function words are left out: auto (the language of the text), codes such as en
     or en,de, or none."""
 
-    stopwords: Annotated[
-        tuple[str, ...],
-        BeforeValidator(_texts),
-        Offer(takes=str | Path | tuple[str | Path, ...] | Set[str] | None, metavar="WORDS|FILE"),
-    ] = ()
+    stopwords: _Named = ()
     """Further words to leave out, with commas between them, or a file of them. A word that is left
     out takes its plural and its other forms along."""
+
+    keep_words: _Named = ()
+    """Words to count though they are function words or too short, with commas between them, or a
+    file of them."""
 
     min_word_length: Annotated[int, Field(ge=1)] = 2
     """Letters that a word of a text has at least; one syllable of Korean is a word anyway."""
@@ -151,7 +158,8 @@ class WordOptions(Options):
     """2 also counts pairs of words that often stand together, 3 triples too."""
 
     plurals: Literal["merge", "keep"] = "merge"
-    """merge: English plurals count as their singular, if that stands in the text too."""
+    """merge: plurals of English, German, French, Spanish, Portuguese, Italian and Dutch count with
+    their singular, if both stand in the text."""
 
     case: Annotated[Literal["common", "lower", "upper"], _TYPE] = "common"
     """How words are written: as they mostly stand in the text, lower or upper."""

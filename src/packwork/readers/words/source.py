@@ -18,15 +18,17 @@ from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.words.options import Word, WordOptions, sound
+from packwork.readers.words.plurals import without_plurals
 from packwork.readers.words.table import MAX_BYTES, read_word_table
 from packwork.readers.words.tokens import (
-    ENGLISH,
     guess_language,
     is_unspaced,
     matches,
-    own_stop_words,
+    own_words,
+    says_little,
     sentences,
     stop_words,
+    without_clitics,
 )
 from packwork.sources import note_input
 
@@ -68,27 +70,6 @@ def folded(forms: Counter[str]) -> tuple[Counter[str], dict[str, str]]:
         # Of two that are as frequent the one without capitals.
         best[key] = max(best.get(key, (0, "")), (count, form))
     return counts, {key: form for key, (_, form) in best.items()}
-
-
-def without_plurals(counts: Counter[str], stops: frozenset[str] = frozenset()) -> Counter[str]:
-    """Counts in which English plurals are added to their singular, if that is there.
-
-    A singular is left out with all its plurals where it or one of these is a stop word.
-
-    Examples
-    --------
-    >>> dict(without_plurals(Counter(bear=2, bears=3, glass=1, berry=1, berries=1)))
-    {'bear': 5, 'glass': 1, 'berry': 2}
-    >>> dict(without_plurals(Counter(hand=4, hands=3, river=2), frozenset({"hands"})))
-    {'river': 2}
-    """
-    merged, stopped = Counter(counts), set(stops)
-    for word in counts:
-        single = _singular(word, merged)
-        if single is not None:
-            merged[single] += merged.pop(word)
-            stopped |= {single} if word in stopped else set()
-    return Counter({word: n for word, n in merged.items() if word not in stopped})
 
 
 def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[str]:
@@ -140,17 +121,6 @@ def _parts(sentence: Sequence[str], size: int) -> list[str]:
     spaced = [word for word in sentence if not is_unspaced(word[0])]
     starts = range(len(sentence) - size + 1) if len(spaced) == len(sentence) else ()
     return [" ".join(sentence[start : start + size]) for start in starts]
-
-
-def _singular(word: str, counts: Counter[str]) -> str | None:
-    if len(word) < 4 or not word.endswith("s") or word.endswith("ss") or is_unspaced(word[0]):
-        return None
-    forms = [word[:-1]]
-    if word.endswith("ies"):
-        forms.append(word[:-3] + "y")
-    if word.endswith("es"):
-        forms.append(word[:-2])
-    return next((form for form in forms if form in counts), None)
 
 
 STANDARD_INPUT = "-"
@@ -214,7 +184,7 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
 
 def _words(options: WordOptions, asked: TableFormat) -> Ranked:
     source, columns = options.source, PairColumns(options.label_by, options.size_by)
-    stops = own_stop_words(options.stopwords)
+    stops = own_words(options.stopwords)
     if any(columns) and (isinstance(source, dict) or not _is_table(source)):
         key = "label_by" if options.label_by else "size_by"
         raise RecipeError(key, "names a column; give a table with columns, not a text or weights")
@@ -238,7 +208,8 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
 
 
 _OF_TEXTS = (
-    "language", "min_count", "min_word_length", "include_numbers", "regexp", "phrases", "plurals",
+    "language", "keep_words", "min_count", "min_word_length", "include_numbers", "regexp",
+    "phrases", "plurals",
 )  # fmt: skip
 
 _ROWS = re.compile(r"[^,;\t\n]*[,;\t][^\n]*(\n[^,;\t\n]+[,;\t] *\d[\d.,]*\s*)+")
@@ -251,6 +222,13 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         if options.regexp is None
         else matches(text, options.regexp)
     )
+    counts, _ = folded(count_forms(found))
+    language = options.language
+    if language == "auto":
+        language = guess_language(counts) or "none"
+    codes = [code.strip().lower() for code in language.split(",")]
+    if options.regexp is None:
+        found = [without_clitics(words, codes) for words in found]
     counts, written = folded(count_forms(found))
     # A capital at the beginning of a sentence tells nothing of how a word is written elsewhere.
     votes = [words[1:] if words[0].istitle() else words for words in found]
@@ -260,10 +238,9 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         raise ReadError(
             _name(options), f"holds no words{hint}; give a text, or a table of word,weight"
         )
-    language = options.language
-    if language == "auto":
-        language = guess_language(counts) or "none"
-    usual = stop_words(language) if language != "none" else frozenset()
+    kept_anyway = own_words(options.keep_words)
+    listed = stop_words(language) if language != "none" else frozenset()
+    usual = frozenset(word for word in counts if says_little(word, listed)) - kept_anyway
     stops = own | usual
     is_said = options.language != "auto"
     stopped = () if is_said else tuple(w for w, _ in counts.most_common() if w in usual - own)
@@ -271,9 +248,11 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         several, forms = folded(phrases(found, options.phrases, stops))
         counts, written = without_parts(counts, several), written | forms
     said_much = ((word, n) for word, n in counts.items() if word not in usual)
-    kept = Counter({word: n for word, n in said_much if _is_long(word, options)})
-    if options.plurals == "merge" and ENGLISH in language.split(","):
-        kept = without_plurals(kept, own)
+    kept = Counter(
+        {word: n for word, n in said_much if word in kept_anyway or _is_long(word, options)}
+    )
+    if options.plurals == "merge":
+        kept = without_plurals(kept, codes, own, written)
     kept = Counter({word: n for word, n in kept.items() if word not in own})
     words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
     if not words:

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -26,7 +26,7 @@ from packwork.readers.words.options import sound
 from packwork.recipe_paths import is_like_a_path
 
 MAX_BYTES = 2_000_000
-"""Size of a file of stop words. Chosen."""
+"""Size of a file of words to leave out, or to keep. Chosen."""
 
 ENGLISH = "en"
 
@@ -39,11 +39,12 @@ def stop_words(language: str) -> frozenset[str]:
     """Function words of languages given by code, case folded: ``en``, or ``en,de``.
 
     English is a list of our own: that of ``stopwordsiso`` has nouns such as "computer" and
-    "world". All others are that package's.
+    "world". All others are that package's; those of ten languages without their nouns and
+    adjectives, such as "Mensch" and "вода".
 
     Examples
     --------
-    >>> "the" in stop_words("en"), "und" in stop_words("en,de"), "world" in stop_words("en")
+    >>> "the" in stop_words("en"), "und" in stop_words("en,de"), "mensch" in stop_words("de")
     (True, True, False)
     """
     codes = [code.strip().lower() for code in language.split(",")]
@@ -88,8 +89,8 @@ def guess_language(counts: Counter[str]) -> str | None:
     return best if shares[best] >= LEAST_SHARE else None
 
 
-def own_stop_words(texts: Iterable[str]) -> frozenset[str]:
-    """Stop words, case folded: of files, one or several a line, and of words with commas between.
+def own_words(texts: Iterable[str]) -> frozenset[str]:
+    """Words given, case folded: of files, one or several a line, and of words with commas between.
 
     Raises
     ------
@@ -98,13 +99,13 @@ def own_stop_words(texts: Iterable[str]) -> frozenset[str]:
 
     Examples
     --------
-    >>> sorted(own_stop_words(["Polar bear", "fox,owl"]))
+    >>> sorted(own_words(["Polar bear", "fox,owl"]))
     ['fox', 'fox,owl', 'owl', 'polar bear']
     """
-    return frozenset(word.casefold() for text in texts for word in _stop_words_of(text))
+    return frozenset(word.casefold() for text in texts for word in _words_given(text))
 
 
-def _stop_words_of(text: str) -> list[str]:
+def _words_given(text: str) -> list[str]:
     if (exists(text) and not is_folder(text)) or is_like_a_path(text):
         return read_text(text, MAX_BYTES).replace(",", " ").split()
     # A word of a table may have a comma in it.
@@ -114,11 +115,23 @@ def _stop_words_of(text: str) -> list[str]:
 @cache
 def _list(code: str) -> frozenset[str]:
     if code == ENGLISH:
-        place = resources.files("packwork.bundled").joinpath("words", "english.txt")
-        return frozenset(place.read_text(encoding="utf-8").split())
+        return frozenset(_bundled("english.txt").split())
     import stopwordsiso
 
-    return frozenset(word.casefold() for word in stopwordsiso.stopwords(code))
+    usual = frozenset(word.casefold() for word in stopwordsiso.stopwords(code))
+    return usual - _content_words().get(code, frozenset())
+
+
+@cache
+def _content_words() -> Mapping[str, frozenset[str]]:
+    """Words of the package's lists that say something, case folded, by language."""
+    lines = (line.split() for line in _bundled("content.txt").splitlines())
+    return {code: frozenset(map(str.casefold, words)) for code, *words in lines}
+
+
+def _bundled(name: str) -> str:
+    place = resources.files("packwork.bundled").joinpath("words", name)
+    return place.read_text(encoding="utf-8")
 
 
 _HAN = "\u3005\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\U00020000-\U0003ffff"
@@ -275,18 +288,31 @@ JOINERS = "\u200c\u200d"
 _ADDRESS = re.compile(r"(?:https?://|www\.)\S+|\S+@\S+\.\w+")
 _APOSTROPHES = dict.fromkeys(map(ord, "\u2018\u2019\u02bc\uff07"), "'")
 _POSSESSIVE = re.compile(r"'[sS]$")
+_HYPHENS = dict.fromkeys(map(ord, "\u2010\u2011\ufe63\uff0d"), "-")
+_DASH = re.compile(r"(?<![^\s-])-|-(?![^\s-])")
+"""A hyphen that stands for a dash, or ends a word: none of two words that it joins."""
+
+_CLITICS = {
+    "fr": re.compile(
+        r"(?:-(?:t|je|tu|ils?|elles?|on|nous|vous|ce|moi|toi|lui|leur|les?|la|en|y|l\u00e0|ci))+$"
+    ),
+    "pt": re.compile(r"(?:-(?:me|te|se|lhes?|[nv]os|[nl]?[oa]s?))+$"),
+}
+"""Pronouns that hang on verbs by a hyphen, as in "dit-il"."""
 
 
 def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]]:
     """Words that follow each other with nothing but spaces between them, as they are written.
 
-    A word is letters, marks and digits, with apostrophes inside; numbers alone and addresses
-    of the web are none. Text of scripts without spaces is segmented.
+    A word is letters, marks and digits, with apostrophes and hyphens inside; numbers alone and
+    addresses of the web are none. Text of scripts without spaces is segmented.
 
     Examples
     --------
     >>> list(sentences("The bear's honey, don't! हिन्दी 42 https://x.org/a"))
     [['The', 'bear', 'honey'], ["don't"], ['हिन्दी']]
+    >>> list(sentences("Twenty-six e-mails - and 3-4 Ein- und Ausgänge"))
+    [['Twenty-six', 'e-mails'], ['and', 'Ein'], ['und', 'Ausgänge']]
     """
     for run in _runs(_ADDRESS.sub("\n", unicodedata.normalize("NFC", text))):
         words = [word for token in run.split() for word in _words(token, include_numbers)]
@@ -310,14 +336,14 @@ def matches(text: str, pattern: str) -> Iterator[list[str]]:
 
 
 def _runs(text: str) -> list[str]:
-    plain = text.translate(_APOSTROPHES)
+    plain = _DASH.sub("\f", text.translate(_APOSTROPHES | _HYPHENS))
     table = {ord(character): _in_words(character) for character in set(plain)}
     return plain.translate(table).split("\n")
 
 
 def _in_words(character: str) -> str:
     """A character in words: itself, nothing, a space or an end of the run."""
-    if character in JOINERS or character == "'":
+    if character in JOINERS or character in "'-":
         return character
     category = unicodedata.category(character)
     if category[0] in "LMN":
@@ -328,7 +354,7 @@ def _in_words(character: str) -> str:
 
 
 def _words(token: str, include_numbers: bool) -> Iterator[str]:
-    word = _POSSESSIVE.sub("", token.strip("'" + JOINERS))
+    word = _POSSESSIVE.sub("", token.strip("'-" + JOINERS))
     if any(is_unspaced(character) for character in word):
         yield from segments(word)
     elif word and (include_numbers or not _is_number(word)):
@@ -336,4 +362,29 @@ def _words(token: str, include_numbers: bool) -> Iterator[str]:
 
 
 def _is_number(word: str) -> bool:
-    return all(unicodedata.category(character)[0] == "N" for character in word)
+    return all(unicodedata.category(character)[0] == "N" for character in word.replace("-", ""))
+
+
+def without_clitics(words: Sequence[str], languages: Iterable[str]) -> list[str]:
+    """Words without the pronouns that hang on them by hyphens in French and Portuguese.
+
+    Examples
+    --------
+    >>> without_clitics(["répondit-elle", "a-t-on", "arc-en-ciel"], ["fr"])
+    ['répondit', 'a', 'arc-en-ciel']
+    """
+    found = list(words)
+    for clitics in (_CLITICS[code] for code in languages if code in _CLITICS):
+        found = [clitics.sub("", word) for word in found]
+    return found
+
+
+def says_little(word: str, stops: frozenset[str]) -> bool:
+    """Whether a word is a function word, or hyphens join it of nothing else.
+
+    Examples
+    --------
+    >>> [says_little(word, frozenset({"up", "to"})) for word in ("up-to", "up-date", "to")]
+    [True, False, True]
+    """
+    return word in stops or ("-" in word and stops.issuperset(word.split("-")))
