@@ -271,44 +271,6 @@ def test_every_demo_is_a_recipe() -> None:
         Plan.of(recipe, builtin_container("heart")).solve_options()
 
 
-def test_the_teaser_lays_letters_beside_each_other(
-    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from packwork.cli import demo
-
-    few = {"count": 3, "seed": 1}
-    letters = (
-        demo.TeaserLetter("I-plain", ["star"], {**few, "epochs": 20, "levels": "32"}),
-        demo.TeaserLetter(
-            "L-heaped", ["circle"], {**few, "size": "8%", "open": "top"}, is_pile=True
-        ),
-    )
-    monkeypatch.setattr(demo.make_teaser, "__defaults__", (letters,))
-    assert packwork("demo teaser --folder pictures -q").exit_code == 0
-    assert sorted(file.name for file in (folder / "pictures").iterdir()) == [
-        "teaser-1-I-plain.png",
-        "teaser-1-I-plain.svg",
-        "teaser-2-L-heaped.png",
-        "teaser-2-L-heaped.svg",
-        "teaser.png",
-    ]
-    with Image.open(folder / "pictures" / "teaser.png") as sheet:
-        height = demo.LETTER_PX + 2 * demo.SPACE_PX
-        assert sheet.height == height
-        # Something is drawn in both halves, and nothing in the margin.
-        grey = np.asarray(sheet.convert("L"))
-    assert (grey[:, : grey.shape[1] // 3].min(), grey[:, -grey.shape[1] // 3 :].min()) < (200, 200)
-    assert np.ptp(grey[: demo.SPACE_PX]) == 0
-
-
-def test_every_letter_of_the_teaser_is_a_recipe() -> None:
-    from packwork.cli.demo import LETTERS
-
-    assert "".join(letter.name[0] for letter in LETTERS) == "SIGGRAPH"
-    for letter in LETTERS:
-        assert letter.recipe.container == f"text:{letter.name[0]}"
-
-
 def test_bench_runs_a_script_of_the_checkout(folder: Path, packwork: Command) -> None:
     (folder / "src" / "packwork").mkdir(parents=True)
     (folder / "benchmarks" / "engine").mkdir(parents=True)

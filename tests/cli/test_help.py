@@ -35,7 +35,7 @@ PHRASES = {
     "photos": ["packwork photos heart holidays/", "PHOTO", "What becomes of edges", "--border"],
     "pile": ["packwork pile square icons", "--open", "--size", "open path"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
-    "demo": ["packwork demo", "bear", "dragon", "teaser", "--folder"],
+    "demo": ["packwork demo", "bear", "dragon", "--folder"],
     "bench": ["packwork bench engine", "NAME"],
 }  # fmt: skip
 
