@@ -7,7 +7,7 @@ white: the colours of Wang and Lu 2025.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -43,7 +43,7 @@ def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
     picture = np.empty((frame.rows, frame.columns, 3), dtype=np.uint8)
     for top in range(0, frame.rows, _BAND_ROWS):
         bottom = min(top + _BAND_ROWS, frame.rows)
-        picture[top:bottom] = _averaged(PALETTE, _classes(layout, frame, top, bottom))
+        picture[top:bottom] = _averaged(_classes(layout, frame, top, bottom))
     return encoded_picture(Image.fromarray(picture), "PNG")
 
 
@@ -67,11 +67,9 @@ def _counts(
     return centre_count((points * frame.px_per_cu - [0.0, top]) * SAMPLES, starts, shape)
 
 
-def _averaged(palette: _Pixels, classes: _Pixels) -> npt.NDArray[Any]:
+def _averaged(classes: _Pixels) -> _Pixels:
     """Mean colour of each pixel's samples."""
     rows, columns = (side // SAMPLES for side in classes.shape)
-    total = np.zeros((rows, columns, 3), dtype=np.uint16)
-    for i in range(SAMPLES):
-        for j in range(SAMPLES):
-            total += palette[classes[i::SAMPLES, j::SAMPLES]]
-    return (total + SAMPLES**2 // 2) // SAMPLES**2
+    samples = PALETTE[classes].reshape(rows, SAMPLES, columns, SAMPLES, 3)
+    total = samples.sum(axis=(1, 3), dtype=np.uint16)
+    return np.asarray((total + SAMPLES**2 // 2) // SAMPLES**2, dtype=np.uint8)

@@ -26,6 +26,7 @@ from packwork.writers.prepress.options import X4_VERSION, PrintOptions
 from packwork.writers.prepress.rim import put_rim, rim_of
 from packwork.writers.prepress.sheet import PrintSheet, print_sheet
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
+from packwork.writers.svg_symbols import largest_scales
 
 if TYPE_CHECKING:
     import pikepdf
@@ -155,10 +156,7 @@ def _fill(background: str | None) -> str:
 def without_text(layout: Layout) -> Layout:
     """Layout whose drawings with text are replaced by pictures of them."""
     px_per_cu = convert(1.0, layout.container.unit, "in") * PICTURE_DPI
-    largest: dict[Item, float] = {}
-    scales = layout.poses.axis_scales.max(axis=1).tolist()
-    for item, scale in zip(layout.items, scales, strict=True):
-        largest[item] = max(largest.get(item, 0.0), scale)
+    largest = largest_scales(layout, lambda item: item)
     as_picture = {
         item: _as_picture(item, largest[item] * px_per_cu)
         for item in layout.items

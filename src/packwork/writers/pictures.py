@@ -14,7 +14,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.notation import decimals
 from packwork.units import convert
 from packwork.writers.film.options import MAX_SIDE_PX
-from packwork.writers.svg_symbols import element, paint
+from packwork.writers.svg_symbols import element, largest_scales, paint
 
 MAX_PICTURE_PX = MAX_SIDE_PX
 """Longer side of a drawing's picture at most: that of a film."""
@@ -71,21 +71,15 @@ def with_fine_photos(layout: Layout, px_per_cu: float) -> Layout:
     longer there, or broken.
     """
     layout = _with_backdrop(layout, px_per_cu)
-    largest: dict[Art, float] = {}
-    scales = layout.poses.axis_scales.max(axis=1).tolist()
-    for item, scale in zip(layout.items, scales, strict=True):
-        if isinstance(item.art, PhotoArt):
-            largest[item.art] = max(largest.get(item.art, 0.0), scale)
-    if not largest:
+    arts: dict[Art, VectorArt] = {
+        art: art.original.printed(scale * px_per_cu)
+        for art, scale in largest_scales(layout, lambda item: item.art).items()
+        if isinstance(art, PhotoArt)
+    }
+    if not arts:
         return layout
-    arts: dict[Art, VectorArt] = {}
-    known: dict[Item, Item] = {}
-    for item in layout.items:
-        if isinstance(item.art, PhotoArt) and item not in known:
-            key = item.art
-            if key not in arts:
-                arts[key] = item.art.original.printed(largest[key] * px_per_cu)
-            known[item] = replace(item, art=arts[key])
+    photos = (item for item in dict.fromkeys(layout.items) if item.art in arts)
+    known = {item: replace(item, art=arts[item.art]) for item in photos}
     return replace(layout, items=tuple(known.get(item, item) for item in layout.items))
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.geometry import affine
-from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.colour import parse_colour
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
@@ -39,7 +39,16 @@ from packwork.writers.options import TextChoice
 from packwork.writers.promise import promised, stated_limits, stated_weights
 from packwork.writers.svg_lines import NAMESPACE, layer_attributes, line_layers
 from packwork.writers.svg_live_text import LiveWords
-from packwork.writers.svg_symbols import element, item_ids, labelled, note_groups, paint, shape_key
+from packwork.writers.svg_symbols import (
+    element,
+    fill_attributes,
+    item_ids,
+    labelled,
+    largest_scales,
+    note_groups,
+    paint,
+    shape_key,
+)
 
 PRECISION = 1e-7
 """Every point drawn lies within this share of the canvas's longer side of its place in
@@ -187,17 +196,10 @@ class _Shape:
 
 def _shapes(layout: Layout) -> dict[Hashable, _Shape]:
     """One definition for each distinct drawing, fine enough for its largest copy."""
-    scales = layout.poses.axis_scales.max(axis=1).tolist()
-    largest: dict[Hashable, float] = {}
-    items: dict[Hashable, Item] = {}
-    for item, scale in zip(layout.items, scales, strict=True):
-        key = shape_key(item)
-        items.setdefault(key, item)
-        largest[key] = max(largest.get(key, 0.0), scale)
-    side = layout.container.side
+    first = {shape_key(item): item for item in reversed(layout.items)}
     return {
-        key: _shape(f"shape-{n}", item, largest[key], side)
-        for n, (key, item) in enumerate(items.items(), start=1)
+        key: _shape(f"shape-{n}", first[key], scale, layout.container.side)
+        for n, (key, scale) in enumerate(largest_scales(layout, shape_key).items(), start=1)
     }
 
 
@@ -252,8 +254,7 @@ def _background(colour: str | None) -> list[str]:
     channels = parse_colour("background", colour or "none")
     if channels[3] == 0:
         return []
-    opacity = "" if channels[3] == 255 else f"{channels[3] / 255:.3g}"
-    head = attributes({"fill": hex_colour(channels), "fill-opacity": opacity})
+    head = attributes(fill_attributes(channels))
     return [f'<rect id="background" width="100%" height="100%"{head}/>']
 
 

@@ -17,10 +17,11 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from packwork.errors import WriteError
-from packwork.scene.colour import Colour, hex_colour
+from packwork.scene.colour import Colour
 from packwork.scene.item import Art, FontFile, Item, LiveText, TextRun, VectorArt
 from packwork.scene.notation import attributes, matrix_text, xml_text
 from packwork.scene.recolour import one_colour
+from packwork.writers.svg_symbols import fill_attributes
 
 _LOG = logging.getLogger("packwork")
 
@@ -66,12 +67,10 @@ class LiveWords:
         art, text = item.art, item.text
         assert isinstance(art, VectorArt)  # noqa: S101 - has() says so
         assert text is not None  # noqa: S101 - has() says so
-        channels = self._colour(art) or (0, 0, 0, 255)
         head = {
             **own,
             "transform": place + matrix_text(art.matrix),
-            "fill": hex_colour(channels),
-            "fill-opacity": "" if channels[3] == 255 else f"{channels[3] / 255:.3g}",
+            **fill_attributes(self._colour(art) or (0, 0, 0, 255)),
             "data-outline": text.path,
         }
         return f"<g{attributes(head)}>{text_element(text, self._fonts)}</g>"

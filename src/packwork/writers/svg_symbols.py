@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import shapely
@@ -13,7 +13,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import polygon_parts, silhouette, silhouette_area
-from packwork.scene.colour import css_colour, hex_colour
+from packwork.scene.colour import Colour, css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, Label, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout, Note
 from packwork.scene.notation import (
@@ -38,19 +38,42 @@ def shape_key(item: Item) -> Hashable:
     return item.ink if isinstance(item.art, FlatArt) else item.art
 
 
-def paint(item: Item) -> dict[str, str]:
-    """Attributes that colour one copy; arts with colours of their own need none.
+def largest_scales(layout: Layout, key_of: Callable[[Item], Hashable]) -> dict[Hashable, float]:
+    """Largest scale of all copies that have one key, in the order of the layout.
 
-    Opacity is written apart, as few tools read ``#rrggbbaa``.
+    Examples
+    --------
+    >>> from packwork.scene.layout import blank
+    >>> largest_scales(blank(), shape_key)
+    {}
     """
+    found: dict[Hashable, float] = {}
+    scales = layout.poses.axis_scales.max(axis=1).tolist()
+    for item, scale in zip(layout.items, scales, strict=True):
+        found[key_of(item)] = max(found.get(key_of(item), 0.0), scale)
+    return found
+
+
+def fill_attributes(channels: Colour) -> dict[str, str]:
+    """Attributes of a colour; opacity is written apart, as few tools read ``#rrggbbaa``.
+
+    Examples
+    --------
+    >>> fill_attributes((255, 0, 0, 51))
+    {'fill': '#ff0000', 'fill-opacity': '0.2'}
+    """
+    opacity = "" if channels[3] == 255 else f"{channels[3] / 255:.3g}"
+    return {"fill": hex_colour(channels), "fill-opacity": opacity}
+
+
+def paint(item: Item) -> dict[str, str]:
+    """Attributes that colour one copy; arts with colours of their own need none."""
     if not isinstance(item.art, FlatArt):
         return {}
     try:
-        channels = css_colour(item.art.fill)
+        return fill_attributes(css_colour(item.art.fill))
     except ValueError:
         return {"fill": item.art.fill}
-    opacity = "" if channels[3] == 255 else f"{channels[3] / 255:.3g}"
-    return {"fill": hex_colour(channels), "fill-opacity": opacity}
 
 
 def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:

@@ -165,7 +165,6 @@ def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: f
         np.array([not (one.pin or one.values.keys() & _HELD) for one in placed.asked]),
         gap,
         LEAST_SEEN,
-        placed.plan.size_ratio / asked.plan.size_ratio,
     )
     cuts: dict[int, Cut] = {}
     for k, item in enumerate(placed.items):

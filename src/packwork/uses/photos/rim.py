@@ -23,9 +23,6 @@ SHIFTS = (0.02, 0.06, 0.15)
 """Enlargements, and ways as shares of an item's extent, that are tried. More cover more and take
 longer. Tried."""
 
-SMALLER = (0.85, 0.75)
-"""Factors by which an item of which too little is seen becomes smaller. Tried."""
-
 ROUNDS = 6
 """Times that all items are gone through at most. More change nothing that is seen. Tried."""
 
@@ -46,13 +43,12 @@ def spread_to(
     may_move: BoolArray,
     gap: float,
     least: float,
-    smallest: float = 0.0,
 ) -> Poses:
     """Poses at which more of the items is seen in a window, which may hide parts of them.
 
     Behind the window's edge nothing is seen, so items may overlap there. None exceeds its
-    ``largest`` scale; of each at least a share ``least`` has to be seen, for which it may
-    become smaller, down to a factor ``smallest``; ``gap`` is kept between what is seen.
+    ``largest`` scale; of each at least a share ``least`` has to be seen; ``gap`` is kept
+    between what is seen.
 
     Examples
     --------
@@ -114,19 +110,6 @@ def _within_reach(seen: ShapeArray, k: int, extent: float, gap: float) -> IntArr
     return np.asarray(met[met != k])
 
 
-def _about_sides(
-    outline: Outline, poses: Poses, k: int, factors: Sequence[float]
-) -> Iterator[Poses]:
-    """Poses of item ``k`` made larger or smaller about its corners, sides and middle."""
-    one, matrix = poses.subset(np.array([k])), poses.matrix(k)
-    low, high = np.reshape(outline.bounds, (2, 2))
-    for factor, side in product(factors, _SIDES):
-        corner = (low + high) / 2 + (high - low) / 2 * side
-        fixed = affine.apply(matrix, corner[None])[0] - np.array([poses.x[k], poses.y[k]])
-        x, y = one.x + (1 - factor) * fixed[0], one.y + (1 - factor) * fixed[1]
-        yield replace(one, x=x, y=y, scale=one.scale * factor)
-
-
 def _tried(outline: Outline, poses: Poses, k: int, largest: float) -> Iterator[Poses]:
     """Poses of item ``k``, shifted, and enlarged about corners, sides and its middle."""
     one = poses.subset(np.array([k]))
@@ -139,4 +122,8 @@ def _tried(outline: Outline, poses: Poses, k: int, largest: float) -> Iterator[P
         for shift in SHIFTS if any(side) else ():
             yield replace(one, x=one.x + shift * away[0], y=one.y + shift * away[1])
     fitting = [factor for factor in FACTORS if scale * factor <= largest]
-    yield from _about_sides(outline, poses, k, fitting)
+    for factor, side in product(fitting, _SIDES):
+        fixed = affine.apply(matrix, (middle + half * side)[None])[0]
+        fixed -= np.array([poses.x[k], poses.y[k]])
+        x, y = one.x + (1 - factor) * fixed[0], one.y + (1 - factor) * fixed[1]
+        yield replace(one, x=x, y=y, scale=one.scale * factor)

@@ -1,7 +1,7 @@
 """Films as GIF: 256 colours for the whole film, and of each frame only what changed.
 
-The blocks are put together here and the pixels compressed by Pillow, so that a long film
-needs no more memory than its file.
+Pillow makes the blocks of each frame by itself, so that a long film needs no more memory than
+its file.
 """
 
 from __future__ import annotations
@@ -9,13 +9,12 @@ from __future__ import annotations
 import io
 import logging
 import struct
-from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
+from PIL.GifImagePlugin import getdata
 
-from packwork.raster.drawing import encoded_picture
 from packwork.raster.overlay import Picture
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector, Rectangle, changes
@@ -60,8 +59,7 @@ def gif_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
         else:
             # What was shown is cleared before.
             part = Rectangle(0, 0, *pixels.shape)
-        out.write(_control(delay, disposal=1 if film.is_opaque else 2))
-        out.write(_image(part, pixels))
+        out.write(_image(pixels, (part.left, part.top), delay, 1 if film.is_opaque else 2))
     out.write(b";")
     return out.getvalue()
 
@@ -124,37 +122,10 @@ def _head(width: int, height: int, palette: npt.NDArray[np.uint8], loop: bool) -
     return head + (b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0" if loop else b"")
 
 
-def _control(delay: int, disposal: int) -> bytes:
-    return b"!\xf9\x04" + struct.pack("<BHB", disposal << 2 | 1, delay, CLEAR) + b"\0"
-
-
-def _image(part: Rectangle, pixels: _Indices) -> bytes:
-    """Image block, its pixels compressed."""
-    size = part.right - part.left, part.bottom - part.top
-    return b"," + struct.pack("<HHHHB", part.left, part.top, *size, 0) + _compressed(pixels)
-
-
-def _compressed(pixels: _Indices) -> bytes:
-    """Smallest code and the blocks after it, cut out of a GIF that Pillow writes."""
-    picture = Image.fromarray(pixels, "P")
-    picture.putpalette(_GREYS)
-    return _image_data(encoded_picture(picture, "GIF", optimize=False, interlace=0))
-
-
-_GREYS: Sequence[int] = [level for level in range(256) for _ in range(3)]
-
-
-def _image_data(gif: bytes) -> bytes:
-    """Compressed pixels of the only image in a GIF."""
-    place = 13 + (3 << (gif[10] & 7) + 1 if gif[10] & 0x80 else 0)
-    while gif[place : place + 1] == b"!":
-        place = _after_blocks(gif, place + 2)
-    flags = gif[place + 9]
-    start = place + 10 + (3 << (flags & 7) + 1 if flags & 0x80 else 0)
-    return gif[start : _after_blocks(gif, start + 1)]
-
-
-def _after_blocks(gif: bytes, place: int) -> int:
-    while gif[place]:
-        place += gif[place] + 1
-    return place + 1
+def _image(pixels: _Indices, corner: tuple[int, int], delay: int, disposal: int) -> bytes:
+    """Control and image blocks of one frame, which goes by the palette of all."""
+    blocks = getdata(
+        Image.fromarray(pixels, "P"), corner,
+        duration=1_000 * delay // _HUNDREDTHS, disposal=disposal, transparency=CLEAR,
+    )  # fmt: skip
+    return b"".join(blocks)
