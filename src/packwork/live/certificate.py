@@ -160,10 +160,18 @@ class Requests:
         self._count += 1
         self._asked[what, item] = _Request(self._count, value)
 
-    def settled(self, document: Document) -> None:
-        """Forget what a document that is settled has: later gestures may take it away again."""
+    def settled(self, before: Document, document: Document, recent: set[int]) -> None:
+        """Forget what a document that is settled has: later gestures may take it away again.
+
+        What hands put somewhere before, other than the numbers ``recent``, is to be where it was.
+        """
         unmet = self.unmet(document)
-        self._asked = {key: one for key, one in self._asked.items() if one.number in unmet}
+        asked = {key: one for key, one in self._asked.items() if one.number in unmet}
+        self._asked = {key: one for key, one in asked.items() if key[0] != "stay"}
+        for number in sorted(before.put & document.put - recent):
+            row = before.index(number)
+            if row is not None and ("place", number) not in self._asked:
+                self._ask("stay", number, (before.poses.x[row], before.poses.y[row]))
         self._settled = self._count
 
     def copy(self) -> Requests:
@@ -208,10 +216,18 @@ def _miss_of_place(document: Document, k: int, x: float, y: float) -> str | None
     # What forces pull at does not stay where it is put.
     if document.options.force or math.dist((x, y), at) <= NEAR * document.container.side:
         return None
-    return (
-        f"{called(document, k)} is at {at[0]:.4g}, {at[1]:.4g}, not at {x:.4g}, {y:.4g}: "
-        "there is no room for it"
-    )
+    return f"{_elsewhere(document, k, x, y)}: there is no room for it"
+
+
+def _miss_of_stay(document: Document, k: int, x: float, y: float) -> str | None:
+    if _miss_of_place(document, k, x, y) is None:
+        return None
+    return f"{_elsewhere(document, k, x, y)} as put by hand: it made way"
+
+
+def _elsewhere(document: Document, k: int, x: float, y: float) -> str:
+    here = document.poses.x[k], document.poses.y[k]
+    return f"{called(document, k)} is at {here[0]:.4g}, {here[1]:.4g}, not at {x:.4g}, {y:.4g}"
 
 
 def _miss_of_size(document: Document, k: int, asked: float, first: float) -> str | None:
@@ -224,7 +240,7 @@ def _miss_of_size(document: Document, k: int, asked: float, first: float) -> str
     )
 
 
-_MISSES = {"place": _miss_of_place, "size": _miss_of_size}
+_MISSES = {"place": _miss_of_place, "size": _miss_of_size, "stay": _miss_of_stay}
 
 
 def _size(document: Document, k: int) -> float:

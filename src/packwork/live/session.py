@@ -266,8 +266,8 @@ class Session:
             If something is grabbed.
         """
         self._check_dropped("settle")
-        found = self._solver.finish(never)
-        self._settled()
+        before, found = self._solver.base, self._solver.finish(never)
+        self._settled(before)
         return found
 
     def settle_unless(self, stop: Stop) -> Settlement | None:
@@ -276,10 +276,10 @@ class Session:
         For sessions that somebody works on: what is asked for next need not wait.
         """
         self._check_dropped("settle")
-        before, marks = self.document, self.marks.copy()
+        before, marks, base = self.document, self.marks.copy(), self._solver.base
         found = self._solver.finish(stop)
         if not stop():
-            self._settled()
+            self._settled(base)
             return found
         self._solver.restart(before, marks)
         self.log.note("broken_off")
@@ -369,9 +369,9 @@ class Session:
         if self.is_grabbed:
             raise RecipeError(key, "something is held by the hand; drop it first")
 
-    def _settled(self) -> None:
+    def _settled(self, before: Document) -> None:
         self._solver.settled()
-        self.requests.settled(self.document)
+        self.requests.settled(before, self.document, self.marks.recent)
         self.log.note("settle")
         self.log.flush()
 
