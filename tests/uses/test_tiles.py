@@ -170,8 +170,6 @@ def test_what_a_tile_has_not_is_said_before_it_is_written(tmp_path: Path) -> Non
     ):
         with pytest.raises(RecipeError, match="a tile goes on over its edge: it has no "):
             layout.save(tmp_path / name, **options)
-    with pytest.raises(RecipeError, match="session"):
-        layout.edit()
     with pytest.raises(RecipeError, match="tiles: draws them side by side; this is none"):
         pw.fill("page", "star", count=2, effort="draft").save(tmp_path / "a.svg", tiles=2)
 

@@ -115,7 +115,6 @@ class Outputs:
         endings, svg = {path.suffix.lower() for path in self.files}, self.options.svg
         is_drawn = bool(endings & {".svg", ".pdf"})
         for key, what, is_asked in (
-            ("output", "session, in which it is edited by hand", any(map(is_session, self.files))),
             ("output", "lines for a DXF", ".dxf" in endings),
             ("film", "film", bool(self.films)),
             ("cut", "lines for a cutter", is_drawn and svg.cut is not None and svg.cut.is_asked),

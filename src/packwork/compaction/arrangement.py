@@ -39,7 +39,7 @@ class Arrangement:
 
     ``outlines``: one per item, canvas units, about its own origin, as when ``places`` is zero but
     for the position; ``places``: ``(n, 4)`` x, y, turn in radians, logarithm of growth;
-    ``lattice``: by which they repeat, in place of the container's walls.
+    ``lattice``: by which they repeat; a container that is its cell then has no walls.
     """
 
     def __init__(
@@ -51,9 +51,11 @@ class Arrangement:
     ) -> None:
         self.count = len(outlines)
         self.container, self.lattice = container, lattice
-        shifts = np.zeros((0, 2))
-        if lattice is not None:
-            shifts, far = lattice.neighbours(), FAR * max(lattice.width, lattice.height)
+        self.is_open = False
+        """Whether there is no wall: of what repeats, the outline of the cell is none."""
+        shifts = np.zeros((0, 2)) if lattice is None else lattice.neighbours()
+        if lattice is not None and container.bounds == lattice.cell:
+            far, self.is_open = FAR * max(lattice.width, lattice.height), True
             container = Outline.box(-far, -far, far, far)
         backwards = Outline.from_rings([ring[::-1] for ring in container.rings])
         images = [outline for outline in outlines for _ in shifts]
@@ -91,7 +93,7 @@ class Arrangement:
 
     def wrap(self, share: float) -> None:
         """Cut the plane elsewhere: bring items into the cell that lies off by a share of one."""
-        if self.lattice is not None:
+        if self.lattice is not None and self.is_open:
             places = self.places.copy()
             off = share * np.array([self.lattice.width, self.lattice.height])
             places[:, :2] = self.lattice.wrapped(places[:, :2] + off) - off
@@ -221,8 +223,10 @@ class Detail:
                 known[outline] = covers.cover_of_shape(outline, tolerance)
         outlines = [known[outline] for outline in self._outlines]
         sizes = [outline.extent for outline in self._outlines] * self._poses.scale
-        slack = tolerance * float(np.median(sizes))
-        container = Outline.from_region(inner_simplified(self._container.region, slack))
+        container = self._container
+        if self._lattice is None:
+            slack = tolerance * float(np.median(sizes))
+            container = Outline.from_region(inner_simplified(container.region, slack))
         return Detail(outlines, container, self._poses, self._lattice)
 
     def subset(self, items: IntArray, poses: Poses) -> Detail:

@@ -201,7 +201,7 @@ def free_room(
     wanted = max(PIXELS_PER_ITEM * np.sqrt(arrangement.count), ACROSS * side / thickness)
     px_per_cu = float(np.clip(wanted, LEAST_SIDE, MOST_SIDE)) / side
     lattice = arrangement.lattice
-    margin = 0 if lattice is None else round(side * px_per_cu / 2)
+    margin = round(side * px_per_cu / 2) if arrangement.is_open else 0
     rows, columns = int((bottom - top) * px_per_cu) + 2, int((right - left) * px_per_cu) + 2
     shape = rows + 2 * margin, columns + 2 * margin
     corner = np.array([left, top]) - margin / px_per_cu
@@ -210,7 +210,7 @@ def free_room(
         return coverage((points - corner) * px_per_cu, starts, shape, np.float32)
 
     taken = image(*arrangement.rings(items)) if len(items) else np.zeros(shape)
-    if lattice is not None:
+    if lattice is not None and arrangement.is_open:
         room = Clearance(taken < TOUCHED, lattice.neighbours() * px_per_cu, margin)
     else:
         inside = image(arrangement.container.points, arrangement.container.starts)

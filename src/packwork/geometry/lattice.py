@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias
 
 import numpy as np
 import shapely
@@ -12,8 +13,11 @@ from packwork.arrays import FloatArray
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region
 
-SQUARE, HALF_DROP = "square", "half-drop"
+Repeat: TypeAlias = Literal["square", "half-drop"]
 """Ways in which a canvas repeats, as files state them."""
+
+SQUARE: Final = "square"
+HALF_DROP: Final = "half-drop"
 
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom."""
@@ -42,7 +46,7 @@ class Lattice:
         return cls(width, height) if kind == SQUARE else cls(width / 2, height, height / 2)
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> Repeat:
         """``square`` or ``half-drop``."""
         return HALF_DROP if self.drop else SQUARE
 
@@ -73,6 +77,16 @@ class Lattice:
         y = points[:, 1] - column * self.drop
         row = np.floor(y / self.height)
         return np.column_stack([points[:, 0] - column * self.width, y - row * self.height])
+
+    def nearest(self, point: FloatArray, to: FloatArray) -> FloatArray:
+        """Image of a point ``(2,)`` that is nearest to another one.
+
+        >>> Lattice(4.0, 2.0).nearest(np.array([3.9, 1.0]), np.array([0.2, 1.0])).round(9).tolist()
+        [-0.1, 1.0]
+        """
+        off = self.wrapped((point - to)[None])
+        found = np.concatenate([off, off + self.neighbours()])
+        return np.asarray(to + found[np.hypot(*found.T).argmin()])
 
     def repeated(self, region: Region, *, itself: bool = True) -> Region:
         """A region's images in the cells about it, together with itself or without.

@@ -70,7 +70,8 @@ class Certificate:
             return standing
         if standing is None or before is None or _is_all_stale(before, now):
             gap = promise_of(now).least_gap(now.container.side)
-            standing, before = ViolationSet(now.container.outline, gap), None
+            container = now.container
+            standing, before = ViolationSet(container.outline, gap, container.lattice), None
         gone, changed = _gone_and_changed(before, now)
         placed = {n: now.items[k].outline.mapped(now.poses.matrix(k)) for k, n in changed}
         standing.change({**gone, **placed})
@@ -214,6 +215,8 @@ class _Request:
 def _miss_of_place(document: Document, k: int, x: float, y: float) -> str | None:
     at = document.poses.x[k], document.poses.y[k]
     # What forces pull at does not stay where it is put.
+    if document.container.lattice is not None:
+        x, y = document.container.lattice.nearest(np.array([x, y]), np.array(at)).tolist()
     if document.options.force or math.dist((x, y), at) <= NEAR * document.container.side:
         return None
     return f"{_elsewhere(document, k, x, y)}: there is no room for it"

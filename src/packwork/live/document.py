@@ -101,7 +101,6 @@ class Document:
 
         Of a nest, parts that may have other angles than most are held at theirs.
         """
-        layout.container.check_edge("tile", "session, in which it is edited by hand")
         count = len(layout.items)
         options = LiveOptions.from_manifest(layout.manifest)
         kind = kind_of(layout.manifest)
@@ -112,7 +111,7 @@ class Document:
             container=kind.ground(layout.container, options.padding),
             items=layout.items,
             ids=np.arange(count),
-            poses=layout.poses,
+            poses=layout.container.brought_in(layout.poses),
             weights=layout.weights,
             smallest=layout.poses.scale,
             largest=layout.poses.scale,
@@ -192,7 +191,8 @@ class Document:
     def kind(self) -> Kind:
         """Kind of document that this is: what of it may change."""
         has_numbers = bool(self.notes) or any(item.datum is not None for item in self.items)
-        return kind_of(self.manifest, has_numbers=has_numbers)
+        repeats = self.container.lattice is not None
+        return kind_of(self.manifest, has_numbers=has_numbers, repeats=repeats)
 
     @property
     def palette(self) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from packwork.recipe.piles import PileOptions, parse_emitter
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 
-KindName: TypeAlias = Literal["collage", "nest", "chart", "pile"]
+KindName: TypeAlias = Literal["collage", "nest", "chart", "pile", "tile"]
 
 
 @dataclass(frozen=True)
@@ -190,22 +190,36 @@ class PileKind(Kind):
         return cls(pouring={name: getattr(asked, name) for name in POURING})
 
 
+@final
+@dataclass(frozen=True)
+class TileKind(Kind):
+    """Items on a canvas that repeats without a seam."""
+
+    name = "tile"
+    shows_shape = False
+
+
 POURING = ("open", "emit", "release")
 """Options of a pile that say how its items come in."""
 
 COLLAGE = Kind()
 
 
-def kind_of(manifest: Mapping[str, Any], *, has_numbers: bool = False) -> Kind:
+def kind_of(
+    manifest: Mapping[str, Any], *, has_numbers: bool = False, repeats: bool = False
+) -> Kind:
     """Kind of the document that a manifest, which may hold anything, is of.
 
-    ``has_numbers``: whether its items stand for numbers, as keys beside them say.
+    ``has_numbers``: whether its items stand for numbers, as keys beside them say; ``repeats``:
+    whether its canvas does.
 
     Examples
     --------
     >>> kind_of({"nest": {}}).name, kind_of({}, has_numbers=True).name, kind_of({}).name
     ('nest', 'chart', 'collage')
     """
+    if repeats:
+        return TileKind()
     recipe = manifest.get("recipe")
     if isinstance(said := manifest.get("nest"), Mapping):
         return NestKind.stated_in(said)

@@ -170,6 +170,7 @@ class LocalSolver:
 
     def finish(self, stop: Stop) -> Settlement:
         """Finish exactly what was touched, and certify the whole."""
+        self._flow.bring_in()
         before = self.document
         if home := sent_back(self.base, before):
             self.take(home.document)
@@ -327,7 +328,7 @@ class LocalSolver:
         What finds its size by itself becomes smaller there.
         """
         before = self.document
-        if before.options.sizes == "free":
+        if before.options.sizes == "free" or before.container.lattice is not None:
             return
         rows = self._rows(self.marks.placed_by_user | self.marks.turned)
         inside = brought_inside(before, rows, self.shapes)

@@ -170,7 +170,7 @@ def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
     """A run of the items of a document in its container, with the weights that they have there."""
     pairs = zip(document.items, document.positive_weights.tolist(), strict=True)
     items = [replace(item, weight=weight) for item, weight in pairs]
-    job = uses.read(_recipe(document, seed, asked), items, document.container)
+    job = uses.read(_recipe(document, seed, asked), items, document.container.sheet)
     return with_sizes_that_give_way(job) if gives_way(document) else job
 
 
@@ -226,17 +226,18 @@ def _vectors_by_text(document: Document, asked: Mapping[str, Any]) -> ItemVector
     return ItemVectors.of_rows(items, rows, is_known, anchors=found.vectors.anchors)
 
 
-def canvas_of(document: Document) -> str:
-    """Canvas of a document, as options say it."""
-    container = document.container
-    return f"{container.width:.17g}x{container.height:.17g}{container.unit}"
-
-
 def arranged(numbers: Sequence[int], poses: Poses) -> Arrange:
     """Command that puts items to poses, by their numbers."""
     columns = (poses.x, poses.y, np.degrees(poses.angle), poses.scale)
     asked = np.column_stack(columns).tolist()
     return made(Arrange, items=tuple(numbers), poses=[tuple(pose) for pose in asked])
+
+
+def _ground_of(document: Document) -> dict[str, Any]:
+    """Canvas of a document, and the way in which it repeats, as recipes have them."""
+    container = document.container
+    size = f"{container.width:.17g}x{container.height:.17g}{container.unit}"
+    return {"canvas": size, "tile": container.lattice and container.lattice.kind}
 
 
 def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
@@ -246,7 +247,7 @@ def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
         items=["circle"],
         effort="draft",
         seed=seed,
-        canvas=canvas_of(document),
+        **_ground_of(document),
         padding=f"{options.padding:.17g}{document.container.unit}",
         sizes=options.sizes,
         size_ratio=options.size_ratio,
@@ -359,7 +360,7 @@ def poured_into(
         ``count``, items in all, and of words ``font`` and ``palette``; what is None the use
         decides by itself.
     """
-    given: dict[str, Any] = {"effort": "draft", "canvas": canvas_of(document)}
+    given: dict[str, Any] = {"effort": "draft", **_ground_of(document)}
     given |= {name: value for name, value in options.items() if value is not None}
     if use == "words":
         recipe = uses.words_recipe("page", source, **given)
@@ -367,7 +368,7 @@ def poured_into(
         recipe = uses.photos_recipe("page", [source], **given)
     else:
         recipe = make_recipe(container="page", items=[source], **given)
-    return run_shown(uses.read(recipe, None, document.container), shown, stop)[0]
+    return run_shown(uses.read(recipe, None, document.container.sheet), shown, stop)[0]
 
 
 def in_place(document: Document, library: Library, layout: Layout) -> list[Command]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ import shapely
 
 from packwork.arrays import IntArray
 from packwork.geometry.distance import distance
-from packwork.geometry.lattice import Lattice
+from packwork.geometry.lattice import Lattice, moved
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, difference, intersection, part_about, valid
 from packwork.metrics.torus import images_about
@@ -114,7 +114,7 @@ class ViolationSet:
 
     Shares no code with the finish, nor with what moves the items.
 
-    ``container``: canvas units.
+    ``container``: canvas units; ``lattice``: by which all repeats, if it does.
 
     Examples
     --------
@@ -132,13 +132,11 @@ class ViolationSet:
     True
     """
 
-    def __init__(self, container: Outline, gap: float) -> None:
-        self._whole = valid(container.region)
-        shapely.prepare(self._whole)
-        self._edge = self._whole.boundary
-        shapely.prepare(self._edge)
+    def __init__(self, container: Outline, gap: float, lattice: Lattice | None = None) -> None:
+        self._edge = _Wall(container, gap) if lattice is None else _NoWall(lattice, gap)
         self._gap = gap
-        self._regions: dict[int, Any] = {}
+        self._regions: dict[int, list[Region]] = {}
+        """Of each number what is looked at: the item, or its images about the cell."""
         self._found: dict[tuple[int, int | None], Violation] = {}
 
     @property
@@ -162,30 +160,72 @@ class ViolationSet:
             if outline is None:
                 self._regions.pop(number, None)
             else:
-                self._regions[number] = valid(outline.region)
+                self._regions[number] = self._edge.images(valid(outline.region))
                 changed.append(number)
         if changed:
-            self._look(np.array(changed))
+            self._look(changed)
 
-    def _look(self, changed: IntArray) -> None:
-        numbers = np.array(list(self._regions))
-        everything = _array(self._regions.values())
-        regions = _array(self._regions[int(k)] for k in changed)
+    def _look(self, changed: list[int]) -> None:
+        numbers = np.array([k for k, images in self._regions.items() for _ in images])
+        everything = _array(one for images in self._regions.values() for one in images)
+        rows = np.flatnonzero(np.isin(numbers, changed))
+        regions, is_mine = everything[rows], np.isin(np.arange(len(everything)), rows)
         shapely.prepare(regions)
         tree = shapely.STRtree(everything)
         mine, theirs = tree.query(regions, predicate="dwithin", distance=self._gap)
-        for one, other in zip(changed[mine].tolist(), numbers[theirs].tolist(), strict=True):
-            i, j = min(one, other), max(one, other)
-            if i != j and (i, j) not in self._found:
-                self._note(meeting(i, j, self._regions[i], self._regions[j]))
-        near = ~shapely.covers(self._whole, regions)
-        near |= shapely.dwithin(self._edge, regions, self._gap)
-        for k in changed[near].tolist():
-            self._note(sticking_out(k, self._regions[k], self._whole, self._gap))
+        for one, other in zip(rows[mine].tolist(), theirs.tolist(), strict=True):
+            # Of two that have both changed the first finds the other.
+            if one != other and not (other < one and is_mine[other]):
+                first, second = sorted((one, other), key=lambda row: int(numbers[row]))
+                i, j = int(numbers[first]), int(numbers[second])
+                self._note(meeting(i, j, everything[first], everything[second]))
+        for found in self._edge.met(numbers[rows], regions):
+            self._note(found)
 
     def _note(self, found: Violation) -> None:
         if found.overlap_cu2 > 0 or found.gap_cu < self._gap:
-            self._found[found.item, found.other] = found
+            key = found.item, found.other
+            self._found[key] = min(self._found.get(key, found), found, key=_by_depth)
+
+
+@final
+class _Wall:
+    """Edge of a container."""
+
+    def __init__(self, container: Outline, gap: float) -> None:
+        self._whole, self._gap = valid(container.region), gap
+        shapely.prepare(self._whole)
+        self._line = self._whole.boundary
+        shapely.prepare(self._line)
+
+    def images(self, region: Region) -> list[Region]:
+        """The region itself."""
+        return [region]
+
+    def met(self, numbers: IntArray, regions: npt.NDArray[Any]) -> Iterator[Violation]:
+        """Violations of the edge by regions ``(m,)`` of those numbers."""
+        near = ~shapely.covers(self._whole, regions)
+        near |= shapely.dwithin(self._line, regions, self._gap)
+        for k in np.flatnonzero(near):
+            yield sticking_out(int(numbers[k]), regions[k], self._whole, self._gap)
+
+
+@final
+class _NoWall:
+    """What repeats by a lattice: where two meet, one of them lies in the cell."""
+
+    def __init__(self, lattice: Lattice, gap: float) -> None:
+        left, top, right, bottom = lattice.cell
+        self._about = left - gap, top - gap, right + gap, bottom + gap
+        self._lattice = lattice
+
+    def images(self, region: Region) -> list[Region]:
+        """Images of a region that reach the cell, or nearly."""
+        return [moved(region, s) for s in self._lattice.meeting(region.bounds, self._about)]
+
+    def met(self, numbers: IntArray, regions: npt.NDArray[Any]) -> Iterator[Violation]:
+        """Nothing is met."""
+        return iter(())
 
 
 def _array(regions: Iterable[Any]) -> npt.NDArray[Any]:

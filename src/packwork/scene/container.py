@@ -138,6 +138,35 @@ class Container:
             raise RecipeError(key, f"a tile goes on over its edge: it has no {what}")
 
     @property
+    def sheet(self) -> Container:
+        """The whole canvas where it repeats, as one that does not; any other as it is.
+
+        Examples
+        --------
+        >>> page = Container("page", outline=Outline.box(0.0, 0.0, 6.0, 4.0))
+        >>> tiled(page, "half-drop").sheet.outline.bounds
+        (0.0, 0.0, 6.0, 4.0)
+        """
+        if self.lattice is None:
+            return self
+        return replace(self, outline=Outline.box(0.0, 0.0, self.width, self.height), lattice=None)
+
+    def brought_in(self, poses: Poses) -> Poses:
+        """Poses as items lie on the canvas: of what repeats, in its cell.
+
+        Examples
+        --------
+        >>> page = Container("page", outline=Outline.box(0.0, 0.0, 6.0, 4.0))
+        >>> tiled(page, "square").brought_in(Poses([7.0], [-1.0])).x
+        array([1.])
+        """
+        if self.lattice is None:
+            return poses
+        x, y = self.lattice.wrapped(np.column_stack([poses.x, poses.y])).T.copy()
+        is_there = bool((x == poses.x).all() and (y == poses.y).all())
+        return poses if is_there else replace(poses, x=x, y=y)
+
+    @property
     def side(self) -> float:
         """Longer side of the canvas, to which shares of it refer."""
         return max(self.width, self.height)

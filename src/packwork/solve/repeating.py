@@ -31,6 +31,9 @@ ROOM = 1.3
 of smaller ones items that grow leave the image. Chosen."""
 
 
+NOWHERE = Recall(np.ones((1, 1), np.float32), 1.0)
+"""Way back of items that are nowhere outside; it weighs nothing."""
+
 _Part: TypeAlias = tuple[slice, slice]
 
 
@@ -93,7 +96,7 @@ class RepeatingLevel(Level):
     """Level of a tile: nothing lies outside, and what leaves it comes in again.
 
     Parameters as of :class:`packwork.solve.level.Level`; ``largest``: radius of the largest item,
-    canvas units.
+    canvas units; ``taken``: density of what does not move, of a level of the same ``largest``.
     """
 
     def __init__(
@@ -106,14 +109,16 @@ class RepeatingLevel(Level):
         losses: Iterable[str | ImageLoss | SeenInColour] = FUSED,
         nominal: FloatArray | None = None,
         limits: Limits = NO_LIMITS,
+        taken: Image | None = None,
     ) -> None:
         px_per_cu = resolution / container.side
         self._lattice = lattice
         self._torus = torus = Torus(lattice, px_per_cu, int(ROOM * largest * px_per_cu) + 2)
         everywhere = np.ones(torus.shape, np.float32)
+        room = everywhere if taken is None else np.maximum(everywhere - taken, 0)
         super().__init__(
             container, outlines, resolution, losses, nominal, limits,
-            free_space=FreeSpace(everywhere, Recall(everywhere, px_per_cu)),
+            free_space=FreeSpace(room, NOWHERE),
             seen=round(len(outlines) * everywhere.size / (torus.cell[0] * torus.cell[1])),
         )  # fmt: skip
         self.corner = (-torus.margin / px_per_cu, -torus.margin / px_per_cu)

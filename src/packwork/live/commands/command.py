@@ -188,6 +188,7 @@ def named_container(library: Library, container: Container) -> str:
     walls = b"".join(wall.tobytes() for wall in container.walls or ())
     behind, has = container.backdrop, f"{container.walls is None}".encode()
     drawn = b"" if behind is None else _of_art(behind.art) + behind.matrix.tobytes()
+    has += f" {container.lattice}".encode()
     parts = (container.name.encode(), canvas, _points(container.outline), walls, has, drawn)
     name = hashlib.sha256(b"\0".join(parts)).hexdigest()
     library.containers.setdefault(name, container)

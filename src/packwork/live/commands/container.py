@@ -46,6 +46,8 @@ class SetContainer(Command):
         """The document with the container."""
         check_one_container(document)
         new = cast(Container, known(library.containers, self.asset, "container"))
+        if new.lattice is not None:
+            _check_repeats(document)
         return replace(document, container=new)
 
 
@@ -60,7 +62,7 @@ class Reshape(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the outline."""
-        check_one_container(document)
+        _check_outline(document)
         if sum(map(len, self.rings)) > MOST_POINTS:
             raise RecipeError("reshape", f"more than {MOST_POINTS} points; use fewer")
         arrays = [np.array(ring, dtype=np.float64).reshape(-1, 2) for ring in self.rings]
@@ -85,7 +87,7 @@ class DrawContainer(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the outline."""
-        check_one_container(document)
+        _check_outline(document)
         line, container = np.array(self.line), document.container
         if float(np.abs(line).max()) > FARTHEST * container.side:
             raise RecipeError("container", "points are nowhere near the canvas")
@@ -115,7 +117,7 @@ class PlaceContainer(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the container there."""
-        check_one_container(document)
+        _check_outline(document)
         container = document.container
         if max(abs(self.x), abs(self.y)) > FARTHEST * container.side:
             raise RecipeError("container", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
@@ -171,6 +173,8 @@ class SetOption(Command):
             raise RecipeError(self.name[:40], f"is no option of a session; use one of {choices}")
         values: dict[str, Any] = {**dict(document.options), self.name: self.value}
         options = validated(LiveOptions, values)
+        if options.force:
+            document.container.check_edge("force", "places to be pulled to")
         if document.kind.sizes not in {None, options.sizes}:
             raise RecipeError("sizes", document.kind.refusal)
         check_padding(document.container, options.padding, len(document))
@@ -179,6 +183,20 @@ class SetOption(Command):
             # Sizes that were given by hand stay what they are.
             return _turned(replace(document, options=options), document.options)
         return _within(document.with_ranges(options), document.options)
+
+
+def _check_outline(document: Document) -> None:
+    check_one_container(document)
+    document.container.check_edge("container", "outline to be changed")
+
+
+def _check_repeats(document: Document) -> None:
+    """Refuse a tile of what needs an edge, or places."""
+    if document.kind.name not in {"collage", "tile"}:
+        raise RecipeError("tile", f"a {document.kind.name} needs its edge, and a tile has none")
+    if document.options.force or document.mosaic is not None:
+        what = "forces" if document.options.force else "a picture to be shown from afar"
+        raise RecipeError("tile", f"has no places, which {what} would need; take that away first")
 
 
 def _within(document: Document, before: LiveOptions) -> Document:

@@ -156,6 +156,7 @@ class SetMosaic(Command):
             mosaic = replace(document.mosaic, tint=self.tint)
         else:
             raise RecipeError("tint", "is of a mosaic; give it a picture to show")
+        document.container.check_edge("picture", "places at which it could be shown")
         target = mosaic.target(document.container)
         ground = ground_in(document.manifest)
         if not ground and document.grounded.backdrop is None:

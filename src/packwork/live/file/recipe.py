@@ -54,7 +54,7 @@ def write_recipe(session: Session, folder: str | Path) -> SessionRecipe:
     )
     layout = replace(session.layout, items=renamed)
     options = _options(document, names)
-    recipe = make_recipe(**options, start="layout.geojson")
+    recipe = make_recipe(**options)
     file = into / "recipe.toml"
     written = [(into / "items" / f"{name}.svg", _drawing(item)) for name, item in drawings.items()]
     write_all(
@@ -84,9 +84,14 @@ def _options(document: Document, names: list[str]) -> dict[str, Any]:
     before = document.manifest.get("recipe")
     known = before if isinstance(before, Mapping) else {}
     size = f"{container.width:.17g}x{container.height:.17g}{container.unit}"
+    # A tile's items have no places to begin at or to stay at.
+    ground: dict[str, Any]
+    ground = {"container": "container.svg", "start": "layout.geojson", "stay": True}
+    if container.lattice is not None:
+        ground = {"container": "page", "tile": container.lattice.kind}
     return {
         **{name: known[name] for name in KEPT if known.get(name) is not None},
-        "container": "container.svg",
+        **ground,
         "items": ["items"],
         "canvas": size,
         "padding": f"{numbers.padding:.17g}{container.unit}",
@@ -94,7 +99,6 @@ def _options(document: Document, names: list[str]) -> dict[str, Any]:
         "size_ratio": numbers.size_ratio,
         "rotate": numbers.rotate,
         "force": numbers.force,
-        "stay": True,
         "weights": _weights(document, names),
         "rules": _rules(document, names),
     }
@@ -112,7 +116,7 @@ def _rules(document: Document, names: list[str]) -> list[dict[str, Any]]:
     for name, count in Counter(names).items():
         rule: dict[str, Any] = {"items": [name], "count": count}
         k = names.index(name)
-        if document.held[k].any():
+        if document.held[k].any() and document.container.lattice is None:
             rule["pin"] = pin_of(document, k)
         if rule != {"items": [name], "count": 1}:
             rules.append(rule)

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
+from packwork.geometry.lattice import Repeat
 from packwork.options import Options
 from packwork.readers.regions import MAX_POINTS
 from packwork.scene.item import MAX_LENGTH
@@ -264,3 +265,4 @@ class ContainerRecord(Options):
     unit: Unit
     backdrop: BackdropRecord | None = None
     walls: Annotated[tuple[Numbers, ...], Field(max_length=MOST_LINES)] | None = None
+    repeats: Repeat | None = None

@@ -41,7 +41,7 @@ from packwork.readers.fonts.face import checked_face
 from packwork.readers.json_text import check_size
 from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal
-from packwork.scene.container import Backdrop, Container
+from packwork.scene.container import Backdrop, Container, repeating
 from packwork.scene.item import Datum, FontFile, Item, Label, LiveText, Parts, TextRun
 from packwork.scene.pose import Poses
 
@@ -189,13 +189,14 @@ def container_record(container: Container) -> ContainerRecord:
         unit=container.unit,
         backdrop=backdrop,
         walls=None if walls is None else tuple(text_of(wall) for wall in walls),
+        repeats=None if container.lattice is None else container.lattice.kind,
     )
 
 
 def container_of(record: ContainerRecord, shared: Shared) -> Container:
     """The container of a record."""
     behind, walls = record.backdrop, record.walls
-    return Container(
+    made = Container(
         record.name,
         record.source,
         shared.outline(record.outline),
@@ -205,6 +206,7 @@ def container_of(record: ContainerRecord, shared: Shared) -> Container:
         None if behind is None else Backdrop(photo_of(behind.art), matrix_of(behind.matrix)),
         None if walls is None else tuple(points_of(wall) for wall in walls),
     )
+    return made if record.repeats is None else repeating(made, record.repeats)
 
 
 def decoded(model: type[_Model], data: bytes) -> _Model:

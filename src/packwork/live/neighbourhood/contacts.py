@@ -9,6 +9,7 @@ from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.broad_phase import pairs_of
 from packwork.live.document import Document
 from packwork.live.neighbourhood.caches import LevelCache
+from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
 REACH = 0.6
@@ -30,13 +31,16 @@ class ContactGraph:
         poses = document.poses
         shapes = [item.outline for item in document.items]
         outlines = levels.covers(shapes, poses.stretch.tolist())
-        self._arrangement = Arrangement(outlines, document.container.outline, places_of(poses))
+        container = document.container
+        self._arrangement = Arrangement(
+            outlines, container.outline, places_of(container, poses), container.lattice
+        )
         self._document = document
         self.reach = _reach_of(document)
 
     def turned_to(self, document: Document) -> ContactGraph:
         """Neighbours in another document: these, brought up to date, where no shape is another."""
-        before, now = self._document, places_of(document.poses)
+        before, now = self._document, places_of(document.container, document.poses)
         if (
             before.container is not document.container
             or len(before) != len(document)
@@ -54,15 +58,16 @@ class ContactGraph:
 
     def follow(self, items: IntArray, poses: Poses) -> None:
         """Take over where items ``(m,)`` are; ``poses``: of all."""
-        self._arrangement.put(items, places_of(poses.subset(items)))
+        self._arrangement.put(items, places_of(self._document.container, poses.subset(items)))
 
     def beside(self, items: IntArray) -> IntArray:
         """Items within reach of some items ``(m,)``, these among them, ascending."""
         reach = self.reach
         pairs = pairs_of(self._arrangement.board.boxes, items, reach)
-        pairs = pairs[pairs[:, 1] < self._arrangement.count]
+        owners = self._arrangement.owners
+        pairs = pairs[owners[pairs[:, 1]] < self._arrangement.count]
         near = pairs[self._arrangement.distances(pairs, reach) < reach] if len(pairs) else pairs
-        return np.union1d(items, near)
+        return np.union1d(items, owners[near])
 
     def rings(self, sources: IntArray, most: int) -> IntArray:
         """``(n,)`` steps from the nearest of some items ``(m,)``; -1 beyond ``most``."""
@@ -81,6 +86,7 @@ def _reach_of(document: Document) -> float:
     return REACH * float(np.sqrt(np.median(areas) / np.pi)) if len(areas) else 0.0
 
 
-def places_of(poses: Poses) -> FloatArray:
+def places_of(container: Container, poses: Poses) -> FloatArray:
     """``(n, 4)`` x, y, turn and logarithm of growth of poses, from upright and scale 1."""
+    poses = container.brought_in(poses)
     return np.column_stack([poses.x, poses.y, poses.angle, np.log(poses.scale)])

@@ -26,6 +26,7 @@ from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
 from packwork.solve.outlines import Ensemble
+from packwork.solve.repeating import RepeatingLevel
 
 FADE = 0.6
 """Factor on the steps of an item for each ring that it is away. Larger moves far items more,
@@ -240,6 +241,12 @@ class Flow:
         self._write_back()
         self._hardness, self._may = 1.0, None
 
+    def bring_in(self) -> None:
+        """Have all lie on the canvas: of what repeats, in its cell."""
+        poses = self.document.container.brought_in(self.document.poses)
+        if poses is not self.document.poses:
+            self.document, self._working = self.document.with_poses(poses), None
+
     def put_back(self, items: IntArray, poses: Poses) -> None:
         """Have items ``(m,)`` be where they were before they flowed; ``poses`` of these."""
         document = self.document
@@ -305,10 +312,7 @@ class Flow:
         # What may not move is a wall to a settle: turned or sized here, it could not be mended.
         self._is_held = held | held[:, :1]
         some, side = document.poses.subset(active), document.container.side
-        level = Level(
-            document.container, self._seen_of(active, resolution), resolution,
-            free_space=self._room(active, resolution),
-        )  # fmt: skip
+        level = self._level(active, resolution)
         motion = Motion(some, some.scale, side, self._options(), self._limits(active))
         motion.pace = FADE ** self._ring[active].astype(np.float64)
         if before is not None:
@@ -323,6 +327,23 @@ class Flow:
         outlines = [document.items[k].outline for k in items]
         px_per_cu, margin = resolution / document.container.side, document.options.padding / 2
         return self._levels.outlines(outlines, document.poses.subset(items), px_per_cu, margin)
+
+    def _level(self, active: IntArray, resolution: int) -> Level:
+        """What items that are active see: the room that those which stand still leave free."""
+        document = self.document
+        container, seen = document.container, self._seen_of(active, resolution)
+        lattice = container.lattice
+        if lattice is None:
+            free_space = self._room(active, resolution)
+            return Level(container, seen, resolution, free_space=free_space)
+        still = np.setdiff1d(np.arange(len(document)), active)
+        stood = self._seen_of(still, resolution)
+        outlines = self._seen_of(np.arange(len(document)), resolution)
+        radii = np.array([outline.radius for outline in outlines]) * document.poses.scale
+        largest = float(radii.max())
+        standing = RepeatingLevel(container, lattice, stood, resolution, largest)
+        taken = standing.density(document.poses.subset(still)) if len(still) else None
+        return RepeatingLevel(container, lattice, seen, resolution, largest, taken=taken)
 
     def _room(self, active: IntArray, resolution: int) -> FreeSpace:
         """Room that the items that stand still leave free."""

@@ -16,6 +16,7 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
+from packwork.geometry.lattice import Lattice, moved
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import (
     difference,
@@ -25,6 +26,7 @@ from packwork.geometry.overlay import (
     union_of_layout,
     valid,
 )
+from packwork.geometry.polygon import Region
 from packwork.live.document import Document
 from packwork.live.neighbourhood.caches import ShapeCache
 from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
@@ -136,14 +138,15 @@ def _finished(
     )
     dwarfs = (result.poses.scale * DWARF < document.smallest[movable]) & (sizes is None)
     is_clean = result.clean and not bool(dwarfs.any())
-    return document.poses.with_some(movable, made), is_clean
+    return document.container.brought_in(document.poses.with_some(movable, made)), is_clean
 
 
 def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Container | None:
     """The container about some items, less all that stands there; None where that is nothing."""
+    if document.container.lattice is not None:
+        return _room_on_torus(document, movable, shapes, document.container.lattice)
     boxes = np.array([outline.bounds for outline in _placed(document, movable, shapes)])
-    areas = document.areas
-    reach = ABOUT * float(np.sqrt(np.median(areas))) + 2 * gap_of(document, movable)
+    reach = _reach(document, movable)
     region = valid(document.container.outline.region)
     wide = boxes + reach * np.array([-1.0, -1.0, 1.0, 1.0])
     window = union(list(shapely.box(*wide.T)))
@@ -156,12 +159,43 @@ def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Contai
     walls = [outline.region for outline in _placed(document, near, shapes)]
     whole = intersection(region, window)
     left = difference(whole, union_of_layout(walls)) if walls else whole
+    return _bounded(document.container, left, boxes)
+
+
+def _reach(document: Document, movable: IntArray) -> float:
+    """Distance from some items up to which there is room for them, canvas units."""
+    typical = float(np.sqrt(np.median(document.areas)))
+    return ABOUT * typical + 2 * gap_of(document, movable)
+
+
+def _room_on_torus(
+    document: Document, movable: IntArray, shapes: ShapeCache, lattice: Lattice
+) -> Container | None:
+    """The plane about some items of a cell, less the images of all that stands there."""
+    others = np.setdiff1d(np.arange(len(document)), movable)
+    if not len(others):
+        return document.container
+    home = document.with_poses(document.container.brought_in(document.poses))
+    boxes = np.array([outline.bounds for outline in _placed(home, movable, shapes)])
+    wide = boxes + _reach(home, movable) * np.array([-1.0, -1.0, 1.0, 1.0])
+    window = union(list(shapely.box(*wide.T)))
+    shapely.prepare(window)
+    walls = []
+    for outline in _placed(home, others, shapes):
+        images = (moved(outline.region, s) for s in lattice.meeting(outline.bounds, window.bounds))
+        walls += [image for image in images if window.intersects(image)]
+    left = difference(window, union_of_layout(walls)) if walls else window
+    return _bounded(home.container, left, boxes)
+
+
+def _bounded(container: Container, left: Region, boxes: FloatArray) -> Container | None:
+    """A container of those parts of what is left that boxes ``(b, 4)`` meet; None of nothing."""
     parts = [part for part in polygon_parts(left) if _is_used(part, boxes)] or polygon_parts(left)
     try:
         outline = Outline.from_region(shapely.MultiPolygon(parts))
     except ShapeError:
         return None
-    return replace(document.container, outline=outline)
+    return replace(container, outline=outline)
 
 
 def _may_meet(document: Document, items: IntArray, boxes: FloatArray) -> BoolArray:
