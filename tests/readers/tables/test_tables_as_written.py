@@ -51,6 +51,55 @@ def test_all_readers_read_what_excel_writes(encoding: str, tmp_path: Path) -> No
     assert read_weights(file) == AMOUNTS
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize(
+    "above",
+    [
+        "Umsatz 2024, vorläufig\r\n\r\n",
+        "Umsatz 2024, vorläufig;;\r\n;;\r\n",
+        "Umsatz;\r\nStand: Mai;\r\n",
+        "Umsatz 2024\r\n",
+    ],
+)
+def test_titles_above_a_table_are_left_out_and_named(
+    encoding: str, above: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "t.csv"
+    file.write_bytes((above + EXCEL).encode(encoding))
+    table = read_table(str(file))
+    assert amounts(marks(file)) == AMOUNTS
+    assert {word.text: word.weight for word in read_words(WordOptions(source=str(file)))} == AMOUNTS
+    assert read_weights(file) == AMOUNTS
+    assert "above the table" in table.notices[-1]
+    assert "Umsatz" in table.notices[-1]
+
+
+@pytest.mark.parametrize(
+    ("text", "columns"),
+    [
+        ("Report;Sales\nDate;2024-01-01\n\nLand;2023;2024\nPeru;1;2\n", ("Land", "2023", "2024")),
+        ("land;kg\nPeru, south;1,5\nMali, north;2,5\n", ("land", "kg")),
+        ("a;b\n1;2\n\n3;4\n", ("a", "b")),
+        (
+            "T;;;\n;;;\nLand;2023;;2024\n;kg;EUR;kg\nPeru;1;2;3\n",
+            ("Land", "2023 kg", "2023 EUR", "2024 kg"),
+        ),
+    ],
+)
+def test_headings_are_told_from_titles(text: str, columns: tuple[str, ...], tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text(text, encoding="utf-8")
+    found = read_table(str(file)).columns
+    assert tuple(name for name in found if name in columns) == columns
+
+
+def test_lines_are_numbered_as_in_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Title\n\nland,kg\nPeru,2\nMali,x,y\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="line 5: has 3 cells"):
+        read_table(str(file))
+
+
 @pytest.mark.parametrize(
     ("encoding", "text"),
     [

@@ -6,9 +6,10 @@ import csv
 import io
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from packwork.errors import ReadError
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.cells import is_number_like
 from packwork.readers.tables.decoding import decoded
 from packwork.readers.tables.format import TableFormat
@@ -38,6 +39,31 @@ SAMPLE_LETTERS = 1_000 * SAMPLE_LINES
 _DECLARED = re.compile(r'"?sep=(.)"?[ \t]*\r?(?:\n|$)', re.IGNORECASE)
 
 
+@dataclass(frozen=True)
+class Head:
+    """Lines above the rows of a table, up to the ``last``, and what they say.
+
+    ``titles`` are not of the table; ``names`` of columns are joined of two rows, else empty.
+    """
+
+    last: int = 0
+    titles: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+    @property
+    def notice(self) -> str:
+        """Sentence about both; empty if all is plain."""
+        named = [repr(title[:40]) for title in self.titles]
+        what = number_of(len(named), "line above the table is", "lines above the table are")
+        said = [f"{what} left out: {enumerated(named)}"] if named else []
+        if self.names:
+            said.append(f"two rows of headings name the columns {enumerated(self.names, 6)}")
+        return "; ".join(said)
+
+
+NO_HEAD = Head()
+
+
 @dataclass(frozen=True, eq=False)
 class TextTable:
     """A file of lines of cells, its letters and delimiter known, and how it was read."""
@@ -47,11 +73,18 @@ class TextTable:
     delimiter: str
     skipped: int = 0
     notice: str = ""
+    head: Head = field(default_factory=lambda: NO_HEAD)
 
     def lines(self) -> Iterator[tuple[int, list[str]]]:
-        """Number and cells of each line that is not empty, as :func:`lines_of_cells`."""
+        """Number and cells of each line that is not empty, as :func:`lines_of_cells`.
+
+        Those of titles above the table are left out, headings in two rows are one.
+        """
+        if self.head.names:
+            yield self.head.last + self.skipped, list(self.head.names)
         for number, cells in lines_of_cells(self.text, self.file, self.delimiter):
-            yield number + self.skipped, cells
+            if number > self.head.last:
+                yield number + self.skipped, cells
 
 
 def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextTable:
@@ -70,7 +103,9 @@ def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextT
         text, skipped = text[declared.end() :], 1
         said = said or declared[1]
     delimiter = said or delimiter_of(text, file, ENDINGS.get(ending, ","))
-    return TextTable(file, text, delimiter, skipped, read.notice)
+    head = _head(_parted(_sample(text), delimiter))
+    notice = "; ".join(filter(None, (read.notice, head.notice)))
+    return TextTable(file, text, delimiter, skipped, notice, head)
 
 
 def delimiter_of(text: str, file: str, usual: str) -> str:
@@ -87,7 +122,7 @@ def delimiter_of(text: str, file: str, usual: str) -> str:
     ';'
     """
     sample = _sample(text)
-    parted = {mark: _parted(sample, mark) for mark in NAMES}
+    parted = {mark: _rows_below(_parted(sample, mark)) for mark in NAMES}
     alike = [mark for mark, rows in parted.items() if rows and _is_even(rows)]
     plain = [mark for mark in alike if _explains(parted[mark], mark)] or alike
     if len(plain) > 1:
@@ -108,14 +143,78 @@ def _sample(text: str) -> str:
     return "".join(lines[:SAMPLE_LINES])
 
 
-def _parted(sample: str, delimiter: str) -> list[list[str]]:
-    """Rows of a sample, those of nothing left out; none if it is no CSV of that delimiter."""
+def _parted(sample: str, delimiter: str) -> list[tuple[int, list[str]]]:
+    """Numbers and cells of a sample's lines; none if it is no CSV of that delimiter."""
     reader = csv.reader(io.StringIO(sample, newline=""), delimiter=delimiter)
     try:
-        rows = [[cell.strip() for cell in cells] for cells in reader]
+        return [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
     except csv.Error:
         return []
-    return [row for row in rows if any(row)]
+
+
+def _rows_below(lines: Sequence[tuple[int, list[str]]]) -> list[list[str]]:
+    """Rows of a table that are not empty, without titles above it."""
+    last = _titles_end(lines)
+    return [row for number, row in lines if number > last and any(row)]
+
+
+def _head(lines: Sequence[tuple[int, list[str]]]) -> Head:
+    """Titles and joined headings above the rows of a table."""
+    last = _titles_end(lines)
+    titles = tuple(
+        " ".join(filter(None, row)) for number, row in lines if number <= last and any(row)
+    )
+    rows = [(number, row) for number, row in lines if number > last and any(row)][:3]
+    names = _joined([row for _, row in rows])
+    return Head(rows[1][0] if names else last, titles, names)
+
+
+def _titles_end(lines: Sequence[tuple[int, list[str]]]) -> int:
+    """Number of the last line of titles above a table; 0 if there are none.
+
+    A title is a line of one cell above lines of several, or has fewer than the table from which an
+    empty line parts it. One of one cell that is parted as all others are may name the first column:
+    it does unless names of columns follow, and then numbers.
+    """
+    filled = [sum(map(bool, row)) for _, row in lines]
+    there = [k for k, count in enumerate(filled) if count]
+    wide = next((k for k in there if filled[k] > 1), 0)
+    empty = next(
+        (k for k, count in enumerate(filled) if not count and k > min(there, default=k)), 0
+    )
+    below = next((k for k in there if k > empty), 0) if empty else 0
+    if below and max(filled[:empty]) < filled[below]:
+        return lines[below][0] - 1
+    if not wide or wide == there[0]:
+        return 0
+    above, after = [lines[k][1] for k in there if k < wide], there[there.index(wide) + 1 :][:1]
+    # Names that another sign parts are none.
+    is_plain = all(len(row) == 1 and not any(mark in row[0] for mark in NAMES) for row in above)
+    has_names = not any(map(is_number_like, lines[wide][1]))
+    has_numbers = any(is_number_like(cell) for k in after for cell in lines[k][1])
+    return lines[wide][0] - 1 if is_plain or (has_names and has_numbers) else 0
+
+
+def _joined(rows: Sequence[Sequence[str]]) -> tuple[str, ...]:
+    """Names of columns of which the first row has some that reach over several of the second.
+
+    Examples
+    --------
+    >>> _joined([["Land", "2023", "", "2024"], ["", "kg", "EUR", "kg"], ["Peru", "1", "2", "3"]])
+    ('Land', '2023 kg', '2023 EUR', '2024 kg')
+    """
+    if len(rows) < 3 or any(map(is_number_like, filter(None, rows[1]))):
+        return ()
+    width = max(len(_trimmed(row)) for row in rows[:2])
+    upper, lower = ([*row, *[""] * width][:width] for row in rows[:2])
+    gaps = [k for k in range(1, width) if not upper[k]]
+    names, over = [], ""
+    for k in range(width):
+        over = upper[k] or over
+        names.append(f"{over} {lower[k]}".strip())
+    is_over = bool(gaps) and not lower[0] and all(lower[1:])
+    has_numbers = any(map(is_number_like, rows[2][1:]))
+    return tuple(names) if is_over and has_numbers and len(set(names)) == width else ()
 
 
 def _is_even(rows: Sequence[Sequence[str]]) -> bool:
