@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+
 import numpy as np
+import pytest
 import shapely
+from numba.core.runtime import _nrt_python as memory
 
 from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
@@ -53,6 +58,37 @@ def test_items_that_no_trial_reaches_grow_all_the_same() -> None:
     anneal(arrangement, objective_at, 3, lengths, np.random.default_rng(0))
     assert is_clean(arrangement)
     assert arrangement.places[:, 3].min() > 0.05
+
+
+@pytest.fixture
+def counted() -> Iterator[None]:
+    """Numba counts arrays that are made and that are let go."""
+    memory.memsys_enable_stats()
+    yield
+    memory.memsys_disable_stats()
+
+
+@pytest.mark.usefixtures("counted")
+@pytest.mark.skipif(bool(os.environ.get("NUMBA_DISABLE_JIT")), reason="nothing is compiled")
+def test_trials_let_go_of_all_arrays_that_they_make() -> None:
+    rng = np.random.default_rng(1)
+    places = np.column_stack([4.0 * np.arange(1, 6), np.full(5, 5.0), np.zeros(5), np.zeros(5)])
+    arrangement = Arrangement(
+        [square(), box(-1.5, -0.2, 1.5, 0.2)] * 2 + [square()], box(0, 0, 25, 10), places
+    )
+    sizing = free(arrangement, np.full(5, 4.0))
+
+    def objective_at(places: FloatArray) -> Objective:
+        return sizing.objective(places[:, 3], 0.1)
+
+    def held_after(trials: int) -> int:
+        anneal(arrangement, objective_at, trials, Lengths(6.0, GAP, HAIR), rng)
+        return int(memory.memsys_get_stats_mi_alloc() - memory.memsys_get_stats_mi_free())
+
+    held_after(1)
+    before, made = held_after(1), memory.memsys_get_stats_mi_alloc()
+    assert held_after(40) == before
+    assert memory.memsys_get_stats_mi_alloc() > made + 400
 
 
 def test_a_bottleneck_is_relocated_to_where_it_grows_most() -> None:

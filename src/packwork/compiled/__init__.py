@@ -25,11 +25,13 @@ except ImportError:
 
 __all__ = [
     "HAS_OWN_CACHE", "NOTICE", "OUTER", "STORE", "Listener", "as_python", "called_by",
-    "fingerprint", "helper", "holds_kernels", "kernel", "listening", "mark_of", "shared",
+    "fingerprint", "helper", "holds_kernels", "kernel", "leaf", "listening", "mark_of", "shared",
 ]  # fmt: skip
 
-OUTER = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
-"""Options of kernels that Python calls: without its lock, divisions by zero as in NumPy."""
+OUTER = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": True}
+"""Options of kernels that Python calls: without its lock, divisions by zero as in NumPy.
+
+``_nrt``: arrays are counted; said here since what is called would take it over from a leaf."""
 
 
 def kernel(function: Any = None, /, **options: Any) -> Any:
@@ -70,6 +72,15 @@ def helper(function: Any = None, /, **options: Any) -> Any:
     if HAS_OWN_CACHE:
         inner["pipeline_class"] = HelperCompiler
     return njit(function, **{**OUTER, **inner, **options})
+
+
+def leaf(function: Any = None, /, **options: Any) -> Any:
+    """Compile a helper that makes no arrays and is given none by what it calls.
+
+    It does not count who holds the arrays that it is given, which its callers hold: threads
+    that count on the same arrays wait for each other at every call.
+    """
+    return helper(function, _nrt=False, **options)
 
 
 def as_python(compiled: Any) -> Any:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.compiled import helper, kernel
+from packwork.compiled import helper, kernel, leaf
 
 
 @kernel
@@ -34,7 +34,7 @@ def near_pairs(boxes, order, reach, found):
     return count
 
 
-@helper
+@leaf
 def are_apart(boxes, i, j, reach):
     """True if two of some boxes are farther apart than ``reach`` along an axis."""
     # Number by number: a view of a row is counted by all threads together, which takes longer.
@@ -134,7 +134,7 @@ def pairs_of(boxes, items, reach):
     return pairs_among(boxes, items, nearby(boxes, items, reach), reach)
 
 
-@helper
+@leaf
 def sticks_out(inner, outer):
     """True if a box is not within another one."""
     return inner[0] < outer[0] or inner[1] < outer[1] or inner[2] > outer[2] or inner[3] > outer[3]

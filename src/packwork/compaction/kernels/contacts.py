@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from packwork.compaction.kernels import broad_phase, distances, interior_point
-from packwork.compiled import helper, kernel
+from packwork.compiled import helper, kernel, leaf
 
 REACH = 3.0
 """Distance within which features bind, trust regions. Larger gives more conditions, smaller lets
@@ -65,7 +65,7 @@ def contacts(board, pairs, reach, slants, pair_of, numbers):
     return count
 
 
-@helper
+@leaf
 def _describe(board, kept, count, edges):
     """Write columns of what contacts need of edges.
 
@@ -88,7 +88,7 @@ def _describe(board, kept, count, edges):
         edges[7, k], edges[8, k] = points[v, 0], points[v, 1]
 
 
-@helper
+@leaf
 def _sift(own, a, others, count, reach, slant, has_corners, near):
     """Mark the edges that bind a vertex, but for corners nearly: few of many do.
 
@@ -118,7 +118,7 @@ def _sift(own, a, others, count, reach, slant, has_corners, near):
         )
 
 
-@helper
+@leaf
 def _meet(
     own, count_own, others, count_others, near, reach, slant, pair, side, pair_of, numbers, count,
 ):  # fmt: skip
@@ -172,7 +172,7 @@ def all_contacts(board, pairs, reach, slants):
         room = count
 
 
-@helper
+@leaf
 def _motion(board, i, nx, ny, x, y, sign, out):
     """Write how fast a point of an item goes along a normal, for each unknown."""
     ex, ey = x - board.places[i, 0], y - board.places[i, 1]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from packwork.compaction.kernels.broad_phase import are_apart, sticks_out
-from packwork.compiled import helper, kernel, shared
+from packwork.compiled import helper, kernel, leaf, shared
 
 
 class Board(NamedTuple):
@@ -69,7 +69,7 @@ def put(board, items, places):
             _put_image(board, i, count + i * images + s, board.shifts[s])
 
 
-@helper
+@leaf
 def _put_image(board, i, image, shift):
     """Put an image of an item beside it."""
     for c in range(4):
@@ -82,13 +82,13 @@ def _put_image(board, i, image, shift):
         begin += 1
 
 
-@helper
+@leaf
 def arm(board, i):
     """Farthest point of an item from its origin, as large as it is now."""
     return board.arms[i] * math.exp(board.places[i, 3])
 
 
-@helper
+@leaf
 def most_points(starts, pairs):
     """Points of the polygon of some pairs that has most: room for its edges."""
     most = 0
@@ -98,7 +98,27 @@ def most_points(starts, pairs):
     return most
 
 
+class Room(NamedTuple):
+    """Scratch of a distance: edges of the two polygons, boxes about :data:`RUN` of the second."""
+
+    first: np.ndarray
+    second: np.ndarray
+    boxes: np.ndarray
+
+
+RUN = 8
+"""Edges that share a box where two polygons have many near each other. Larger and smaller are
+slower. Tried."""
+
+
 @helper
+def room_for(most):
+    """Room for distances of polygons of so many points."""
+    edges = np.empty((2, most), np.int64)
+    return Room(edges[0], edges[1], np.empty((most // RUN + 1, 4)))
+
+
+@leaf
 def cull(board, i, boxes, j, reach, kept):
     """Write the edges of a polygon (by their first vertex) within ``reach`` of one of the boxes."""
     points = board.points
@@ -132,7 +152,7 @@ def cull(board, i, boxes, j, reach, kept):
     return count
 
 
-@helper
+@leaf
 def _winding(x, y, board, j):
     """Winding number of the rings of a polygon about a point."""
     points, turns = board.points, 0
@@ -158,14 +178,14 @@ def _winding(x, y, board, j):
     return turns
 
 
-@helper
+@leaf
 def _is_in(board, v, j):
     x, y = board.points[v, 0], board.points[v, 1]
     # The container's rings run backwards: round a point inside once, the wrong way.
     return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
 
 
-@helper
+@leaf
 def _enters(board, kept, count, j):
     """True if a ring has its first vertex in polygon ``j``, of rings with edges near that."""
     is_container = j == board.starts.shape[0] - 2
@@ -183,12 +203,7 @@ def _enters(board, kept, count, j):
     return False
 
 
-RUN = 8
-"""Edges that share a box where two polygons have many near each other. Larger and smaller are
-slower. Tried."""
-
-
-@helper
+@leaf
 def _to_edge_squared(x, y, points, v, w):
     dx, dy = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
     ex, ey = x - points[v, 0], y - points[v, 1]
@@ -201,7 +216,7 @@ def _to_edge_squared(x, y, points, v, w):
     return ex * ex + ey * ey
 
 
-@helper
+@leaf
 def side(points, a, b, c):
     """Twice the signed area of the triangle of three vertices."""
     return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
@@ -209,7 +224,7 @@ def side(points, a, b, c):
     ) * (points[c, 0] - points[a, 0])
 
 
-@helper
+@leaf
 def _edges_squared(points, v, w, s, t, least):
     """Squared distance of two edges, 0 if they cross; ``least`` if it is not below that."""
     gap_x = max(
@@ -235,23 +250,23 @@ def _edges_squared(points, v, w, s, t, least):
     return min(least, _to_edge_squared(points[t, 0], points[t, 1], points, v, w))
 
 
-@helper
-def _boxes_of_runs(board, edges):
-    """``(r, 4)`` boxes about each :data:`RUN` edges (by their first vertex), one after another."""
+@leaf
+def _box_runs(board, edges, count, boxes):
+    """Write boxes about each :data:`RUN` edges (by their first vertex); returns how many."""
     points = board.points
-    found = np.empty(((edges.shape[0] + RUN - 1) // RUN, 4))
-    found[:, :2] = np.inf
-    found[:, 2:] = -np.inf
-    for e in range(edges.shape[0]):
-        box = found[e // RUN]
+    for e in range(count):
+        box = boxes[e // RUN]
+        if e % RUN == 0:
+            box[0] = box[1] = np.inf
+            box[2] = box[3] = -np.inf
         for v in (edges[e], board.after[edges[e]]):
             for c in range(2):
                 box[c] = min(box[c], points[v, c])
                 box[c + 2] = max(box[c + 2], points[v, c])
-    return found
+    return (count + RUN - 1) // RUN
 
 
-@helper
+@leaf
 def _box_squared(box, points, v, w):
     squared = 0.0
     for c in range(2):
@@ -261,39 +276,41 @@ def _box_squared(box, points, v, w):
     return squared
 
 
-@helper
-def least_squared(board, first, second, least):
+@leaf
+def least_squared(board, room, count_first, count_second, least):
     """Squared distance of two sets of edges, 0 if any cross; ``least`` if it is not below that."""
-    points, after = board.points, board.after
-    boxes = _boxes_of_runs(board, second)
-    for a in range(first.shape[0]):
+    points, after, first, second, boxes = (
+        board.points, board.after, room.first, room.second, room.boxes,
+    )  # fmt: skip
+    runs = _box_runs(board, second, count_second, boxes)
+    for a in range(count_first):
         v = first[a]
         w = after[v]
-        for r in range(boxes.shape[0]):
+        for r in range(runs):
             if _box_squared(boxes[r], points, v, w) >= least:
                 continue
-            for b in range(r * RUN, min((r + 1) * RUN, second.shape[0])):
+            for b in range(r * RUN, min((r + 1) * RUN, count_second)):
                 least = _edges_squared(points, v, w, second[b], after[second[b]], least)
             if least == 0.0:
                 return 0.0
     return least
 
 
-@helper
+@leaf
 def distance(board, i, j, reach, room):
     """Distance of two polygons: 0 if they meet, ``reach`` if it is not below that.
 
-    ``room``: two rows of :func:`most_points`.
+    ``room``: of :func:`room_for`.
     """
     if j < board.starts.shape[0] - 2 and are_apart(board.boxes, i, j, reach):
         return reach
     return _near_distance(board, i, j, reach, room)
 
 
-@shared
+@shared(_nrt=False)
 def _near_distance(board, i, j, reach, room):
     """Distance of two polygons whose boxes are within reach."""
-    first, second = room[0], room[1]
+    first, second = room.first, room.second
     count_j = cull(board, j, board.boxes, i, reach, second)
     if j == board.starts.shape[0] - 2:
         if sticks_out(board.boxes[i], board.boxes[j]):
@@ -302,7 +319,7 @@ def _near_distance(board, i, j, reach, room):
             # All inside or all outside.
             return 0.0 if _is_in(board, board.starts[i], j) else reach
     count_i = cull(board, i, board.boxes, j, reach, first)
-    least = least_squared(board, first[:count_i], second[:count_j], reach * reach)
+    least = least_squared(board, room, count_i, count_j, reach * reach)
     if least == 0.0:
         return 0.0
     if _enters(board, first, count_i, j) or _enters(board, second, count_j, i):
@@ -314,7 +331,7 @@ def _near_distance(board, i, j, reach, room):
 def distances(board, pairs, reach):
     """Distance of each pair: 0 if they meet, ``reach`` if it is not below that."""
     found = np.empty(pairs.shape[0])
-    room = np.empty((2, most_points(board.starts, pairs)), np.int64)
+    room = room_for(most_points(board.starts, pairs))
     for p in range(pairs.shape[0]):
         found[p] = distance(board, pairs[p, 0], pairs[p, 1], reach, room)
     return found

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compiled import helper, kernel
+from packwork.compiled import helper, kernel, leaf
 
 MOST_STEPS = 30
 """Newton steps at most; 7 to 15 are usual. Tried."""
@@ -66,7 +66,7 @@ class Iterate(NamedTuple):
     bound_dual: np.ndarray
 
 
-@helper(fastmath={"reassoc", "contract"})
+@leaf(fastmath={"reassoc", "contract"})
 def _dot(a, i, b, j, count):
     total = 0.0
     for k in range(count):
@@ -90,7 +90,7 @@ def envelope(first, second, count):
     return begins, width
 
 
-@helper
+@leaf
 def _normal(rows, weights, diagonal, width, band):
     """Write the weighted sum of the rows' squares plus a diagonal."""
     for r in range(diagonal.shape[0]):
@@ -116,7 +116,7 @@ def _normal(rows, weights, diagonal, width, band):
                 band[4 * high + c, width + 4 * (low - high) + d - c] += left * row[before + d]
 
 
-@helper
+@leaf
 def factorise(band, begins, width):
     """Cholesky factor in place; False if the matrix is not positive definite."""
     for r in range(band.shape[0]):
@@ -135,7 +135,7 @@ def factorise(band, begins, width):
     return True
 
 
-@helper
+@leaf
 def substitute(band, begins, width, right):
     """Solve in place, given the factor."""
     for r in range(band.shape[0]):
@@ -148,7 +148,7 @@ def substitute(band, begins, width, right):
             right[c] -= band[r, width + c - r] * right[r]
 
 
-@helper
+@leaf
 def _row(rows, z, k):
     i, j = 4 * rows.first[k], 4 * rows.second[k]
     total = 0.0
@@ -160,7 +160,7 @@ def _row(rows, z, k):
     return total
 
 
-@helper
+@leaf
 def _add_row(rows, k, weight, out):
     i, j = 4 * rows.first[k], 4 * rows.second[k]
     for c in range(4):
@@ -200,13 +200,13 @@ def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centrin
         step.dual[k] = (rest_rows[k] - now.dual[k] * step.slack[k]) / now.slack[k]
 
 
-@helper
+@leaf
 def _length(value, change, most):
     """Step length that keeps a number above zero along its change, ``most`` at most."""
     return min(most, -value / change) if change < 0.0 else most
 
 
-@helper
+@leaf
 def _lengths(now, step):
     """Step lengths of unknowns and of duals along a direction."""
     primal_length = dual_length = 1.0 / STEP_BACK
@@ -220,7 +220,7 @@ def _lengths(now, step):
     return STEP_BACK * primal_length, STEP_BACK * dual_length
 
 
-@helper
+@leaf
 def _advance(now, step, primal_length, dual_length):
     for k in range(now.slack.shape[0]):
         now.slack[k] += primal_length * step.slack[k]
@@ -232,7 +232,7 @@ def _advance(now, step, primal_length, dual_length):
             now.bound_dual[r, s] += dual_length * step.bound_dual[r, s]
 
 
-@helper
+@leaf
 def _barrier(now, step, primal_length, dual_length):
     """Mean product of slacks and duals (complementarity) after a step."""
     total = 0.0
@@ -251,7 +251,7 @@ def _iterate(m, n):
     return Iterate(np.zeros(n), np.zeros(m), np.zeros(m), np.zeros((n, 2)), np.zeros((n, 2)))
 
 
-@helper
+@leaf
 def _begin(rows, low, high, now):
     """First iterate: standing still, as far as the bounds leave room on both sides."""
     for r in range(now.z.shape[0]):
@@ -265,7 +265,7 @@ def _begin(rows, low, high, now):
         now.dual[k] = FIRST_BARRIER / now.slack[k]
 
 
-@helper
+@leaf
 def _clear(step):
     for k in range(step.slack.shape[0]):
         step.slack[k] = 0.0

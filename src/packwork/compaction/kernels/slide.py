@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from packwork.compaction.kernels import broad_phase, distances
 from packwork.compiled import helper, kernel
 
@@ -36,7 +34,7 @@ def slide(board, item, down, ways, step, halvings, gap):
     first step, canvas units, halved so many times.
     """
     i = item[0]
-    room = np.empty((2, (board.starts[1:] - board.starts[:-1]).max()), np.int64)
+    room = distances.room_for((board.starts[1:] - board.starts[:-1]).max())
     near = broad_phase.nearby(board.boxes, item, FARTHEST * step + gap)
     place = board.places[i : i + 1].copy()
     left = FARTHEST * step

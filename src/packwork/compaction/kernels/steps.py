@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from packwork.compaction.kernels import distances
-from packwork.compiled import helper, kernel
+from packwork.compiled import helper, kernel, leaf
 
 TRAVEL = 7.2
 """Trust regions by which two items can come nearer in one step. Derived: each by the diagonal of
@@ -96,7 +96,7 @@ def gains_and_bounds(board, objective, items, trust):
     return gain, low, high
 
 
-@helper
+@leaf
 def mark_conflicts(board, pairs, gap, changed, struck, room):
     """Mark polygons in conflict, of which one has ``changed``; returns the number of pairs."""
     count = 0
@@ -138,7 +138,7 @@ def _apply_share(board, items, before, step, share, pairs, gap, unit):
     for i in polygons:
         strikes[i], changed[i], struck[i] = 0, True, False
     place = np.empty((1, 4))
-    room = np.empty((2, distances.most_points(board.starts, pairs)), np.int64)
+    room = distances.room_for(distances.most_points(board.starts, pairs))
     for _ in range(CHECKS):
         for k in range(items.shape[0]):
             hits = strikes[items[k]]
@@ -197,7 +197,7 @@ def clear_by_shrinking(board, items, pairs, gap, cut, checks):
     struck = np.empty(board.starts.shape[0] - 1, np.bool_)
     changed = np.ones(struck.shape[0], np.bool_)
     place = np.empty((1, 4))
-    room = np.empty((2, distances.most_points(board.starts, pairs)), np.int64)
+    room = distances.room_for(distances.most_points(board.starts, pairs))
     for _ in range(checks):
         if mark_conflicts(board, pairs, gap, changed, struck, room) == 0:
             return True

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from packwork.compaction.kernels import broad_phase, contacts, distances, interior_point, steps
-from packwork.compiled import helper, kernel
+from packwork.compiled import helper, kernel, leaf
 
 CUT, CHECKS = 0.06, 25
 """Logarithm of size that moved items lose at a time while they are in conflict, and how often.
@@ -51,7 +51,7 @@ class Rounds(NamedTuple):
     missing: np.ndarray
 
 
-@helper
+@leaf
 def objective_value(board, objective, items):
     """Objective value of some items together; less for those out of their bounds."""
     total = 0.0
@@ -64,7 +64,7 @@ def objective_value(board, objective, items):
     return total
 
 
-@helper
+@leaf
 def _shortfall(board, objective, items):
     """Sum of how far some items are below their smallest sizes, logarithms."""
     total = 0.0
@@ -73,7 +73,7 @@ def _shortfall(board, objective, items):
     return total
 
 
-@helper
+@leaf
 def _least(board, items):
     least = np.inf
     for i in items:
@@ -81,14 +81,14 @@ def _least(board, items):
     return least
 
 
-@helper
+@leaf
 def _keep(board, items, places):
     for k in range(items.shape[0]):
         for c in range(4):
             places[k, c] = board.places[items[k], c]
 
 
-@helper
+@leaf
 def _are_within(board, items, bounds):
     for k in range(bounds.shape[0]):
         if broad_phase.sticks_out(board.boxes[items[k]], bounds[k]):
@@ -210,7 +210,7 @@ def allocate_batch(most: int, neighbours: int, count: int) -> TrialBatch:
     )  # fmt: skip
 
 
-@helper
+@leaf
 def _away(places, j, moved, pair):
     """Squared distance of an item from the nearest of those that are moved."""
     least = np.inf
@@ -263,7 +263,7 @@ def _nearest_items(board, radii, moved, pair, wanted, found):
     return held
 
 
-@helper
+@leaf
 def _bound(board, item, moved, pair, places, room, bound):
     """Write the box that an item must not leave: about its disc where it is put, or its own."""
     box = board.boxes[item]
@@ -276,7 +276,7 @@ def _bound(board, item, moved, pair, places, room, bound):
             bound[2], bound[3] = places[k, 0] + reach, places[k, 1] + reach
 
 
-@helper
+@leaf
 def _hull(boxes, begin, end, hull):
     hull[0] = hull[1] = np.inf
     hull[2] = hull[3] = -np.inf
@@ -285,7 +285,7 @@ def _hull(boxes, begin, end, hull):
         hull[2], hull[3] = max(hull[2], boxes[k, 2]), max(hull[3], boxes[k, 3])
 
 
-@helper
+@leaf
 def _comes_near(boxes, begin, end, left, top, right, bottom):
     for b in range(begin, end):
         if (
@@ -298,7 +298,7 @@ def _comes_near(boxes, begin, end, left, top, right, bottom):
     return False
 
 
-@helper
+@leaf
 def _meet(boxes, begin, end, hull, margin):
     """True if some boxes, all in a hull, come within a margin of those before them."""
     for b in range(begin):
@@ -311,7 +311,7 @@ def _meet(boxes, begin, end, hull, margin):
     return False
 
 
-@helper
+@leaf
 def _add_near(boxes, begin, end, hull, board, moved, margin, near, count):
     """Write which polygons come within a margin of some boxes, all in a hull, or are moved.
 

@@ -121,7 +121,7 @@ def _move_share(board, items, before, step, share, pairs, gap):
     """
     hits = np.zeros(board.starts.shape[0] - 1, np.int64)
     changed, struck = hits == 0, hits > 0
-    room = np.empty((2, distances.most_points(board.starts, pairs)), np.int64)
+    room = distances.room_for(distances.most_points(board.starts, pairs))
     place = np.empty((1, 4))
     for _ in range(CHECKS):
         for k in range(items.shape[0]):
