@@ -33,7 +33,9 @@ ROWS = [
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix != ".json"}
+    """Files of rows; a process that is killed while it writes leaves what it has written so far."""
+    ours = (path for path in folder.iterdir() if path.suffix not in {".json", ".part"})
+    return {path.name: path.read_bytes() for path in ours}
 
 
 def plan_of(folder: Path, rows: list[dict[str, Any]] = ROWS) -> BatchPlan:

@@ -80,35 +80,36 @@ def statuses(outcomes: Any) -> list[str]:
     return [one.status for one in outcomes]
 
 
-def _started(folder: Path) -> Iterator[Cluster]:
+@pytest.fixture(scope="module")
+def started() -> Iterator[list[Cluster]]:
+    """Clusters of this module, of which the last one may run."""
     pytest.importorskip("distributed", reason="the extra packwork[cluster] is not installed")
-    one = Cluster(folder)
-    try:
-        yield one
-    finally:
+    found = list[Cluster]()
+    yield found
+    for one in found:
         one.close()
 
 
 @pytest.fixture
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
-    """A cluster of which processes may be killed."""
-    yield from _started(tmp_path_factory.mktemp("cluster"))
-
-
-@pytest.fixture(scope="module")
-def whole_cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
-    """A cluster that is left as it is."""
-    yield from _started(tmp_path_factory.mktemp("cluster"))
+def cluster(started: list[Cluster], tmp_path_factory: pytest.TempPathFactory) -> Cluster:
+    """A cluster of two workers, of which processes may be killed: others take their places."""
+    if not started or started[-1].scheduler.poll() is not None:
+        started.append(Cluster(tmp_path_factory.mktemp("cluster")))
+    one = started[-1]
+    one.workers = [worker for worker in one.workers if worker.poll() is None]
+    while len(one.workers) < 2:
+        one.workers.append(one.add_worker())
+    return one
 
 
 def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
-    home: Path, whole_cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(home)
     plan = plan_of(Path(), "alone")
     assert statuses(run_batch(plan, batch_progress(plan), 1)) == ["made"] * 4
     plan = plan_of(Path(), "far")
-    found = run_batch(plan, batch_progress(plan), scheduler=whole_cluster.address)
+    found = run_batch(plan, batch_progress(plan), scheduler=cluster.address)
     assert statuses(found) == ["made"] * 4
     assert contents(Path("far")) == contents(Path("alone"))
     again = plan_of(Path(), "far")
@@ -148,6 +149,23 @@ def test_a_row_that_ends_its_workers_fails_alone(
     assert {made.outcomes[k].status for k in (0, 2)} <= {"made", "short"}
 
 
+def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster: Cluster) -> None:
+    rows = [
+        {"name": "a", "shape": "heart", "art": str(home / "own.svg"), "n": 4},
+        {"name": "b", "shape": "none.svg", "art": "leaf", "n": 4},
+    ]
+    poster = {**POSTER, "items": ["star", "{art}"]}
+    for in_place in (False, True):
+        made = pw.batch(
+            poster, rows, home / f"{in_place}-{{name}}.svg", scheduler=cluster.address,
+            in_place=in_place,
+        )  # fmt: skip
+        assert statuses(made) == ["made", "failed"]
+        assert "none.svg: there is no such file" in made.failed[0].said
+    files = [(home / f"{in_place}-a.svg").read_bytes() for in_place in (False, True)]
+    assert files[0] == files[1]
+
+
 def test_a_scheduler_that_is_lost_ends_with_what_was_made(
     home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -168,29 +186,10 @@ def test_a_scheduler_that_is_lost_ends_with_what_was_made(
     assert set(statuses(rest)) == {"made", "kept"}
 
 
-def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(
-    home: Path, whole_cluster: Cluster
-) -> None:
-    rows = [
-        {"name": "a", "shape": "heart", "art": str(home / "own.svg"), "n": 4},
-        {"name": "b", "shape": "none.svg", "art": "leaf", "n": 4},
-    ]
-    poster = {**POSTER, "items": ["star", "{art}"]}
-    for in_place in (False, True):
-        made = pw.batch(
-            poster, rows, home / f"{in_place}-{{name}}.svg", scheduler=whole_cluster.address,
-            in_place=in_place,
-        )  # fmt: skip
-        assert statuses(made) == ["made", "failed"]
-        assert "none.svg: there is no such file" in made.failed[0].said
-    files = [(home / f"{in_place}-a.svg").read_bytes() for in_place in (False, True)]
-    assert files[0] == files[1]
-
-
 def test_a_local_cluster_serves_too(home: Path) -> None:
     distributed = pytest.importorskip("distributed", reason="packwork[cluster] is not installed")
     local = distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50
+        n_workers=1, threads_per_worker=1, dashboard_address=":0", silence_logs=50
     )
     with local:
         plan = plan_of(home, "local", 3)
