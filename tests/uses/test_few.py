@@ -1,0 +1,58 @@
+"""Few icons lie near upright, in sizes that are alike, unless they are asked to lie otherwise."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from packwork import pipeline
+from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.run import RunContext
+from packwork.pipeline.state import RunState
+from packwork.recipe import make_recipe
+from packwork.uses import read
+from packwork.uses.icons import ALIKE, MOST_ALIKE, NEAR_UPRIGHT, STARTS, alike_upright
+
+
+def few(count: int, **options: Any) -> pipeline.Run:
+    return pipeline.run(read(make_recipe(container="heart", count=count, **options)))
+
+
+@pytest.mark.parametrize("count", [3, 5])
+def test_few_icons_are_near_upright_and_alike(count: int) -> None:
+    layout = few(count).layout
+    turned = np.abs(np.remainder(layout.poses.angle + math.pi, 2 * math.pi) - math.pi)
+    assert layout.manifest["certified"]
+    assert np.degrees(turned).max() <= NEAR_UPRIGHT + 0.1
+    seen = layout.poses.scale * np.sqrt(hull_areas([item.outline for item in layout.items]))
+    assert seen.max() <= 1.1 * ALIKE**2 * seen.min()
+
+
+@pytest.mark.parametrize(
+    ("options", "starts"),
+    [
+        ({"count": 3}, STARTS["normal"]),
+        ({"count": 3, "effort": "draft"}, 0),
+        ({"count": MOST_ALIKE + 1}, 0),
+        ({"count": 3, "time": 2.0}, 0),
+        ({"count": 3, "target_coverage": 0.9}, 0),
+        ({"count": 3, "force": "down"}, 0),
+        ({"count": 3, "epochs": 20}, 0),
+    ],
+)
+def test_what_is_asked_of_places_stays_as_it_is(options: dict[str, Any], starts: int) -> None:
+    assert len(alike_upright(read(make_recipe(container="heart", **options)))) == starts
+
+
+@pytest.mark.parametrize("rotate", ["none", "180", "90"])
+def test_angles_that_are_asked_for_are_kept(rotate: str) -> None:
+    job = read(make_recipe(container="heart", count=3, rotate=rotate, size_ratio=3.0))
+    tried = alike_upright(job)
+    assert tried
+    for first, *_ in tried:
+        plan = first.run(RunState.of(job), RunContext()).job.plan
+        assert plan.rotation == job.plan.rotation
+        assert plan.size_ratio == 3.0
