@@ -19,6 +19,7 @@ from packwork.readers.layouts.svg import layout_of_svg
 from packwork.readers.words.items import EM_PX, word_fonts
 from packwork.readers.words.options import Word, WordOptions
 from packwork.start.lanes import WordOnLine
+from packwork.start.limbs import edges_of
 from packwork.uses import read, words_recipe
 from packwork.uses.words import line_of_words
 
@@ -64,6 +65,29 @@ def test_no_word_stands_on_its_head(spiral: pw.Layout) -> None:
 def test_heavy_words_are_larger(spiral: pw.Layout) -> None:
     sizes = points(spiral)
     assert np.median(sizes[:10]) > 2 * np.median(sizes[-50:])
+
+
+def test_the_lightest_words_are_not_set_again_beyond_others() -> None:
+    names = ["mountain", "river", "forest", "meadow", "valley", "lake"]
+    names += ["stone", "cloud", "rain", "snow", "wind", "mist"]
+    words = dict(zip(names, [30.0, 22, 18, 14, 11, 9, 7, 5, 4, 3, 2, 1], strict=True))
+    layout = run(read(words_recipe("ring", words, along="limbs"))).layout
+    often = [sum(item.name == word for item in layout.items) for word in words]
+    assert len(layout.items) < 5 * len(words)
+    assert max(often[:6]) > 1
+    assert max(often) <= 15
+
+
+def test_the_edge_of_a_hole_is_followed_too() -> None:
+    container = read_container("ring")
+    rows = edges_of(container, 0.05 * container.side)
+    assert len(rows) == 2
+    x, y = container.outline.centroid
+    outer, inner = (np.hypot(*(row.axis.points - [x, y]).T).mean() for row in rows)
+    layout = run(read(words_recipe("ring", weights(3), along="edge"))).layout
+    away = np.hypot(layout.poses.x - x, layout.poses.y - y)
+    for radius in (outer, inner):
+        assert np.sum(np.abs(away - radius) < 0.03 * container.side) >= 5
 
 
 def test_few_words_are_set_in_turn_until_the_limb_is_full() -> None:

@@ -19,7 +19,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.curves import Curve
 from packwork.start.limbs import Limb
 
-FILLED = 0.88
+FILLED = 0.85
 """Height of letters over that of their lane. Larger leaves no room between lines, smaller wastes
 it. By eye."""
 
@@ -213,7 +213,8 @@ class Lanes:
         self._shapes, self._wanted, self._least, self._gap = shapes, wanted, least, gap
         self._largest = math.inf if largest is None else largest
         self._heights = np.array([shape.height for shape in shapes])
-        self._longest = max(shape.length for shape in shapes)
+        self._lengths = np.array([shape.length for shape in shapes])
+        self._longest = float(self._lengths.max())
         self.left = list(range(len(shapes)))
         self.found: list[WordOnLine] = []
         self._most = np.full(len(shapes), math.inf)
@@ -240,8 +241,11 @@ class Lanes:
         start = lane.own(lane.front)
         room, width = lane.line.length - start, lane.width(start, start)
         again = self._again(width)
-        first = self.left[0] if self.left else again[0]
-        wanted, fitting = self._wanted[first], self._size(width, first)
+        first = self.left[0] if self.left else self._next_again(room)
+        wanted = min(
+            float(self._wanted[first]), math.inf if self.left else float(self._most[first])
+        )
+        fitting = self._size(width, first)
         is_thin = lane.parent is not None and fitting < max(WAITING * wanted, self._least)
         if is_thin or room < max(SHORTEST * width, self._least):
             return self._joined(lane)
@@ -263,6 +267,15 @@ class Lanes:
             return lane.split(2)
         lane.go_to(start + max(STEP * width, self._least))
         return [lane]
+
+    def _next_again(self, room: float) -> int:
+        """Word in turn that may be set again as large as it is: the lightest where none has room.
+
+        So lanes that are thinner than it, for lighter words before it, are joined.
+        """
+        having_room = np.flatnonzero(self._lengths * self._most <= room)
+        after = having_room[having_room >= self._turn]
+        return int([*after, *having_room, len(self._lengths) - 1][0])
 
     def _again(self, width: float) -> list[int]:
         """Words that may be set again, in turn; those too large for a lane are not."""

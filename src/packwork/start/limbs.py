@@ -131,7 +131,7 @@ def limbs_of(container: Container) -> list[Limb]:
 
 
 def edges_of(container: Container, width: float) -> list[Limb]:
-    """Bands of a width along the inside of the container's edge, as limbs, the longest first.
+    """Bands of a width along the container's edge and round its holes, as limbs, the longest first.
 
     Their middle lines run clockwise on screen, from below the middle round to there. Corners are
     round, and bands narrower at them.
@@ -143,7 +143,8 @@ def edges_of(container: Container, width: float) -> list[Limb]:
     """
     region = container.outline.region
     inner = buffered(buffered(region, -1.25 * width), 0.75 * width)
-    rings = sorted((Polygon(part.exterior) for part in polygon_parts(inner)), key=lambda p: -p.area)
+    lines = (line for part in polygon_parts(inner) for line in (part.exterior, *part.interiors))
+    rings = sorted(map(Polygon, lines), key=lambda ring: -ring.area)
     edge = region.boundary
     found = []
     for ring in rings:
