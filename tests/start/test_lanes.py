@@ -8,7 +8,8 @@ import numpy as np
 import shapely
 
 from packwork.geometry.curves import Curve
-from packwork.start.lanes import LARGER, Lanes, WordOnLine, WordShape
+from packwork.start.lane_sizes import LARGER
+from packwork.start.lanes import Lanes, WordOnLine, WordShape
 from packwork.start.limbs import Limb
 
 ANGLES = np.linspace(0.0, 4 * np.pi, 4_000)

@@ -109,6 +109,21 @@ def test_equal_upright_marks_stand_in_rows_those_of_one_kind_together() -> None:
     assert feet[0] == pytest.approx(feet[7], abs=1e-6)
 
 
+@pytest.mark.parametrize("colour", [{}, {"color_by": "kind"}])
+def test_parts_of_marks_end_those_of_one_colour(colour: dict[str, str]) -> None:
+    rows = [{"g": "a", "kind": kind, "n": n} for kind, n in (("x", 34), ("x", 27), ("y", 16))]
+    layout = pw.chart(
+        "none", rows, by="g", size_by="n", unit=10, mark="tree", effort="draft", **colour
+    )
+    feet = np.array([outline.bounds[3] for outline in layout.outlines])
+    areas = np.array([outline.area for outline in layout.outlines])
+    kinds = [item.datum.row["kind"] if colour else "" for item in layout.items]
+    ordered = np.lexsort((layout.poses.x, -np.round(feet, 2)))
+    read = [(kinds[k], bool(areas[k] < 0.99 * areas.max())) for k in ordered]
+    assert read == sorted(read)
+    assert sum(is_part for _, is_part in read) == 3
+
+
 def test_marks_that_turn_or_differ_in_size_fall() -> None:
     rows = [{"g": "a", "n": k} for k in range(1, 6)]
     assert layout_method(rows, size_by="n", mark="owl") == "lowest"

@@ -155,10 +155,9 @@ class Recipe(
     as high for its width, at the same area. 1 keeps all proportions."""
 
     rotate: Annotated[str, BeforeValidator(known_rotation), Offer(takes=Turns)] = "free"
-    """free (words: within 90 degrees, never upside down; 2 to 6 icons: near upright where that
-    fills nearly as much, as 180 does not), none, 30 (within 30 degrees of upright; upright is the
-    same) or 0,90 (only these angles); also horizontal, vertical (read upwards),
-    mixed (one in four vertical)."""
+    """free (words: within 90 degrees, never upside down; 2 to 6 icons: near upright, unless 180
+    is asked), none, 30 (within 30 degrees of upright; upright is the same) or 0,90 (only these
+    angles); also horizontal, vertical (read upwards), mixed (one in four vertical)."""
 
     padding: Annotated[str | float, length_of("padding", may_be_zero=True)] = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,

@@ -147,7 +147,8 @@ class IconsUse(Use):
         else:
             # First fit is not tried.
             placed = placing(job, suits_first_fit=False)
-            placed = [BestOf([placed, *alike_upright(job)], best_balanced)]
+            if others := alike_upright(job):
+                placed = [BestOf([placed, *others], best_balanced)]
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:

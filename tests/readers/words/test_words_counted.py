@@ -167,6 +167,13 @@ def test_phrases_are_counted_and_taken_off_their_words() -> None:
     assert "white" not in found
 
 
+def test_names_are_phrases_once_they_stand_there_twice() -> None:
+    text = "We met Ada Lovelace. It was Ada Lovelace. A quick run, a quick run."
+    found = counted(text, phrases=2, language="en")
+    assert found["Ada Lovelace"] == 2.0
+    assert "quick run" not in found
+
+
 def test_own_stop_words_and_least_counts(tmp_path: Path) -> None:
     file = tmp_path / "stop.txt"
     file.write_text("Honey\nfox, owl", encoding="utf-8")

@@ -76,7 +76,8 @@ def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[s
     """Number of times that up to ``most`` words that belong together stand together, as written.
 
     A phrase neither begins nor ends with a stop word, stands there ``LEAST_TOGETHER``
-    times, and at ``PHRASE_SHARE`` of the places of its rarest word.
+    times, and at ``PHRASE_SHARE`` of the places of its rarest word. Of words with capitals, as
+    names are, once less will do.
 
     Examples
     --------
@@ -92,11 +93,12 @@ def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[s
         if part.split()[0].casefold() not in stops and part.split()[-1].casefold() not in stops
     )
     single, _ = folded(count_forms(sentences))
-    together, _ = folded(found)
+    together, written = folded(found)
     kept = {
         phrase
         for phrase, count in together.items()
-        if count >= max(LEAST_TOGETHER, PHRASE_SHARE * min(single[word] for word in phrase.split()))
+        if count >= LEAST_TOGETHER - all(word[0].isupper() for word in written[phrase].split())
+        and count >= PHRASE_SHARE * min(single[word] for word in phrase.split())
     }
     return Counter({form: count for form, count in found.items() if form.casefold() in kept})
 

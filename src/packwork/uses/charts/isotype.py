@@ -52,8 +52,10 @@ def in_rows(job: Job, chart: Chart, ranks: IntArray) -> Poses:
         raise RecipeError("padding", "leaves no room for marks in a bar; use a smaller one")
     pitch = common * size + gap
     x, y = np.zeros(len(units)), np.zeros(len(units))
+    # Parts of a mark end the row of those of one rank: a bar has no hole in its middle.
+    is_part = chart.read.values < (1 - 1e-9) * (chart.options.unit or 0.0)
     for cell, own in zip(chart.cells, chart.members, strict=True):
-        ordered = own[np.argsort(ranks[own], kind="stable")]
+        ordered = own[np.lexsort((is_part[own], ranks[own]))]
         row, column = np.divmod(np.arange(len(own)), across)
         middle = common * (boxes[ordered, 0] + boxes[ordered, 2]) / 2
         x[ordered] = cell.middle + (column - (across - 1) / 2) * pitch[0] - middle

@@ -88,7 +88,7 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
     fitting = sum(rows.values())
     if fitting < len(rows):
         _LOG.warning(
-            "%d of %s on their marks; %s shown where a pointer rests",
+            "%d of %s on their marks; in SVG and HTML, %s shown where a pointer rests",
             fitting, number_of(len(rows), "label fits", "labels fit"),
             "the others are" if fitting else "all are",
         )  # fmt: skip

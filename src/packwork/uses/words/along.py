@@ -27,7 +27,8 @@ from packwork.readers.words.options import Along, Word, sound
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.start.lanes import FILLED, WordOnLine, in_order
+from packwork.start.lane_sizes import in_order
+from packwork.start.lanes import FILLED, WordOnLine
 from packwork.start.limbs import SLENDER, Limb, edges_of, limbs_of
 from packwork.uses.words.copies import words_of
 from packwork.uses.words.graded import LEGIBLE, can_give_way, unheeded

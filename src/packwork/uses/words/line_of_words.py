@@ -21,7 +21,8 @@ from packwork.readers.words.options import Word, lines_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.start.lanes import Lanes, WordOnLine, WordShape, held_down
+from packwork.start.lane_sizes import held_down
+from packwork.start.lanes import Lanes, WordOnLine, WordShape
 from packwork.start.limbs import Limb
 from packwork.uses.words.graded import NEARER
 
