@@ -148,7 +148,7 @@ def test_a_good_result_gets_no_advice() -> None:
         ({"count": 3}, "10 % of the container lies far from any item; -n "),
         ({"count": 3, "sizes": "shared"}, "--sizes free -n "),
         ({"count": 3, "sizes": "fixed"}, "--sizes free would show it"),
-        ({"count": 900}, "--target-coverage 0.85, "),
+        ({"count": 900}, "-n 1800 would show more of it"),
         ({"count": 900, "target_coverage": 0.85}, "--smallest 0.3%, "),
         ({"count": 900, "target_coverage": 0.85, "max_items": 950}, "--max-items 1900 "),
     ],

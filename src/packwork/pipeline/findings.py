@@ -70,11 +70,10 @@ class Sentence(Enum):
     MORE_ITEMS = Told.PART, "-n {count} would show it"
     FREE_SIZES = Told.PART, "--sizes free would show it"
     FREE_AND_MORE = Told.PART, "--sizes free -n {count} would show it"
-    COPIES = Told.PART, "--target-coverage {reach:g}, smaller copies in the voids, would show it"
     REPEATED = Told.PART, "--repeat auto, smaller copies in the voids, would show more of it"
     MORE_COPIES = Told.PART, "--max-items {count:.0f} would show more of it"
     SMALLER_COPIES = Told.PART, "--smallest 0.3%, smaller copies yet, would show more of it"
-    MORE_WORDS = Told.PART, "-n {count} would show more of it"
+    MORE_OF_THEM = Told.PART, "-n {count} would show more of it"
     GRADED = Told.PART, "--sizes graded, whose proportions give way, would fill it"
     PICTURE_HIDDEN = (
         Told.ADVICE,

@@ -242,7 +242,7 @@ class WordsUse(Use):
         placed, found, said = len(self.read.items), self.read.found, list[str]()
         count = min(max(words_needed(job.container), 2 * placed), found)
         if count > CLEARLY_MORE * placed:
-            said.append(Sentence.MORE_WORDS.of(count=count))
+            said.append(Sentence.MORE_OF_THEM.of(count=count))
         # Fewer leave it bare with whatever sizes; of automatic ones graded ones have been tried.
         was_tried = job.recipe.sizes == AUTO and self.count >= MANY
         if job.container.lattice is not None:
