@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from packwork.separation.ground import ground_of, tiles
 from packwork.separation.shapes import Part
+from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import WorkBound
 from packwork.separation.windows import FreeSheet, LaidSheet, lay_on_sheets, lay_on_strip
 
@@ -113,6 +114,56 @@ def test_optional_parts_alone_take_no_more_sheets_than_they_need() -> None:
     laid, left = lay(parts, [FreeSheet(shapely.box(0, 0, 9, 9)) for _ in range(4)], 400)
     assert not left
     assert len(laid) == 1
+
+
+def test_all_parts_are_laid_however_little_work_is_allowed() -> None:
+    parts = [Part(region=SQUARE, count=150), Part(region=TRIANGLE, count=250, turns=(0.0, 3.0))]
+    sheets = [FreeSheet(shapely.box(0, 0, 20, 12)) for _ in range(40)]
+    laid, left = lay(parts, sheets, 1)
+    assert not left
+    assert Counter(kind for one in laid for kind in one.kinds) == {0: 150, 1: 250}
+    assert max(overlap(regions(parts, one)) for one in laid) < 1e-9
+    # 1,725 square units of parts on sheets of 240: a third of each is covered at least.
+    assert len(laid) <= 21
+
+
+def filling(passes: int, seed: int) -> SheetSearch:
+    parts = [Part(region=SQUARE, count=60), Part(region=TRIANGLE, count=60, turns=(0.0, 3.0))]
+    ground = ground_of([shapely.box(0, 0, 20.5, 12.7)])
+    return SheetSearch(parts, ground, seed=seed, work=WorkBound(passes=passes))
+
+
+def test_parts_that_move_together_leave_room_for_more() -> None:
+    areas = dict[int, float]()
+    for passes in (1, 150):
+        searches = [filling(passes, seed) for seed in range(3)]
+        poses = [search.fill().poses for search in searches]
+        assert all(np.isnan(one[:, 0]).any() for one in poses)
+        areas[passes] = sum(
+            search.problem.areas[~np.isnan(one[:, 0])].sum()
+            for search, one in zip(searches, poses, strict=True)
+        )
+    assert areas[1] > 3 * 0.5 * 20.5 * 12.7
+    assert areas[150] > areas[1]
+
+
+def test_sheets_go_on_from_their_shortest_and_never_get_longer() -> None:
+    search = filling(40, 1)
+    with search.pool:
+        search.work.start()
+        order = np.flatnonzero(search.problem.shape_of == 0)[:12].tolist()
+        search.first_fit(order, search.ground.end, math.inf)
+        shortest = search.best
+        search.best = search.fallback()
+        search.begin_anew(1.0)
+        assert search.best is shortest
+        found = search.shorten()
+    assert found.left == shortest.left
+    assert found.length < shortest.length
+    poses = found.poses[order]
+    assert not np.isnan(poses).any()
+    laid = LaidSheet(0, (0,) * len(order), poses)
+    assert overlap(regions([Part(region=SQUARE)], laid)) < 1e-9
 
 
 def test_ground_has_obstacles_where_no_sheet_is() -> None:

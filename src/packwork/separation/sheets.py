@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from packwork.separation.shapes import Floats
-from packwork.separation.strip import PATIENCE_AT_END, Strip, StripSearch
+from packwork.separation.strip import PATIENCE_AT_END, SHRINKS, Strip, StripSearch
 
 SPARSE, MUCH_LONGER = 0.45, 1.5
 """Density at which parts are brought in first, and how much longer the sheets are cut off where
@@ -21,6 +21,13 @@ room, which takes a pass for each kind and each part that has room. Chosen."""
 
 FIRST_PATIENCE = 30
 """Passes without a lower loss after which a part goes back at first."""
+
+FILL_PATIENCE = 10
+"""Passes without a lower loss after which a sheet that is being filled is not made shorter. Tried:
+of 30, fewer tries have time."""
+
+AT_ONCE = 16
+"""Parts that are laid by first fit between two looks at whether to end: some milliseconds."""
 
 
 class SheetSearch(StripSearch):
@@ -88,21 +95,22 @@ class SheetSearch(StripSearch):
 
     def first_fit(self, parts: Iterable[int], length: float, until: float) -> list[int]:
         """Lay parts where nothing has to give way; returns those that found no such place."""
-        left, full = list[int](), set[int]()
-        for part in parts:
-            kind = int(self.problem.shape_of[part])
-            if kind in full or self.is_over(until):
-                left.append(part)
-                continue
-            self.add([part], length)
-            self.step()
-            self.put(length, self.layout.poses)
-            if self.layout.loss == 0.0:
-                self.keep(self.layout.poses)
-            else:
-                full.add(kind)
-                left.append(part)
-        return left
+        order, layout = np.array([*parts], np.int64), self.layout
+        full = np.zeros(len(self.problem.parts), np.bool_)
+        self.put(length, self.best.poses, fresh=True)
+        for at in range(0, len(order), AT_ONCE):
+            if self.is_over(until):
+                break
+            self.work.priced += layout.first_fit(order[at : at + AT_ONCE], full)
+        self.put(length, layout.poses)
+        poses = layout.poses
+        # What two parts say of each other may differ by rounding.
+        poses[order[(layout.losses[order] > 0.0).any(axis=1)]] = np.nan
+        self.put(length, poses)
+        is_laid = ~np.isnan(poses[order, 0])
+        if is_laid.any():
+            self.keep(poses)
+        return [int(part) for part in order[~is_laid]]
 
     def add(self, parts: Sequence[int], length: float) -> None:
         """Put parts anywhere among those that lie."""
@@ -120,6 +128,33 @@ class SheetSearch(StripSearch):
             self.work.start()
             self.lay_all(1.0)
             return self.shorten() if shrinks and not self.best.left else self.best
+
+    def fill(self) -> Strip:
+        """Lay what has room, of more than enough: the largest first, where nothing gives way.
+
+        Then parts are moved closer together, and others take what is left, as long as there is
+        work. However little there is, all are tried once.
+        """
+        with self.pool:
+            self.step()
+            self.work.start()
+            end = self.ground.end
+            order = np.lexsort((-self.problem.hulls, -self.priorities)).tolist()
+            waiting = self.first_fit(order, end, math.inf)
+            while waiting and len(waiting) < len(order) and not self.is_over(1.0):
+                self.close_up(1.0)
+                waiting = self.first_fit(waiting, end, math.inf)
+            return self.best
+
+    def close_up(self, until: float) -> None:
+        """Shorten what parts take, as long as each step succeeds."""
+        passes, loss = 0, 0.0
+        while loss == 0.0 and not self.is_over(until):
+            share = next(share for most, share in SHRINKS if passes <= most)
+            self.shorter(self.best, share)
+            loss, poses, passes = self.separate(FILL_PATIENCE, until, 1)
+            if loss == 0.0:
+                self.keep(poses)
 
     def begin_anew(self, until: float) -> None:
         """Go on from the shortest: to bring all parts in again is dear."""

@@ -14,6 +14,7 @@ import shapely
 from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import DECAY, PENALTY, POLES, SHAPE, SIDE, X
 from packwork.separation.kernels.field import MARGIN
+from packwork.separation.kernels.first_fit import lay_first_fit
 from packwork.separation.kernels.moves import move_pass, put_all, raise_weights
 from packwork.separation.shapes import DECAY_SHARE, Floats, Part, flattest, starts, tables
 
@@ -154,6 +155,18 @@ class WorkerState:
             move_pass(len(problem), self.random, self.arrays, self.weights, self.losses,
                       problem.shapes, problem.turns, self.sheet, problem.pixel, self.image,
                       self.scores, self.turned, self.scratch)
+        )  # fmt: skip
+
+    def first_fit(self, order: npt.NDArray[np.int64], full: npt.NDArray[np.bool_]) -> int:
+        """Lay parts where nothing gives way, of no kind that is ``full``, to which it adds.
+
+        Returns how many places were priced. Losses are not worked out.
+        """
+        problem = self.problem
+        return int(
+            lay_first_fit(order, self.random, self.arrays, self.weights, problem.shapes,
+                          problem.turns, self.sheet, problem.pixel, self.image, self.scores,
+                          self.turned, self.scratch, full)
         )  # fmt: skip
 
     def raise_weights(self) -> None:

@@ -16,11 +16,14 @@ from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import StripSearch, WorkBound
 
 FILLED = 0.75
-"""Share of sheets that the parts of a window may cover: less takes more windows, more leaves some
-out, which then come again."""
+"""Share of the last sheets that parts may cover to be laid on all of them together."""
+
+SUPPLY = 1.7
+"""Area of the parts that a sheet may choose from, over its own; what has no room waits. More takes
+longer, and leaves fewer small ones for others. Tried."""
 
 WINDOW = 3
-"""Sheets of a window. All but the last stay; its parts come again in the next one."""
+"""Sheets that are searched together at the end, and where optional parts fill what is left."""
 
 MOST_IN_WINDOW = 300
 """Parts of a window: prices of pairs grow with its square."""
@@ -143,45 +146,43 @@ class _Laying:
         self.laid = dict[int, LaidSheet]()
 
     def lay(self, queue: list[int], work: WorkBound) -> Counter[int]:
-        """Lay all of a queue, a window after the other; returns what found no room."""
-        at, width, whole = 0, WINDOW, sum(self.areas[kind] for kind in queue)
-        while queue and at < len(self.sheets) and not self.stop() and work.share < 1.0:
-            is_end = at + width >= len(self.sheets)
-            open_ = self.sheets[at : at + width]
-            # On the last sheets more is tried than has room.
-            room = (1.0 if is_end else FILLED) * sum(sheet.area for sheet in open_)
-            taken = self._taken(queue, room)
-            window, queue = queue[:taken], queue[taken:]
-            area = sum(self.areas[kind] for kind in window)
-            # As many as parts of that area do not fill.
-            sums = np.cumsum([EMPTIEST * sheet.area for sheet in self.sheets[at:]])
-            chosen = range(at, at + min(int(np.searchsorted(sums, area)) + 2, len(sums)))
-            is_all = not queue and not self.laid
-            bound = work if is_all else work.part(1.0 if not queue else min(area / whole, 1.0))
-            found, left = self._search(window, chosen, bound)
-            if not is_all:
+        """Lay all of a queue, a sheet after the other; returns what found no room.
+
+        What is left for the last few sheets is laid on all of these together. Where the work is
+        done, the rest is laid by first fit alone.
+        """
+        at = 0
+        while queue and at < len(self.sheets) and not self.stop():
+            whole, room = self.area(queue), sum(one.area for one in self.sheets[at : at + WINDOW])
+            is_end = whole <= FILLED * room and len(queue) <= MOST_IN_WINDOW
+            if is_end:
+                # As many as parts of that area do not fill.
+                sums = np.cumsum([EMPTIEST * sheet.area for sheet in self.sheets[at:]])
+                chosen = range(at, at + min(int(np.searchsorted(sums, whole)) + 2, len(sums)))
+                window, queue, share = queue, [], 1.0
+            else:
+                chosen = range(at, at + 1)
+                window, queue = self._supply(queue, self.sheets[at].area)
+                share = min(FILLED * self.sheets[at].area, self.area(window)) / whole
+            bound = work.part(share) if queue or self.laid else work
+            found, left = self._search(window, chosen, bound, shrinks=is_end, fills=not is_end)
+            if bound is not work:
                 work.add(bound)
-            if not found:
-                # Too large for these sheets.
-                queue, at = window + queue, chosen.stop
-                continue
-            if len(found) == 1 and queue and not is_end and len(window) < MOST_IN_WINDOW:
-                # Less than a sheet: with more of them.
-                queue, width = window + queue, 2 * width
-                continue
-            if queue and len(found) > 1 and not is_end:
-                # The last one is not full: its parts come again.
-                again = found.pop()
-                left += Counter(again.kinds)
-                at = again.sheet
-            elif not queue:
-                at = chosen.stop
             for one in found:
                 self._keep(one)
-            queue = [*left.elements(), *queue]
-            whole = sum(self.areas[kind] for kind in queue)
+            # Where all have room there may be some for more.
+            at = chosen.stop if left else at
+            queue += left.elements()
             work.best_so_far = f"{len(queue)} parts left"
         return Counter(queue)
+
+    def _supply(self, queue: Sequence[int], area: float) -> tuple[list[int], list[int]]:
+        """Parts of the highest priority that a sheet may choose from, by chance, and all others."""
+        order = self.random.permutation(queue).tolist()
+        order.sort(key=lambda kind: -self.parts[kind].priority)
+        taken = int(np.searchsorted(np.cumsum([self.areas[kind] for kind in order]), SUPPLY * area))
+        taken = min(taken + 1, MOST_IN_WINDOW)
+        return order[:taken], order[taken:]
 
     def area(self, queue: Sequence[int]) -> float:
         """Area of parts, in square units."""
@@ -261,7 +262,13 @@ class _Laying:
         return Counter(queue)
 
     def _search(
-        self, window: list[int], chosen: Sequence[int], bound: WorkBound, *, shrinks: bool = True
+        self,
+        window: list[int],
+        chosen: Sequence[int],
+        bound: WorkBound,
+        *,
+        shrinks: bool = True,
+        fills: bool = False,
     ) -> tuple[list[LaidSheet], Counter[int]]:
         """Search of some parts on some sheets: what lies on which, and what has no room."""
         counts, sheets = Counter(window), [self.sheets[k] for k in chosen]
@@ -271,7 +278,7 @@ class _Laying:
             ground_of([one.region for one in sheets], [one.held for one in sheets]),
             seed=int(self.random.integers(2**31)), workers=self.workers, work=bound, stop=self.stop,
         )  # fmt: skip
-        strip = search.run(shrinks=shrinks)
+        strip = search.fill() if fills else search.run(shrinks=shrinks)
         kind_of = np.repeat(kinds, [counts[kind] for kind in kinds])
         is_laid = ~np.isnan(strip.poses[:, 0])
         sheet_of = search.ground.bay_at(strip.lefts)

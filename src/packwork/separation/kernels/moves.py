@@ -78,7 +78,7 @@ def turn_part(shape, cosine, sine, side, shapes, turned):
 
 
 @helper
-def _turn_to(shape, angle, turn, shapes, turns, turned):
+def turn_to(shape, angle, turn, shapes, turns, turned):
     """Turn a part to an angle, by the table where it has the angle exactly; on the turn's side."""
     if turns[2, turn] == angle:
         turn_part(shape, turns[0, turn], turns[1, turn], turns[3, turn], shapes, turned)
@@ -87,7 +87,7 @@ def _turn_to(shape, angle, turn, shapes, turns, turned):
 
 
 @helper
-def _nearest(shape, angle, side, table):
+def nearest_turn(shape, angle, side, table):
     """Number of the turn of that side that is nearest to an angle; its own where not all are free.
 
     -1 if there is none.
@@ -109,7 +109,7 @@ def _nearest(shape, angle, side, table):
 
 
 @helper
-def _put(i, x, y, angle, side, turn, layout, turned):
+def put_part(i, x, y, angle, side, turn, layout, turned):
     """Write part ``i`` at a pose; it is turned to its angle."""
     items, index, edges, poles = layout
     own_edges, own_poles = turned
@@ -149,14 +149,14 @@ def put_all(poses, layout, shapes, table, weights, losses, sheet, turned, scratc
                 -np.inf,
             )
             continue
-        turn = _nearest(shape, angle, side, table)
-        _turn_to(shape, angle, turn, shapes, turns, turned)
-        _put(i, x, y, angle, side, turn, layout, turned)
+        turn = nearest_turn(shape, angle, side, table)
+        turn_to(shape, angle, turn, shapes, turns, turned)
+        put_part(i, x, y, angle, side, turn, layout, turned)
     losses[:] = 0.0
     for i in range(moving):
         if math.isnan(items[X, i]):
             continue
-        _turn_to(index[i, SHAPE], items[ANGLE, i], index[i, TURN], shapes, turns, turned)
+        turn_to(index[i, SHAPE], items[ANGLE, i], index[i, TURN], shapes, turns, turned)
         price(i, items[X, i], items[Y, i], np.inf, losses[i], layout, weights, turned, sheet,
               scratch)  # fmt: skip
     for i in range(items.shape[1]):
@@ -174,7 +174,7 @@ def _descend(i, place, last, last_turn, step, turn_step, is_free, state, layout,
     shape, turns, tried = layout[1][i, SHAPE], table[0], 0
     reach = table[5][shape]
     turn = int(place[4])
-    _turn_to(shape, place[3], turn, shapes, turns, turned)
+    turn_to(shape, place[3], turn, shapes, turns, turned)
     while step > last or (is_free and turn_step > last_turn):
         axis = below(state, 5 if is_free else 4)
         x, y, angle = place[1], place[2], place[3]
@@ -196,7 +196,7 @@ def _descend(i, place, last, last_turn, step, turn_step, is_free, state, layout,
                 better = True
         if axis == 4:
             turn_step *= _LONGER if better else _SHORTER
-            _turn_to(shape, place[3], turn, shapes, turns, turned)
+            turn_to(shape, place[3], turn, shapes, turns, turned)
         else:
             step *= _LONGER if better else _SHORTER
         if place[0] == 0.0:
@@ -224,7 +224,7 @@ def _rank(best, cost, x, y, angle, turn, apart):
 
 
 @helper
-def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pixel, image, scores,
+def best_place(i, best, found, state, layout, weights, shapes, table, sheet, pixel, image, scores,
                 turned, scratch, nothing):  # fmt: skip
     """Seek the best place of a part; ``best[0]`` is price, x, y, angle and turn of it."""
     items, index = layout[0], layout[1]
@@ -256,7 +256,7 @@ def _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pi
             elif uniform(state) < 0.5:
                 turn = first + below(state, many)
                 angle = turns[2, turn]
-        _turn_to(shape, angle, turn, shapes, turns, turned)
+        turn_to(shape, angle, turn, shapes, turns, turned)
         cost = price(i, x, y, best[DESCENTS - 1, 0], nothing, layout, weights, turned, sheet,
                      scratch)  # fmt: skip
         tried += 1
@@ -301,15 +301,15 @@ def move_pass(moving, state, layout, weights, losses, shapes, table, sheet, pixe
         if now == 0.0:
             continue
         best[:, 0] = np.inf
-        tried += _best_place(i, best, found, state, layout, weights, shapes, table, sheet, pixel,
+        tried += best_place(i, best, found, state, layout, weights, shapes, table, sheet, pixel,
                              image, scores, turned, scratch, nothing)  # fmt: skip
         if not best[0, 0] < now:
             continue
         shape, angle, turn = index[i, SHAPE], best[0, 3], int(best[0, 4])
         if table[2][shape]:
-            turn = _nearest(shape, angle, turns[3, turn], table)
-        _turn_to(shape, angle, turn, shapes, turns, turned)
-        _put(i, best[0, 1], best[0, 2], angle, turns[3, turn], turn, layout, turned)
+            turn = nearest_turn(shape, angle, turns[3, turn], table)
+        turn_to(shape, angle, turn, shapes, turns, turned)
+        put_part(i, best[0, 1], best[0, 2], angle, turns[3, turn], turn, layout, turned)
         price(i, best[0, 1], best[0, 2], np.inf, losses[i], layout, weights, turned, sheet,
               scratch)  # fmt: skip
         for j in range(items.shape[1]):
