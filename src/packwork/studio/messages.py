@@ -17,13 +17,13 @@ from packwork.live.commands.command import Command, ItemIds, made, named_contain
 from packwork.live.commands.container import DrawContainer, SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import AnyCommand
-from packwork.live.face.offers import container_of, items_of, labels_of
+from packwork.live.face.offers import TileWay, container_of, items_of, labels_of
 from packwork.live.face.opening import opening_sent
 from packwork.live.macros import brought, labelled, labels_in
 from packwork.live.owner import Leap
 from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
-from packwork.scene.container import Container, on_canvas
+from packwork.scene.container import Container, on_canvas, tiled
 from packwork.studio.clipboard import Copy, Paste
 from packwork.studio.documents import Begin, BeginChart, Font, Name, Open, PageRequest
 from packwork.studio.files import FILES
@@ -44,6 +44,9 @@ ADDING = "Adding items"
 
 SAME = "same"
 """What the container of now is called."""
+
+PAGE = "page"
+"""What all of a canvas is called."""
 
 Count32: TypeAlias = Annotated[int, Field(ge=0, lt=2**32)]
 Place: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
@@ -181,8 +184,8 @@ class Swap(PageRequest):
 class Room(PageRequest):
     """Fill another container.
 
-    It is a bundled one, ``text:WORD``, a file that was sent before, or ``same``: that of now on
-    another canvas.
+    It is a bundled one, ``text:WORD``, a file that was sent before, ``page``, or ``same``: that of
+    now on another canvas.
     """
 
     type: Literal["room"] = "room"
@@ -191,6 +194,8 @@ class Room(PageRequest):
     """Of a word: an installed family, or a file that was sent before."""
     canvas: Annotated[str, Field(max_length=40)] | None = None
     """Its size, as on the command line; that of now if None."""
+    tile: TileWay | None = None
+    """The way in which the canvas repeats; a page it has to be then."""
     names: bool = False
     """Whether the names of the parts that its file has are written on them."""
 
@@ -219,7 +224,9 @@ class Room(PageRequest):
             return on_canvas(shown.view.container, canvas_size(self.canvas))
         canvas = self.canvas or tab.workspace.canvas
         importer = tab.importer
-        return container_of(importer.container(self.source), canvas, importer.font(self.font))
+        source = self.source if self.source == PAGE else importer.container(self.source)
+        found = container_of(source, canvas, importer.font(self.font))
+        return found if self.tile is None else tiled(found, self.tile)
 
 
 class OutlineMessage(PageRequest):

@@ -223,6 +223,7 @@ class Scenes:
             likeness=view.likeness,
             halos=view.halos,
             rim=view.rim,
+            repeat=_repeat_of(container),
             under=self._underlays(view),
         )
         # The scene before may still be on its way; of what was wanted longer ago little is kept.
@@ -276,6 +277,11 @@ class Scenes:
             path = path_of(container.outline, INK_FINENESS)
             self._outline = (container, path)
         return self._outline[1]
+
+
+def _repeat_of(container: Container) -> tuple[float, float, float] | None:
+    lattice = container.lattice
+    return None if lattice is None else (lattice.width, lattice.height, lattice.drop)
 
 
 def _crop_of(art: Art) -> tuple[float, float, float] | None:

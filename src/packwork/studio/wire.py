@@ -127,6 +127,8 @@ class Scene(Message):
     """Share of the colours of the picture shown that items take on; None without one."""
     halos: str = ""
     """Items that were asked to have halos, or that have some in a file; empty for none."""
+    repeat: tuple[float, float, float] | None = None
+    """Of a seamless tile the width and height of its cell, and the drop of each column of them."""
     rim: float = 0.0
     """How far a halo reaches beyond its item, canvas units."""
     under: tuple[Underlay, ...] = ()

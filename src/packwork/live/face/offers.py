@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, TypeAlias, get_args
 
 from packwork.errors import ReadError
 from packwork.fonts import families_of_face, installed_families
@@ -35,12 +35,16 @@ from packwork.readers.tables.table import read_table
 from packwork.readers.target import kept_picture, picture_colours
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
+from packwork.recipe.tiles import TileKind
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, FontFile, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.notation import decimals, matrix_text, path_data
 from packwork.scene.palette import PALETTES
 from packwork.uses.words.recipe import words_recipe
+
+TileWay: TypeAlias = TileKind
+"""Ways in which a canvas repeats, as pages ask for them."""
 
 RANGES: Mapping[str, tuple[float, float, float]] = {
     "size_ratio": (1.0, 6.0, 0.1), "evenness": (0.0, 20.0, 0.5), "padding": (0.0, 20.0, 0.5)

@@ -49,6 +49,9 @@ NAMES = (
 
 WALL = "360x240mm"
 
+ON_PAPER, IN_TILE = ("leaf", "flower", "mushroom", "bird", "snail"), 28
+"""Icons of wrapping paper, and how many one cell of it has. Chosen."""
+
 IN_PICTURE = 240
 """Icons that show a picture. Chosen."""
 
@@ -95,6 +98,14 @@ def _names() -> Opening:
     return Opening(recipe=recipe, title="names")
 
 
+def _paper() -> Opening:
+    recipe = make_recipe(
+        container="page", items=list(ON_PAPER), count=IN_TILE, tile="half-drop", padding="0.7%",
+        effort="draft",
+    )  # fmt: skip
+    return Opening(recipe=recipe, title="wrapping paper")
+
+
 def _mosaic(folder: Path) -> Opening:
     picture = str(next(folder.iterdir()))
     recipe = make_recipe(
@@ -106,7 +117,7 @@ def _mosaic(folder: Path) -> Opening:
 
 _OWN: Mapping[str, Callable[[], Opening]] = {
     "icons": lambda: opening_of([]), "letters": _letters, "words": _words, "names": _names,
-    "jar": _jar, "nest": _cut
+    "paper": _paper, "jar": _jar, "nest": _cut
 }  # fmt: skip
 
 _OF_FILES: Mapping[str, Callable[[Path], Opening]] = {

@@ -65,9 +65,10 @@ function items(studio) {
   const turns = () => when() || studio.room.isOn;
   const orders = () => studio.collage.hasPoses && kindOf(studio.collage).orders;
   const grows = () => when() && kindOf(studio.collage).grows;
+  const edge = () => studio.collage.hasPoses && kindOf(studio.collage).edge;
   const sizes = () => (when() && kindOf(studio.collage).sizes) || studio.room.isOn;
   return [
-    { id: "edit-room", group: "Items", label: "Edit the container, or leave off", keys: ["C"], icon: "shape", when: () => studio.collage.hasPoses, run: () => studio.editRoom() },
+    { id: "edit-room", group: "Items", label: "Edit the container, or leave off", keys: ["C"], icon: "shape", when: edge, run: () => studio.editRoom() },
     { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
     { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
     { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when: grows, run: () => studio.duplicate() },
@@ -126,6 +127,7 @@ function nudges(studio) {
 /** @param {import("./studio.js").Studio} studio @returns {Action[]} */
 function views(studio) {
   const { view } = studio;
+  const edge = () => studio.collage.hasPoses && kindOf(studio.collage).edge;
   const middle = () => /** @type {const} */ ([view.size.width / 2, view.size.height / 2]);
   return [
     { id: "fit", group: "View", label: "Show all", keys: ["0", "Mod+0"], icon: "fit", run: () => view.fit(!studio.isCalm) },
@@ -133,9 +135,10 @@ function views(studio) {
     { id: "farther", group: "View", label: "Zoom out", keys: ["Mod+-"], icon: "minus", repeats: true, run: () => view.zoomAt(0.8, ...middle()) },
     { id: "chosen", group: "View", label: "Show what is chosen", keys: ["F"], when: () => studio.choice.ids.size > 0, run: () => studio.showChosen() },
     ...PANELS.map(([id, , label], k) => ({ id: `panel-${id}`, group: /** @type {const} */ ("View"), label: `Panel: ${label}`, keys: [String(k + 1)], run: () => studio.panels.goTo(id) })),
-    { id: "draw", group: "View", label: "Draw the container freehand", keys: ["K"], when: () => studio.collage.hasPoses, run: () => studio.sketch.begin(false) },
-    { id: "draw-hole", group: "View", label: "Draw a hole in the container", keys: ["Shift+K"], when: () => studio.collage.hasPoses, run: () => studio.sketch.begin(true) },
-    { id: "force", group: "View", label: "Draw a force as an arrow", keys: ["G"], when: () => studio.collage.hasPoses, run: () => studio.forces.begin() },
+    { id: "draw", group: "View", label: "Draw the container freehand", keys: ["K"], when: edge, run: () => studio.sketch.begin(false) },
+    { id: "draw-hole", group: "View", label: "Draw a hole in the container", keys: ["Shift+K"], when: edge, run: () => studio.sketch.begin(true) },
+    { id: "force", group: "View", label: "Draw a force as an arrow", keys: ["G"], when: edge, run: () => studio.forces.begin() },
+    { id: "tiles", group: "View", label: "Show three by three tiles, or one", keys: ["Shift+T"], when: () => Boolean(studio.collage.tiling.repeat), run: () => studio.panels.repeating.show(!studio.collage.tiling.isPreview) },
     { id: "faults", group: "View", label: "Show what is free, covered and overlapping", keys: ["V"], icon: "layers", run: () => studio.toggleFaults() },
     { id: "theme", group: "View", label: "Light or dark", keys: ["T"], icon: "theme", run: () => studio.toggleTheme() },
     { id: "onward", group: "View", label: "To the next part of the page", keys: ["F6"], run: () => studio.goRound(1) },

@@ -96,7 +96,8 @@ export class Backdrop {
         if (isNear) this.loose[k] = 1;
       }
     }
-    if (this.picture && this.isWhole && this.drawn.length === shown.length) this.region = this.changed(before);
+    // What repeats is in several places.
+    if (!this.collage.tiling.repeat && this.picture && this.isWhole && this.drawn.length === shown.length) this.region = this.changed(before);
   }
 
   /**

@@ -3,6 +3,7 @@
 
 import { kindOf } from "./kinds.js";
 import { ringsOf } from "./rings.js";
+import { Tiling } from "./tiling.js";
 
 /** @typedef {import("./wire.js").Scene} Scene */
 /** @typedef {import("./wire.js").Shape} Shape */
@@ -35,6 +36,7 @@ export class Collage {
     this.shown = new Float32Array(0);
     /** What the hand has, until a frame knows it. @type {Map<number, {pose: Pose, until: number}>} */
     this.hand = new Map();
+    this.tiling = new Tiling(this);
     this.hasPoses = false;
     /** The newest command of this page that is done. */
     this.done = 0;
@@ -80,6 +82,7 @@ export class Collage {
     if (frame.poses.length !== this.poses.length) return false;
     [this.poses, this.done] = [frame.poses, frame.done];
     for (const [id, held] of this.hand) if (held.until && held.until <= frame.done) this.hand.delete(id);
+    this.tiling.follow();
     for (let k = 0; k < this.items.length; k++) if (this.shown[4 * k + 3] < 0) this.appear(k);
     this.hasPoses = true;
     return true;

@@ -3,6 +3,7 @@
 
 import { h } from "./dom.js";
 import { grounds } from "./ground.js";
+import { kindOf } from "./kinds.js";
 import { printFields } from "./printing.js";
 import { tell } from "./toasts.js";
 
@@ -13,13 +14,13 @@ const FILMED = /** @type {const} */ (["seconds", "film_ratio", "film_pixels", "l
 
 /** Formats: ending, name, what it is for, which options it has. */
 const FORMATS = /** @type {const} */ ([
-  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "margin", "show_container", "text", "flatten", "print"]],
-  ["pdf", "PDF", "for printing", ["background", "margin", "show_container", "text", "bleed", "print"]],
-  ["png", "PNG", "a picture", ["pixels", "background", "margin", "show_container", "print"]],
+  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["tiles", "background", "margin", "show_container", "text", "flatten", "print"]],
+  ["pdf", "PDF", "for printing", ["tiles", "background", "margin", "show_container", "text", "bleed", "print"]],
+  ["png", "PNG", "a picture", ["pixels", "tiles", "background", "margin", "show_container", "print"]],
   ["packwork", "Session", "all of it, with all that undo leads to", []],
-  ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "margin", "show_container"]],
-  ["webp", "WebP", "a small picture for the web", ["pixels", "background", "margin", "show_container"]],
-  ["tif", "TIFF", "a picture for printers", ["pixels", "background", "margin", "show_container", "print"]],
+  ["jpg", "JPEG", "a smaller picture", ["pixels", "tiles", "background", "margin", "show_container"]],
+  ["webp", "WebP", "a small picture for the web", ["pixels", "tiles", "background", "margin", "show_container"]],
+  ["tif", "TIFF", "a picture for printers", ["pixels", "tiles", "background", "margin", "show_container", "print"]],
   ["dxf", "DXF", "for cutters and CAD, in mm", []],
   ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
   ["recipe", "Recipe", "a folder to run again, from the command line or Python", ["lines"]],
@@ -45,6 +46,15 @@ const SIZES = /** @type {const} */ ([
 
 /** Free edges all round, as shares of the longer side. */
 const MARGINS = /** @type {const} */ ([["", "none"], ["2%", "narrow"], ["5%", "as of a print"], ["12%", "as of a passe-partout"]]);
+
+/** How many tiles each way, of canvases that repeat. */
+const TILES = /** @type {const} */ ([["", "one, which repeats by itself"], ["2", "2 × 2"], ["3", "3 × 3, as a preview"], ["5", "5 × 5"]]);
+
+/** What has no meaning for some kinds of documents: places of parts on a sheet are a machine's, and a tile has no edge. @type {Record<string, Set<string>>} */
+const NOT_OF = { nest: new Set(["margin"]), tile: new Set(["margin", "show_container", "flatten", "bleed"]) };
+
+/** Formats of what has an edge. */
+const OF_EDGES = ["dxf", "film.gif", "film.mp4", "film.svg"];
 
 /** Longer side of the preview, in pixels; how long the form has to be still for a new one. */
 const PREVIEW = 900, STILL_MS = 350;
@@ -87,8 +97,8 @@ export class Exporting {
   choose(kind) {
     this.kind = kind;
     const options = FORMATS.find(([ending]) => ending === kind)?.[3] ?? [];
-    // Places of parts on a sheet are a machine's.
-    const shown = options.filter((name) => name !== "margin" || this.collage.scene?.kind !== "nest");
+    const { kind: of = "collage" } = this.collage.scene ?? {};
+    const shown = options.filter((name) => (name === "tiles") === (of === "tile") || !(name === "tiles" || NOT_OF[of]?.has(name)));
     this.fields.replaceChildren(...shown.map((name) => (name === "print" ? printFields(kind, this.dropping) : FIELDS[name]())));
     this.changed();
   }
@@ -103,8 +113,8 @@ export class Exporting {
     const asked = ++this.asked;
     // What is drawn on nothing, where no background is asked for, is shown so.
     const isClear = CLEAR.has(this.kind) && !this.collage.scene?.ground;
-    const { background = isClear ? "none" : null, show_container = null, margin = null } = /** @type {Record<string, any>} */ (this.options);
-    const options = Object.fromEntries(Object.entries({ background, show_container, margin, pixels: PREVIEW }).filter(([, value]) => value !== null));
+    const { background = isClear ? "none" : null, show_container = null, margin = null, tiles = null } = /** @type {Record<string, any>} */ (this.options);
+    const options = Object.fromEntries(Object.entries({ background, show_container, margin, tiles, pixels: PREVIEW }).filter(([, value]) => value !== null));
     this.dialog.setAttribute("aria-busy", "true");
     const made = await this.make("png", options).catch(() => null);
     if (asked !== this.asked) return;
@@ -132,16 +142,18 @@ export class Exporting {
     this.dialog.showModal();
     /** @type {HTMLElement | null} */ (this.formats.querySelector(":checked"))?.focus();
     this.choose(this.kind);
+    const has = kindOf(this.collage).edge;
+    for (const kind of OF_EDGES) this.leaveOut(kind, has ? "" : "a tile goes on over its edge");
     this.offers().then((offered) => Object.entries(offered?.missing ?? {}).forEach(([kind, reason]) => this.leaveOut(kind, reason)));
   }
 
-  /** @param {string} kind @param {string} reason */
+  /** @param {string} kind @param {string} reason empty where it may be asked for */
   leaveOut(kind, reason) {
     const field = this.formats.querySelector(`[value="${kind}"]`);
     if (!(field instanceof HTMLInputElement)) return;
-    field.disabled = true;
+    field.disabled = Boolean(reason);
     const said = field.parentElement?.querySelector("span");
-    if (said) said.textContent = reason;
+    if (said) said.textContent = reason || (FORMATS.find(([ending]) => ending === kind)?.[2] ?? "");
   }
 
   get worth() {
@@ -196,6 +208,7 @@ const FIELDS = {
   lines: () => h("p", { class: "note" }, "In the folder: ", h("code", {}, "packwork run recipe.toml -o collage.svg"), ", or in Python: ", h("code", {}, 'packwork.run("recipe.toml").save("collage.svg")')),
   pixels: sizes,
   background: ground,
+  tiles: () => h("label", {}, "Tiles side by side", h("select", { name: "tiles" }, ...TILES.map(([value, label]) => h("option", { value }, label)))),
   margin: () => h("label", {}, "Free edge", h("select", { name: "margin" }, ...MARGINS.map(([value, label]) => h("option", { value }, label)))),
   loop: () => h("label", {}, "At its end", h("select", { name: "loop" }, h("option", { value: "again" }, "it begins again"), h("option", { value: "back" }, "it goes back the way it came"), h("option", { value: "cycle" }, "it glides to its beginning"), h("option", { value: "once" }, "it stays"))),
   show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),

@@ -89,7 +89,7 @@ export class Gestures {
     }
     const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
     if (handle) return { act: handle.kind, from: at, at, kind, about: this.about(handle), wide: false };
-    const id = this.stage.itemAt(at.x, at.y, kind === "touch" ? 8 : 3);
+    const id = this.stage.take(at.x, at.y, kind === "touch" ? 8 : 3);
     if (id === null && event.altKey) {
       this.stage.lasso?.begin(event.shiftKey);
       return { act: "draw", from: at, at, kind };
@@ -217,7 +217,7 @@ export class Gestures {
     const { collage } = this.stage;
     const inside = collage.items.filter((_, k) => {
       const [x, y] = collage.shown.subarray(4 * k, 4 * k + 2);
-      return x >= a.x && x <= b.x && y >= a.y && y <= b.y;
+      return collage.tiling.shifts(k).some(([dx, dy]) => x + dx >= a.x && x + dx <= b.x && y + dy >= a.y && y + dy <= b.y);
     });
     this.choice.set([...(doing.adds ? doing.before : []), ...inside.map((item) => item.id)]);
   }
@@ -339,7 +339,7 @@ export class Gestures {
 
   /** @param {Point} at */
   menuAt(at) {
-    const id = this.stage.itemAt(at.x, at.y, 6);
+    const id = this.stage.take(at.x, at.y, 6);
     if (id !== null && !this.choice.has(id)) this.choice.set([id]);
     if (id === null) this.choice.set([]);
     this.hears.menu(at.x, at.y);

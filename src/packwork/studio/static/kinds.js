@@ -3,19 +3,20 @@
 
 /** @typedef {import("./wire.js").Scene["kind"]} Name */
 /**
- * @typedef {{again: string, sizes: boolean, turns: boolean, groups: boolean, orders: boolean, grows: boolean, settings: Set<string> | null}} Kind
+ * @typedef {{again: string, sizes: boolean, turns: boolean, groups: boolean, orders: boolean, grows: boolean, edge: boolean, settings: Set<string> | null}} Kind
  * What filling again is called; whether items are sized by hand, turned beyond what they are held at, grouped, put in
- * an order or coloured by a picture, and more of them come; the settings for all, null for every one.
+ * an order or coloured by a picture, and more of them come; whether the container has an edge; the settings for all, null for every one.
  */
 
 /** @type {Kind} */
-const COLLAGE = { again: "Pour anew", sizes: true, turns: true, groups: true, orders: true, grows: true, settings: null };
+const COLLAGE = { again: "Pour anew", sizes: true, turns: true, groups: true, orders: true, grows: true, edge: true, settings: null };
 
 /** @type {Record<NonNullable<Name>, Kind>} */
 const KINDS = {
   collage: COLLAGE,
   nest: { ...COLLAGE, again: "Nest anew", sizes: false, turns: false, groups: false, orders: false, settings: new Set(["padding", "rotate"]) },
   chart: { ...COLLAGE, sizes: false, groups: false, orders: false, grows: false, settings: new Set(["padding", "rotate", "evenness"]) },
+  tile: { ...COLLAGE, orders: false, edge: false },
   pile: { ...COLLAGE, again: "Heap anew", orders: false, settings: new Set(["padding", "rotate"]) },
 };
 

@@ -4,9 +4,11 @@
 import { byId, button, h, icon, vector } from "./dom.js";
 import { FontField } from "./fonts.js";
 import { ItemList } from "./items.js";
+import { kindOf } from "./kinds.js";
 import { Look } from "./look.js";
 import { fillOptions, refreshOptions } from "./options.js";
 import { tell } from "./toasts.js";
+import { Repeating } from "./repeating.js";
 import { Words } from "./words.js";
 
 /** Sheets by the names that the command line has. */
@@ -30,6 +32,7 @@ export class Panels {
     this.items = new ItemList(studio);
     this.words = new Words(studio);
     this.look = new Look(studio);
+    this.repeating = new Repeating(studio);
     this.roomFont = new FontField(studio, "Font");
     for (const [id, name, label] of PANELS) {
       byId("tabs").append(h("button", { type: "button", id: `tab-${id}`, "aria-pressed": "false", title: label, onclick: () => this.toggle(id) }, icon(name), h("span", {}, label)));
@@ -108,6 +111,8 @@ export class Panels {
     if (this.current === "look") this.look.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {
+      this.repeating.refresh();
+      for (const one of this.panel.querySelectorAll(".of-edges")) one.toggleAttribute("hidden", !kindOf(this.studio.collage).edge);
       const sheet = /** @type {HTMLSelectElement | null} */ (this.panel.querySelector("[aria-label=Sheet]"));
       if (sheet) {
         sheet.options[0].textContent = this.sheets()[0][1];
@@ -135,7 +140,8 @@ export class Panels {
     const size = asked === OTHER ? prompt("Width and height with a unit, as 300x200mm or 12x9in", "300x200mm") : asked;
     if (!size) return this.refresh();
     this.studio.dropping.sheet = size;
-    this.studio.connection.send({ type: "room", source: "same", canvas: size });
+    const tile = this.repeating.now;
+    this.studio.connection.send({ type: "room", source: tile ? "page" : "same", canvas: size, tile });
   }
 
   /** @param {HTMLElement} body */
@@ -152,7 +158,8 @@ export class Panels {
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file"),
         h("label", { class: "row center" }, names, "Write the names of its parts")),
-      h("div", { class: "row" }, edit), h("div", { class: "row halves" }, draw("Draw one", false), draw("A hole", true)), h("label", { class: "row" }, "Sheet", sheet),
+      h("div", { class: "row of-edges" }, edit), h("div", { class: "row halves of-edges" }, draw("Draw one", false), draw("A hole", true)),
+      h("label", { class: "row" }, "Sheet", sheet), ...this.repeating.elements,
       h("form", { onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); fill(); } },
         h("div", { class: "row" }, word, h("button", { type: "submit" }, "Fill a word")), this.roomFont.element),
       h("h3", {}, "Bundled"), grid);

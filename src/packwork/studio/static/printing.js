@@ -1,5 +1,5 @@
 // @ts-check
-/** What a print shop asks for, of an export: marks, spot inks, the press, tiles. */
+/** What a print shop asks for, of an export: marks, spot inks, the press. */
 
 import { h } from "./dom.js";
 
@@ -21,10 +21,8 @@ export function printFields(kind, dropping) {
   }) }, "Its profile …");
   const marks = h("select", { name: "marks", disabled }, ...MARKS.map(([value, label]) => h("option", { value }, label)));
   const spot = h("input", { type: "text", name: "spot", placeholder: "Gold=#b58b2a", spellcheck: "false", disabled });
-  const tiles = h("input", { type: "number", name: "tiles", value: "1", disabled: true });
   return h("details", { class: "printing" }, h("summary", {}, "More, for print"),
-    field("Marks beside the sheet", marks, why), field("Spot inks", spot, why), field("Press (ICC)", h("span", {}, press, profile), why),
-    field("Tiles side by side", tiles, "of seamless tiles, which have no session"));
+    field("Marks beside the sheet", marks, why), field("Spot inks", spot, why), field("Press (ICC)", h("span", {}, press, profile), why));
 }
 
 /** @param {string} label @param {HTMLElement} asked @param {string} why it is grey; empty where it is not */

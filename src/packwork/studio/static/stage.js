@@ -65,6 +65,10 @@ export class Stage {
     this.marquee = null;
     this.colours = coloursOf(canvas);
     this.ratio = 1;
+    /** Where the image of an item lies that is drawn. @type {import("./tiling.js").Shift} */
+    this.shift = [0, 0];
+    /** The same of the one found last. @type {import("./tiling.js").Shift} */
+    this.hit = [0, 0];
   }
 
   /** Take over the colours of the theme. */
@@ -87,7 +91,7 @@ export class Stage {
     const { collage, view, backdrop } = this;
     const { width, height } = this.canvas;
     if (!width || !height) return true;
-    const key = [view.zoom, view.x, view.y, width, height, this.ratio, collage.scene, this.colours, this.room?.preview, this.showsFaults];
+    const key = [view.zoom, view.x, view.y, width, height, this.ratio, collage.scene, this.colours, this.room?.preview, this.showsFaults, collage.tiling.isPreview];
     const found = collage.hasPoses ? backdrop.look(key, isMoving) : "new";
     if (found === "new") this.drawGround(() => true, isMoving);
     else {
@@ -145,15 +149,17 @@ export class Stage {
   /** @param {import("./wire.js").Scene} scene */
   drawContainer(scene) {
     const { pen, colours } = this;
-    const text = this.room?.path ?? scene.outline;
+    const { tiling } = this.collage;
+    const { x: left, y: top, width, height } = tiling.whole;
+    const text = tiling.repeat ? `M${left} ${top}h${width}v${height}h${-width}Z` : this.room?.path ?? scene.outline;
     if (this.outline.text !== text) this.outline = { text, path: new Path2D(text) };
     this.toCanvas();
     // Letters are made to be read on paper.
     const ground = scene.ground || (scene.notes?.length ? colours.paper : "");
     pen.fillStyle = ground || colours.paper;
-    if (ground) pen.fillRect(0, 0, scene.width, scene.height);
+    if (ground) pen.fillRect(left, top, width, height);
     if (this.showsFaults || !ground) pen.fill(this.outline.path, "evenodd");
-    for (const one of scene.under ?? []) this.drawUnder(one);
+    for (const shift of tiling.sheets) for (const one of scene.under ?? []) this.drawUnder(one, shift);
     this.toCanvas();
     if (this.showsFaults) pen.fillStyle = colours.free;
     if (this.showsFaults) pen.fill(this.outline.path, "evenodd");
@@ -161,18 +167,19 @@ export class Stage {
     pen.lineWidth = 1.25 / this.view.zoom;
     pen.stroke(this.outline.path);
     // A sheet of paper has edges that matter.
-    if (scene.unit !== "px") pen.strokeRect(0, 0, scene.width, scene.height);
+    if (scene.unit !== "px") pen.strokeRect(left, top, width, height);
     for (const note of this.notes.get(null) ?? []) this.drawNote(note, new DOMMatrix());
   }
 
-  /** A picture behind all; that of a mosaic faintly, in the container. @param {import("./wire.js").Underlay} one */
-  drawUnder({ shape, matrix, faint }) {
+  /** A picture behind all; that of a mosaic faintly, in the container. @param {import("./wire.js").Underlay} one @param {import("./tiling.js").Shift} shift */
+  drawUnder({ shape, matrix, faint }, shift) {
     const look = this.collage.looks.get(shape);
     if (!look) return;
     const { pen, ratio, view } = this;
     pen.save();
     if (faint) pen.clip(this.outline.path, "evenodd");
     pen.globalAlpha = faint ? FAINT : 1;
+    pen.translate(...shift);
     pen.transform(...matrix);
     const size = look.extent * Math.hypot(matrix[0], matrix[1]) * view.zoom * ratio;
     this.drawLook(look, size, this.sprites);
@@ -216,7 +223,7 @@ export class Stage {
     const [angle, scale] = [shown[4 * k + 2], shown[4 * k + 3]];
     const [root, wide] = [Math.sqrt(item.stretch), ratio * view.zoom];
     const [cos, sin] = [wide * scale * Math.cos(angle), wide * scale * Math.sin(angle)];
-    const [x, y] = [wide * shown[4 * k] + ratio * view.x, wide * shown[4 * k + 1] + ratio * view.y];
+    const [x, y] = [wide * (shown[4 * k] + this.shift[0]) + ratio * view.x, wide * (shown[4 * k + 1] + this.shift[1]) + ratio * view.y];
     this.pen.setTransform(cos * root, sin * root, -sin / root, cos / root, x, y);
     return scale;
   }
@@ -227,14 +234,23 @@ export class Stage {
     const perUnit = this.view.zoom * this.ratio;
     const last = collage.hand;
     const late = [];
+    this.pen.save();
+    if (collage.tiling.repeat) this.clip(collage.tiling.box);
     // Under all of them, as in files.
-    if (!this.showsFaults) collage.items.forEach((item, k) => item.halo && isDrawn(k) && this.drawHalo(k, item));
+    if (!this.showsFaults) collage.items.forEach((item, k) => item.halo && isDrawn(k) && this.atImages(k, () => this.drawHalo(k, item)));
     for (let k = 0; k < collage.items.length; k++) {
       if (!isDrawn(k)) continue;
       if (last.has(collage.items[k].id)) late.push(k);
-      else this.drawItem(k, perUnit, sprites);
+      else this.atImages(k, () => this.drawItem(k, perUnit, sprites));
     }
-    for (const k of late) this.drawItem(k, perUnit, sprites);
+    for (const k of late) this.atImages(k, () => this.drawItem(k, perUnit, sprites));
+    this.pen.restore();
+  }
+
+  /** Draw something of an item wherever it is seen. @param {number} k @param {() => void} draw */
+  atImages(k, draw) {
+    for (this.shift of this.collage.tiling.shifts(k)) draw();
+    this.shift = [0, 0];
   }
 
   /** @param {number} k @param {import("./wire.js").Thing} item */
@@ -294,7 +310,7 @@ export class Stage {
   /** @param {number} k @param {number} extent */
   isOutOfSight(k, extent) {
     const [x, y, , scale] = this.collage.shown.subarray(4 * k, 4 * k + 4);
-    const at = this.view.toScreen(x, y);
+    const at = this.view.toScreen(x + this.shift[0], y + this.shift[1]);
     const reach = extent * scale * this.view.zoom;
     const { width, height } = this.view.size;
     return at.x < -reach || at.y < -reach || at.x > width + reach || at.y > height + reach;
@@ -326,6 +342,15 @@ export class Stage {
   outlineOf(id, colour, width) {
     const k = this.collage.rows.get(id);
     if (k === undefined) return;
+    const { tiling } = this.collage;
+    this.pen.save();
+    if (tiling.repeat) this.clip(tiling.box);
+    this.atImages(k, () => this.outlineImage(k, colour, width));
+    this.pen.restore();
+  }
+
+  /** @param {number} k @param {string} colour @param {number} width */
+  outlineImage(k, colour, width) {
     const item = this.collage.items[k];
     const scale = this.toItem(k, item);
     const path = this.collage.look(item).outlinePath;
@@ -478,20 +503,35 @@ export class Stage {
     if (!collage.hasPoses) return null;
     const at = view.toCanvas(x, y);
     for (let k = collage.items.length - 1; k >= 0; k--) {
-      const item = collage.items[k];
-      const look = collage.looks.get(item.shape);
-      if (!look) continue;
-      const [px, py, angle, scale] = collage.shown.subarray(4 * k, 4 * k + 4);
-      if (Math.hypot(at.x - px, at.y - py) > 1.5 * look.extent * scale) continue;
-      const own = matrixOf({ x: px, y: py, angle, scale }, item.stretch).invertSelf().transformPoint(at);
-      this.pen.resetTransform();
-      this.pen.lineWidth = (2 * reach) / (view.zoom * scale);
-      const path = look.outlinePath;
-      if (this.pen.isPointInPath(path, own.x, own.y) || this.pen.isPointInStroke(path, own.x, own.y)) {
-        return item.id;
-      }
+      const found = collage.tiling.shifts(k).find(([dx, dy]) => this.isOn(k, { x: at.x - dx, y: at.y - dy }, reach));
+      if (!found) continue;
+      this.hit = found;
+      return collage.items[k].id;
     }
     return null;
+  }
+
+  /** Whether a point lies on the item of a row, or near it. @param {number} k @param {{x: number, y: number}} at @param {number} reach px */
+  isOn(k, at, reach) {
+    const { collage, view } = this;
+    const item = collage.items[k];
+    const look = collage.looks.get(item.shape);
+    if (!look) return false;
+    const [x, y, angle, scale] = collage.shown.subarray(4 * k, 4 * k + 4);
+    if (Math.hypot(at.x - x, at.y - y) > 1.5 * look.extent * scale) return false;
+    const own = matrixOf({ x, y, angle, scale }, item.stretch).invertSelf().transformPoint(at);
+    this.pen.resetTransform();
+    this.pen.lineWidth = (2 * reach) / (view.zoom * scale);
+    const path = look.outlinePath;
+    return this.pen.isPointInPath(path, own.x, own.y) || this.pen.isPointInStroke(path, own.x, own.y);
+  }
+
+  /** The same, to be taken: that image of it which is there is the item from now on. @param {number} x @param {number} y @param {number} [reach] px */
+  take(x, y, reach) {
+    const { collage } = this;
+    const id = this.itemAt(x, y, reach);
+    if (id !== null) collage.tiling.move(collage.rows.get(id) ?? 0, this.hit);
+    return id;
   }
 
   /**

@@ -158,13 +158,19 @@ export class Studio {
     this.collage.setScene(scene);
     this.choice.keep(this.collage.rows);
     this.room.refresh();
-    if (!before || before.width !== scene.width || before.height !== scene.height) {
-      this.view.whole = { width: scene.width, height: scene.height };
-      this.view.fit(false);
-      this.dropping.sheet = null;
-    }
+    if (!before || before.width !== scene.width || before.height !== scene.height) this.dropping.sheet = null;
+    this.seen();
     document.title = `${scene.title} – Packwork studio`;
     this.refresh();
+  }
+
+  /** Have all in view that is to be seen of the plane. */
+  seen() {
+    const { view, collage } = this;
+    const [was, now] = [view.whole, collage.tiling.whole];
+    if (was.x === now.x && was.width === now.width && was.height === now.height) return;
+    view.whole = now;
+    view.fit(false);
   }
 
   /** @param {import("./wire.js").State} state */
@@ -389,8 +395,8 @@ export class Studio {
   /** Put what is chosen in the middle of the canvas. */
   toMiddle() {
     const [item] = this.choice.ids;
-    const { width, height } = this.view.whole;
-    this.connection.do({ kind: "move", item, x: width / 2, y: height / 2 });
+    const { x, y, width, height } = this.view.whole;
+    this.connection.do({ kind: "move", item, x: x + width / 2, y: y + height / 2 });
   }
 
   get held() {
@@ -485,7 +491,7 @@ export class Studio {
    * @param {number} y
    */
   nudge(x, y) {
-    const { width, height } = this.view.whole;
+    const { width, height } = this.collage.scene ?? this.view.whole;
     const side = Math.max(width, height);
     if (this.cropping.isOn) {
       this.cropping.move(x, y);

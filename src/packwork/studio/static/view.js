@@ -14,7 +14,7 @@ export class View {
     this.y = 0;
     /** Size of the window and what panels cover of it, px. */
     this.size = { width: 1, height: 1, left: 0, top: 0, right: 0, bottom: 0 };
-    this.whole = { width: 600, height: 600 };
+    this.whole = { x: 0, y: 0, width: 600, height: 600 };
     this.isFitted = true;
     /** @type {null | {from: number[], to: number[], since: number}} */
     this.glide = null;
@@ -35,8 +35,8 @@ export class View {
     const { width, height, left, top, right, bottom } = this.size;
     const [free, high] = [Math.max(width - left - right, 80), Math.max(height - top - bottom, 80)];
     const zoom = Math.min(free / this.whole.width, high / this.whole.height);
-    const x = left + (free - zoom * this.whole.width) / 2;
-    const y = top + (high - zoom * this.whole.height) / 2;
+    const x = left + (free - zoom * this.whole.width) / 2 - zoom * this.whole.x;
+    const y = top + (high - zoom * this.whole.height) / 2 - zoom * this.whole.y;
     return [zoom, x, y];
   }
 

@@ -63,7 +63,7 @@ class Notebook {
 
   /** @param {PointerEvent} event */
   taken(event) {
-    const id = this.stage.itemAt(event.offsetX, event.offsetY);
+    const id = this.stage.take(event.offsetX, event.offsetY);
     this.choice.set(id === null ? [] : [id]);
     if (id === null) return;
     this.canvas.setPointerCapture(event.pointerId);
@@ -143,7 +143,7 @@ class Notebook {
     this.collage.addShapes(shapes.filter((shape) => !this.collage.looks.has(shape.key)));
     this.collage.setScene(scene);
     this.choice.keep(this.collage.rows);
-    this.view.whole = { width: scene.width, height: scene.height };
+    this.view.whole = this.collage.tiling.whole;
     this.canvas.style.aspectRatio = `${scene.width} / ${scene.height}`;
     this.canvas.style.maxHeight = `${HIGHEST}px`;
     this.frame();

@@ -10,7 +10,7 @@
  * @typedef {{type: "alike", source: string}} Alike
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{kind: "background", colour?: string, asset?: (string | null)}} Background
- * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "names" | "jar" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
+ * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "names" | "paper" | "jar" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
  * @typedef {{type: "chart", source: string, size_by?: (string | null), color_by?: (string | null), label_by?: (string | null), by?: (string | null), by_step?: (number | null), mark?: (string | null), title?: string}} BeginChart
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{kind: "cancel"}} Cancel
@@ -52,10 +52,10 @@
  * @typedef {{kind: "rename", item: number, name: string}} Rename
  * @typedef {{kind: "replace", item: number, asset: string}} Replace
  * @typedef {{kind: "reshape", rings: [number, number][][]}} Reshape
- * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null), names?: boolean}} Room
+ * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null), tile?: (("square" | "half-drop" | "hexagon") | null), names?: boolean}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile"), notes?: DrawnNote[], title?: string, palette?: string[], shades?: string, ground?: string, gradient?: string, font?: string, left_out?: any, likeness?: (number | null), halos?: string, rim?: number, under?: Underlay[]}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile" | "tile"), notes?: DrawnNote[], title?: string, palette?: string[], shades?: string, ground?: string, gradient?: string, font?: string, left_out?: any, likeness?: (number | null), halos?: string, repeat?: ([number, number, number] | null), rim?: number, under?: Underlay[]}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "halos", choice: ("none" | "faint" | "all")}} SetHalos
