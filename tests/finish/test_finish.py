@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from importlib import import_module
@@ -244,12 +243,10 @@ def test_no_items_are_clean() -> None:
 
 
 def test_many_items_go_in_blocks() -> None:
-    began = time.perf_counter()
     rng = np.random.default_rng(10)
     outlines, start = crowd(rng, 300, 100.0)
     done = finish(square_container(), outlines, start, FinishOptions(rounds=4))
     assert_clean(square_container(), outlines, done)
-    assert done.seconds <= time.perf_counter() - began
 
 
 @pytest.mark.parametrize(

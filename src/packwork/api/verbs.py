@@ -389,7 +389,7 @@ def run_recipe(
         else:
             tried = results(range(best_of), run_seed, 1, stop)
             with telling_once():
-                run = best_first((made for _, made in tried), best_by).best
+                run = best_first((made for _, made in tried), best_by)[0]
     layout = public(run.layout)
     kept = keepers[run.layout.manifest["seed"] - recipe.seed]
     # What was just measured is not measured again when it is asked for.

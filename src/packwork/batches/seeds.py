@@ -42,22 +42,6 @@ class Seeded:
     record: bool
 
 
-@dataclass(frozen=True)
-class Choice:
-    """Runs of several seeds and their scores, of which more is better.
-
-    The best comes first, what is not as asked after all that is.
-    """
-
-    runs: tuple[Run, ...]
-    scores: tuple[float, ...]
-
-    @property
-    def best(self) -> Run:
-        """The one to keep."""
-        return self.runs[0]
-
-
 def best_of(
     recipe: Recipe,
     count: int,
@@ -66,7 +50,7 @@ def best_of(
     workers: int | None = None,
     told: Told = lambda _: None,
     stop: Stop = never,
-) -> Choice:
+) -> tuple[Run, ...]:
     """Runs of a recipe's seed and those after it, the best first.
 
     Each gives the same bytes as a run of its seed alone. ``by`` is ``coverage``, ``evenness`` or a
@@ -82,8 +66,11 @@ def best_of(
 
 def best_first(
     made: Iterable[Run | Exception], by: str = COVERAGE, told: Told = lambda _: None
-) -> Choice:
-    """Runs of several seeds, the best first; refused ones are passed over unless all are."""
+) -> tuple[Run, ...]:
+    """Runs of several seeds, the best first; refused ones are passed over unless all are.
+
+    What is not as asked comes after all that is.
+    """
     check_metric(by)
     found: list[Run] = []
     failed: list[PackworkError] = []
@@ -97,12 +84,11 @@ def best_first(
         told(len(found) + len(failed))
     if not found:
         raise failed[0] if failed else PackworkError("stopped before there was anything to write")
-    scores = [score_of(run, by) for run in found]
-    order = sorted(
-        range(len(found)),
-        key=lambda k: (not found[k].is_as_asked, -scores[k], found[k].layout.manifest["seed"]),
-    )
-    return Choice(tuple(found[k] for k in order), tuple(scores[k] for k in order))
+
+    def rank(run: Run) -> tuple[bool, float, int]:
+        return not run.is_as_asked, -score_of(run, by), run.layout.manifest["seed"]
+
+    return tuple(sorted(found, key=rank))
 
 
 def run_seed(task: Seeded, stop: Stop) -> Run:

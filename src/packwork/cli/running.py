@@ -261,7 +261,7 @@ def run_chosen(
     found = best_of(
         job.recipe, choosing.best_of, choosing.best_by, record, job.recipe.threads, tell, interrupt
     )
-    return found.best, found.runs
+    return found[0], found
 
 
 def sheet_of(tried: Sequence[pipeline.Run], choosing: Choosing) -> list[tuple[Path, bytes]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -97,7 +96,6 @@ class Finished:
     conflicts: tuple[Conflict, ...]
     undersized: tuple[int, ...]
     rounds: int
-    seconds: float
 
 
 def finish(
@@ -123,9 +121,8 @@ def finish(
     >>> done.clean, bool(done.poses.scale.min() > 0.99)
     (True, True)
     """
-    began = time.perf_counter()
     if len(outlines) == 0:
-        return Finished(poses, True, (), (), 0, 0.0)
+        return Finished(poses, True, (), (), 0)
     run = _Finish(container, outlines, poses, options, observer, stop, is_enough, forces)
     if options.refining:
         run.refine()
@@ -141,9 +138,7 @@ def finish(
     # Its polygons are done with; those among which conflicts are looked for take more than they.
     del run
     conflicts = find_conflicts(container, outlines, found, gap)
-    return Finished(
-        found, not conflicts, conflicts, undersized, rounds, time.perf_counter() - began
-    )
+    return Finished(found, not conflicts, conflicts, undersized, rounds)
 
 
 class _Finish:

@@ -48,16 +48,11 @@ _SOFTNESS = 0.02
 _SIMPLIFY_PX = 0.5
 
 
-@dataclass(frozen=True, eq=False)
-class Quiet:
-    """Saliency of a picture, ``[row, col]`` 0..1, and its quiet part, in the picture's pixels."""
+def quiet_part(data: bytes, negative: Negative, share: float) -> Region:
+    """The share of a picture in which least is to be seen, small parts left out.
 
-    saliency: FloatArray
-    region: Region
-
-
-def quiet_part(data: bytes, negative: Negative, share: float) -> Quiet:
-    """The share of a picture in which least is to be seen, small parts left out."""
+    In the picture's pixels.
+    """
     saliency = saliency_map(data, negative)
     limit = float(np.quantile(saliency, share))
     # A soft step, so that the contour runs between pixels.
@@ -65,7 +60,7 @@ def quiet_part(data: bytes, negative: Negative, share: float) -> Quiet:
     whole = contour_region(inside, _SIMPLIFY_PX)
     traced = shapely.MultiPolygon(large_parts(whole, SMALLEST_PART * whole.area))
     scale = np.array([negative.width / saliency.shape[1], negative.height / saliency.shape[0]])
-    return Quiet(saliency, shapely.transform(traced, lambda points: points * scale))
+    return shapely.transform(traced, lambda points: points * scale)
 
 
 def saliency_map(data: bytes, negative: Negative) -> FloatArray:
@@ -133,7 +128,7 @@ def container_around(
     scale = side / max(negative.width, negative.height)
     size = CanvasSize(scale * negative.width, scale * negative.height, "px")
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
-    region = shapely.transform(quiet.region, lambda points: affine.apply(to_canvas, points))
+    region = shapely.transform(quiet, lambda points: affine.apply(to_canvas, points))
     for kept in options.keep_clear:
         region = difference(region, _kept_clear(kept, size, read_region))
     try:

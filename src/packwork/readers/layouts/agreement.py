@@ -53,9 +53,8 @@ _SAMPLED = np.hstack([
 
 @dataclass(frozen=True, kw_only=True)
 class Differences:
-    """Number of paths of a PDF, those that it alone has, and those of the SVG that it lacks."""
+    """Paths that a PDF alone has, and those of the SVG that it lacks."""
 
-    paths: int
     strange: Sequence[Painted]
     missing: Sequence[Painted]
 
@@ -110,7 +109,7 @@ def differences(svg: Sequence[Painted], pdf: Sequence[Painted], tolerance: float
         else:
             waiting.pop(found)
     missing = [part.shape for part in (*waiting, *ahead) if part.shows]
-    return Differences(paths=len(pdf), strange=strange, missing=missing)
+    return Differences(strange=strange, missing=missing)
 
 
 def _parts(shape: Painted, tolerance: float, cuts: dict[Clip, _Lines]) -> Iterator[_Part]:
