@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import gc
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
 import typer.testing
 from hypothesis import HealthCheck, settings
 
+import packwork
 from made_fonts import make_font_folders
 from packwork import compiled, precompile
 from packwork.display import bar
@@ -51,23 +53,34 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+COMPILING: tuple[dict[str, Callable[[], object]], ...] = (
+    {"most": precompile.warm_up_once},
+    {
+        "words": lambda: packwork.words("heart", {"owl": 2, "fox": 1}, effort="draft"),
+        "pile": lambda: packwork.pile("square", "circle", count=2, size="30%"),
+        "nest": lambda: packwork.nest("100mm", ["star", "moon"], passes=9),
+    },
+)
+"""What needs kernels that tests of many rooms need: first those that all runs have."""
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _kernels(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Kernels that runs need, compiled by one worker, with a second process, for all of them."""
+    """Kernels of runs, each compiled by one worker for all; the first with a second process."""
     if "PYTEST_XDIST_WORKER" not in os.environ or os.environ.get("NUMBA_DISABLE_JIT") == "1":
         return
-    claim = tmp_path_factory.getbasetemp().parent / "kernels"
-    try:
-        claim.mkdir()
-    except FileExistsError:
+    for parts in COMPILING:
+        claims = {tmp_path_factory.getbasetemp().parent / f"of-{name}": name for name in parts}
+        for claim, name in claims.items():
+            with contextlib.suppress(FileExistsError):
+                claim.mkdir()
+                try:
+                    parts[name]()
+                finally:
+                    (claim / "done").touch()
         end = time.monotonic() + MOST_SECONDS
-        while not (claim / "done").exists() and time.monotonic() < end:
+        while time.monotonic() < end and not all((claim / "done").exists() for claim in claims):
             time.sleep(SECONDS_BETWEEN)
-        return
-    try:
-        precompile.warm_up_once()
-    finally:
-        (claim / "done").touch()
 
 
 class _OfThisSession(dict[str, bytes]):
