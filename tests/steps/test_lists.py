@@ -24,7 +24,7 @@ PLAIN = [
 
 def job(**options: Any) -> Any:
     return uses.read(
-        make_recipe(**{"container": "circle", "items": ["star"], "count": 3} | options)
+        make_recipe(**{"container": "circle", "items": ["star"], "count": 8} | options)
     )
 
 
@@ -35,6 +35,11 @@ def names(**options: Any) -> list[str]:
 
 def test_a_plain_run_is_six_steps() -> None:
     assert names() == PLAIN
+
+
+def test_few_icons_are_begun_several_times() -> None:
+    assert names(count=3) == ["BestOf", *PLAIN[3:]]
+    assert names(count=3, effort="draft") == PLAIN
 
 
 @pytest.mark.parametrize(
@@ -144,7 +149,7 @@ class Told:
 
 @pytest.fixture(scope="module")
 def state() -> RunState:
-    found = RunState.of(job())
+    found = RunState.of(job(count=3))
     return replace(found, poses=replace(found.poses, scale=np.ones(3)))
 
 
