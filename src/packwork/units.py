@@ -128,6 +128,20 @@ def parse_length(text: str, unit: str, whole: float) -> float:
     return length
 
 
+def length_asked(key: str, value: str | float, unit: str, whole: float) -> float:
+    """Length in a unit; a ``RecipeError`` about ``key`` if it is none.
+
+    Examples
+    --------
+    >>> length_asked("padding", "2%", "mm", 50.0)
+    1.0
+    """
+    try:
+        return parse_length(str(value), unit, whole)
+    except ValueError as error:
+        raise RecipeError(key, str(error)) from None
+
+
 def parse_share(value: object) -> object:
     """Share of one of ``94%``, ``"0.94"`` or ``0.94``; anything else as it is.
 

@@ -18,9 +18,9 @@ from packwork.metrics.measure import LayoutMetrics, Metrics
 from packwork.metrics.measure import measure as measure_layout
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never
 from packwork.readers.layouts.read import read_written
-from packwork.recipe.refusals import length_asked
 from packwork.scene import layout as scene
 from packwork.scene.item import bulge_between
+from packwork.units import length_asked
 
 LARGEST = 2.0
 """Factor by which an item may grow in a finish that grows. As of free sizes."""

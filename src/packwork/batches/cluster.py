@@ -27,6 +27,7 @@ from packwork.display.extras import import_extra
 from packwork.errors import PackworkError
 from packwork.installed import installed_version
 from packwork.progress import Stop, never
+from packwork.readers.files import is_folder
 from packwork.recipe_paths import named_files
 from packwork.sources import mirrored, place_in
 from packwork.temporary import TemporaryFolder
@@ -189,7 +190,7 @@ def parcel_of(task: Task) -> Parcel:
         if not name or len(name) > 4_000:
             continue
         for path in sorted(glob.glob(name)) if glob.has_magic(name) else [name]:  # noqa: PTH207
-            if _is_folder(path):
+            if is_folder(path):
                 folders.append(path)
                 inside = [each for each in sorted(Path(path).iterdir()) if each.is_file()]
                 files |= {str(each): _content(each) for each in inside}
@@ -201,13 +202,6 @@ def parcel_of(task: Task) -> Parcel:
             "folder that workers see too"
         )
     return Parcel(task, files, tuple(folders), installed_version())
-
-
-def _is_folder(name: str) -> bool:
-    try:
-        return Path(name).is_dir()
-    except (OSError, ValueError):
-        return False
 
 
 def _is_file(name: str) -> bool:

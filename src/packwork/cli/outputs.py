@@ -19,9 +19,8 @@ from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.sources import check_no_input
-from packwork.units import split_length
+from packwork.units import length_asked, split_length
 from packwork.uses.icons import NO_CONTAINER
-from packwork.writers.cutting import kiss_cut
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import GONE_ON_WITH, DrawingOptions
 from packwork.writers.prepress.options import PrintOptions
@@ -186,7 +185,7 @@ def check_room(job: pipeline.Job, kiss: str | None) -> None:
     if kiss is None:
         return
     container = job.container
-    offset = kiss_cut(kiss, container.unit, container.side)
+    offset = length_asked("kiss_cut", kiss, container.unit, container.side)
     if job.recipe.padding_cu(container) < 2 * offset:
         raise RecipeError(
             "kiss_cut",

@@ -55,7 +55,7 @@ def set(session: Session, /, **options: str | float | Sequence[str]) -> None:
     """Set numbers for all: ``padding``, ``sizes``, ``rotate``, ``force`` and so on."""
     from packwork.live.commands.command import made
     from packwork.live.commands.container import SetOption
-    from packwork.recipe.refusals import length_asked
+    from packwork.units import length_asked
 
     container, given = session.document.container, dict(options)
     asked = given.get("padding")

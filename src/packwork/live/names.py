@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 from packwork.errors import RecipeError
 from packwork.live.document import Document
-from packwork.recipe.refusals import length_asked
+from packwork.units import length_asked
 
 Which: TypeAlias = str | int | Sequence[str | int]
 """An item: its name, ``owl``, or of several of that name ``owl#2``; ``*`` stands for any letters;

@@ -31,7 +31,6 @@ from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT
-from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container, inside_margin, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
@@ -39,7 +38,7 @@ from packwork.scene.limits import Zone
 from packwork.scene.pose import Poses
 from packwork.scene.target import TargetPicture
 from packwork.sources import stored
-from packwork.units import CanvasSize, parse_length
+from packwork.units import CanvasSize, length_asked, parse_length
 
 
 def read_regions(asked: Sequence[ItemRules], container: Container) -> tuple[Region, ...]:

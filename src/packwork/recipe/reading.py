@@ -10,7 +10,7 @@ from packwork.errors import RecipeError
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 from packwork.readers.options import GAPS_AUTO, GAPS_NONE, HALF, ReadOptions
-from packwork.recipe.refusals import length_asked
+from packwork.units import length_asked
 
 
 class ReadingOptions(Options):

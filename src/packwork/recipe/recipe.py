@@ -25,7 +25,7 @@ from packwork.recipe.pictures import MosaicOptions, PictureOptions, check_no_nam
 from packwork.recipe.piles import MotionOptions
 from packwork.recipe.presets import parse_levels
 from packwork.recipe.reading import ReadingOptions
-from packwork.recipe.refusals import length_asked, length_of, parsed_by, validated
+from packwork.recipe.refusals import length_of, parsed_by, validated
 from packwork.recipe.rules import (
     MAX_COUNT,
     ItemCount,
@@ -47,7 +47,7 @@ from packwork.solve.options import (
 )
 from packwork.sources import MEMORY
 from packwork.start.options import LAYOUTS
-from packwork.units import CanvasSize, canvas_size, parse_share
+from packwork.units import CanvasSize, canvas_size, length_asked, parse_share
 from packwork.writers.film.options import FilmOptions
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ValidationError
 
 from packwork.errors import RecipeError
 from packwork.synonyms import key_meant
-from packwork.units import parse_length, parse_share
+from packwork.units import length_asked, parse_share
 
 _Model = TypeVar("_Model", bound=BaseModel)
 
@@ -147,20 +147,6 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     return next((found for a in get_args(annotation) if (found := _model_in(a))), None)
-
-
-def length_asked(key: str, value: str | float, unit: str, whole: float) -> float:
-    """Length in a unit; a ``RecipeError`` about ``key`` if it is none.
-
-    Examples
-    --------
-    >>> length_asked("padding", "2%", "mm", 50.0)
-    1.0
-    """
-    try:
-        return parse_length(str(value), unit, whole)
-    except ValueError as error:
-        raise RecipeError(key, str(error)) from None
 
 
 def length_of(key: str, *, may_be_zero: bool = False) -> AfterValidator:

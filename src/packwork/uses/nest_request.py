@@ -25,7 +25,7 @@ from packwork.readers.layouts.read import SESSION, holds_layout, read_written
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item
 from packwork.scene.line_art import LineArt
-from packwork.units import Unit, canvas_size, convert, parse_length
+from packwork.units import Unit, canvas_size, convert, length_asked
 from packwork.uses.nested import Sheet, SheetPart
 
 _LOG = logging.getLogger("packwork")
@@ -61,12 +61,9 @@ _YES, _NO = ("yes", "y", "true", "1", "x"), ("no", "n", "false", "0", "-")
 
 def length_of(option: str, text: str, sheet: Sheet) -> float:
     """Length in the sheet's unit; RecipeError names the option."""
-    try:
-        if text.strip().endswith("%") and math.isinf(sheet.height):
-            raise ValueError(f"{text!r} is a share of a side that is not known yet")
-        return parse_length(text, sheet.unit, sheet.height)
-    except ValueError as error:
-        raise RecipeError(option, str(error)) from None
+    if text.strip().endswith("%") and math.isinf(sheet.height):
+        raise RecipeError(option, f"{text!r} is a share of a side that is not known yet")
+    return length_asked(option, text, sheet.unit, sheet.height)
 
 
 def _counted(text: str) -> tuple[str, int | None]:
@@ -295,10 +292,7 @@ def angles_of(rotate: str) -> tuple[float, ...] | None:
 
 def _side(text: str, unit: Unit) -> float:
     """Longer side of a part, in the sheet's unit."""
-    try:
-        side = parse_length(text.replace(" ", "").replace(",", "."), unit, math.nan)
-    except ValueError as error:
-        raise RecipeError("size", str(error)) from None
+    side = length_asked("size", text.replace(" ", "").replace(",", "."), unit, math.nan)
     if not 0.0 < side < math.inf:
         raise RecipeError("size", f"is a length above 0, as 80mm, not {text[:20]!r}")
     return side

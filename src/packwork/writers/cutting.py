@@ -21,7 +21,7 @@ from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, sil
 from packwork.phrasing import number_of
 from packwork.scene.layout import Layout
 from packwork.scene.notation import attributes, path_data
-from packwork.units import convert, parse_length
+from packwork.units import convert, length_asked
 from packwork.writers.options import CutLine
 
 _LOG = logging.getLogger(__name__)
@@ -56,27 +56,13 @@ class CutOptions:
     kiss: str | None = None
 
     def __post_init__(self) -> None:
-        if self.kiss is not None and kiss_cut(self.kiss, "px", 1.0) <= 0:
+        if self.kiss is not None and length_asked("kiss_cut", self.kiss, "px", 1.0) <= 0:
             raise RecipeError("kiss_cut", f"must be more than nothing, not {self.kiss}")
 
     @property
     def is_asked(self) -> bool:
         """Whether lines are wanted in formats that have none of themselves."""
         return self.line is not None or self.kiss is not None
-
-
-def kiss_cut(text: str, unit: str, side: float) -> float:
-    """Distance of a kiss cut in canvas units; a RecipeError if it is no length.
-
-    Examples
-    --------
-    >>> kiss_cut("2mm", "cm", 30.0)
-    0.2
-    """
-    try:
-        return parse_length(text, unit, side)
-    except ValueError as error:
-        raise RecipeError("kiss_cut", str(error)) from None
 
 
 def cut_rings(layout: Layout, options: CutOptions) -> list[FloatArray]:
@@ -101,7 +87,8 @@ def cut_rings(layout: Layout, options: CutOptions) -> list[FloatArray]:
         return [ring for outline in layout.outlines for ring in outline.rings]
     shapes = [silhouette(outline.region) for outline in layout.outlines]
     if options.kiss is not None:
-        offset = kiss_cut(options.kiss, layout.container.unit, layout.container.side)
+        container = layout.container
+        offset = length_asked("kiss_cut", options.kiss, container.unit, container.side)
         shapes = _merge_crossing([buffered(shape, offset, quad_segs=QUADRANT) for shape in shapes])
     if options.line != "outlines":
         shapes = _join_parts(shapes)

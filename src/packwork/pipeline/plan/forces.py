@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.errors import RecipeError
 from packwork.forces.bonds import Alignment, Balance, TogetherBond
 from packwork.forces.field import Bond, Direction, Distance, Fading, Field, Inward
 from packwork.forces.forces import BondForce, FieldForce, Forces
@@ -17,7 +16,7 @@ from packwork.pipeline.plan.copies import RuleSource, kinds, matching
 from packwork.readers.svg.curve import read_curve
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.units import parse_length
+from packwork.units import length_asked
 
 
 def forces_of(
@@ -94,7 +93,4 @@ def point_at(pair: str, container: Container, key: str = "force") -> FloatArray:
 
 def _length(text: str, container: Container, whole: float, key: str = "force") -> float:
     sign = -1.0 if text.startswith("-") else 1.0
-    try:
-        return sign * parse_length(text.removeprefix("-"), container.unit, whole)
-    except ValueError as error:
-        raise RecipeError(key, str(error)) from None
+    return sign * length_asked(key, text.removeprefix("-"), container.unit, whole)

@@ -16,10 +16,9 @@ from packwork.pipeline.read import read_room
 from packwork.readers.svg.curve import walled_container
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions
-from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container, on_canvas
 from packwork.scene.item import Item
-from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
+from packwork.units import DEFAULT_SIDE, CanvasSize, Unit, length_asked
 from packwork.uses.icons import NO_CONTAINER, KnownContainer
 from packwork.uses.piles.opening import nowhere
 

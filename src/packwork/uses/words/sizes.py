@@ -21,12 +21,11 @@ from packwork.pipeline.state import RunState
 from packwork.readers.words.items import EM_PX, WordsRead
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Sizes
-from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.steps.finish import finished
-from packwork.units import Unit
+from packwork.units import Unit, length_asked
 from packwork.uses.words.copies import cast_words, words_of
 
 DENSEST = 0.6

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, final
 from packwork.errors import RecipeError
 from packwork.scene.container import Container
 from packwork.scene.notation import number
-from packwork.units import convert, parse_length
+from packwork.units import convert, length_asked
 from packwork.writers.cutting import HAIRLINE_PT
 from packwork.writers.prepress.options import MarksChoice
 
@@ -146,10 +146,7 @@ def print_sheet(container: Container, bleed: str | None, marks: MarksChoice) -> 
 
 def bleed_pt(text: str, container: Container) -> float:
     """Bleed in points; a RecipeError if it is no length, or more than the canvas is long."""
-    try:
-        length = parse_length(text, container.unit, container.side)
-    except ValueError as error:
-        raise RecipeError("bleed", str(error)) from None
+    length = length_asked("bleed", text, container.unit, container.side)
     if length > container.side:
         raise RecipeError("bleed", f"is at most as long as the canvas, not {text[:40]}; use 3mm")
     return convert(length, container.unit, "pt")
