@@ -16,6 +16,7 @@ def main() -> None:
 
         _collect_less()
         _keep_to_own_threads()
+        _look_for_no_plugins()
         _leave_working_folder()
         _log_warnings()
         from packwork.cli import app
@@ -70,6 +71,11 @@ def _keep_to_own_threads() -> None:
     All that takes long runs in threads of ours, as many as ``--threads`` says.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def _look_for_no_plugins() -> None:
+    """Have pydantic look for no plugins: it would read what all installed packages offer."""
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 
 def _leave_garbage() -> None:

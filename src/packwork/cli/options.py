@@ -9,6 +9,7 @@ import inspect
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
@@ -214,6 +215,7 @@ def _signed(command: Command, signature: inspect.Signature) -> Command:
     return command
 
 
+@cache
 def _as_it_is(option: Offered) -> inspect.Parameter:
     """Flag with the default of the field.
 

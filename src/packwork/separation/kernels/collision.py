@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from packwork.compiled import helper
+from packwork.compiled import leaf
 
 # Rows of ``items``: the box, and what enters the price of an overlap.
 X0, Y0, X1, Y1, PENALTY, DECAY, X, Y, ANGLE, SIDE = range(10)
@@ -23,7 +23,7 @@ _LARGEST = 4
 """Poles after which an overlap may be known to be too dear already. Chosen."""
 
 
-@helper
+@leaf
 def outside_price(x0, y0, x1, y1, sheet, penalty):
     """Price of what of a box lies outside the sheet's (0, 0) to ``sheet``; 0 where nothing."""
     if x0 >= 0.0 and y0 >= 0.0 and x1 <= sheet[0] and y1 <= sheet[1]:
@@ -37,7 +37,7 @@ def outside_price(x0, y0, x1, y1, sheet, penalty):
     return 2.0 * math.sqrt(out) * penalty
 
 
-@helper
+@leaf
 def pole_overlap(x, y, turned_poles, poles, decay, most, lanes):
     """Sum over pairs of poles of their depths, to 32 bits; above ``most``: only that it is.
 
@@ -66,12 +66,12 @@ def pole_overlap(x, y, turned_poles, poles, decay, most, lanes):
         begin, end = end, POLES
 
 
-@helper
+@leaf
 def _side(ax, ay, bx, by, px, py):
     return (bx - ax) * (py - ay) - (by - ay) * (px - ax)
 
 
-@helper
+@leaf
 def _holds(edges, first, last, px, py):
     """True for a point inside rings, by the even-odd rule."""
     inside = False
@@ -84,7 +84,7 @@ def _holds(edges, first, last, px, py):
     return inside
 
 
-@helper
+@leaf
 def _holds_ring(own, begin, end, box, edges, first, last):
     """True for rings one of which begins inside others, whose box is ``box``.
 
@@ -101,13 +101,13 @@ def _holds_ring(own, begin, end, box, edges, first, last):
     return False
 
 
-@helper
+@leaf
 def _is_ring(edges, first, last):
     """True for edges of one ring."""
     return edges[2, last - 1] == edges[0, first] and edges[3, last - 1] == edges[1, first]
 
 
-@helper
+@leaf
 def _touch(own, count, box, edges, first, last, other, close):
     """True for two parts that touch or overlap, both in absolute coordinates.
 
@@ -156,7 +156,7 @@ def _touch(own, count, box, edges, first, last, other, close):
     )
 
 
-@helper
+@leaf
 def price(i, x, y, bound, row, layout, weights, turned, sheet, scratch):
     """Weighted price of part ``i``, as it is turned, at (x, y); above ``bound``: only that it is.
 

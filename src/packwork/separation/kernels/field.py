@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from packwork.compiled import helper
+from packwork.compiled import leaf
 from packwork.separation.kernels.collision import PENALTY, TURN, X, Y
 
 MARGIN = 4
@@ -14,7 +14,7 @@ MARGIN = 4
 pixels at most, and rows are summed without a look at where they end. Derived."""
 
 
-@helper
+@leaf
 def draw_others(i, pixel, items, index, weights, span_at, spans, image):
     """Image of all parts but ``i``, each by its spans of rows, as running sums along each row.
 
@@ -41,7 +41,7 @@ def draw_others(i, pixel, items, index, weights, span_at, spans, image):
         image[r, MARGIN + columns + 1 :] = image[r, MARGIN + columns]
 
 
-@helper
+@leaf
 def score_row(row, column, wide, first, last, spans, image, scores):
     """Sum of the image below a part's spans, for ``wide`` columns from ``column`` on."""
     rows, most = image.shape[0], image.shape[1] - wide
@@ -56,7 +56,7 @@ def score_row(row, column, wide, first, last, spans, image, scores):
             here[c] += ends[c] - starts[c]
 
 
-@helper
+@leaf
 def keep_best(found, count, score, x, y, turn, apart):
     """Put a place among the best ``len(found)``, none nearer to a better one than ``apart``.
 
@@ -86,7 +86,7 @@ def keep_best(found, count, score, x, y, turn, apart):
     return min(count + 1, most)
 
 
-@helper
+@leaf
 def propose(i, turn, box, pixel, sheet, span_at, spans, image, scores, found, count, apart):
     """Score all places of a part at one of its turns; add local minima to ``found``.
 

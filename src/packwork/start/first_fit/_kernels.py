@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from packwork.compiled import helper, kernel
+from packwork.compiled import kernel, leaf
 
 ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
 ONE, LAST = np.uint64(1), np.uint64(63)
@@ -90,7 +90,7 @@ def clear_taken(rows, boxes, height, top, bottom, before, free):
     return is_left
 
 
-@helper
+@leaf
 def _without(rows, at, j, k, first, last, before, free, y, begin, end):
     """Clear bits of a row of ``free`` where a box from ``at`` on meets one; what is left of them.
 
@@ -163,7 +163,7 @@ def best_touching(free, taken, begin, fringe, worth, field, pull, origin, is_eve
     return best, best_y, best_x
 
 
-@helper
+@leaf
 def _edge_of(free, y, i):
     """Return the free places of a word beside one that is not free."""
     height, words = free.shape
@@ -267,7 +267,7 @@ def spread(mask, down, across):
     return near
 
 
-@helper
+@leaf
 def _is_amid(mask, y, x):
     """Return whether the four pixels round one are in the mask as well."""
     height, width = mask.shape
