@@ -23,7 +23,7 @@ CALLING = (
     "@kernel\ndef calling():\n    return called()\n"
 )
 RAISING = (
-    "from packwork.compiled import helper, shared\n\n\n"
+    "from packwork.compiled import helper, leaf, shared\n\n\n"
     "@helper\ndef raising():\n    raise ValueError('met')\n    return 1\n\n\n"
     "@{}\ndef called():\n    return raising()\n"
 )
@@ -185,7 +185,7 @@ def test_a_kernel_that_was_kept_is_called_by_one_compiled_later(package: Path, c
 
 
 @NEEDS_JIT
-@pytest.mark.parametrize("kind", ["helper", "shared"])
+@pytest.mark.parametrize("kind", ["helper", "leaf", "shared"])
 def test_errors_come_through_what_a_kernel_calls(package: Path, call: Call, kind: str) -> None:
     (package / "called" / "_kernels.py").write_text(RAISING.format(kind), encoding="utf-8")
     program = PROGRAM.replace(
@@ -259,3 +259,13 @@ def test_a_kernel_that_was_kept_brings_no_modules_of_helpers_with_it(
     program = f"import sys; {PROGRAM}; print({heavy!r} in sys.modules)"
     assert call(package, program)[0].split() == ["2.0", "True"]
     assert call(package, program)[0].split() == ["2.0", "False"]
+
+
+@NEEDS_JIT
+def test_importing_compiles_and_loads_no_kernel() -> None:
+    code = (
+        "from packwork.compiled import cache; import packwork.cli.running, packwork.cli.verbs, "
+        "packwork.api.verbs, packwork.api.session; print(len(cache._kernels))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout == "0\n"

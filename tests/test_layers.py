@@ -67,7 +67,7 @@ def test_no_import_of_a_kernel_escapes_its_fingerprint() -> None:
 def has_compiled_code(tree: ast.Module) -> bool:
     """Whether a module decorates kernels or helpers."""
     return any(
-        alias.name in {"kernel", "helper"}
+        alias.name in {"kernel", "helper", "leaf", "shared"}
         for node in ast.walk(tree)
         if isinstance(node, ast.ImportFrom) and node.module == "packwork.compiled"
         for alias in node.names

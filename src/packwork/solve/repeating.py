@@ -30,10 +30,6 @@ ROOM = 1.3
 """Margin about the cell over the largest radius of an item at a level's begin. Larger takes longer,
 of smaller ones items that grow leave the image. Chosen."""
 
-
-NOWHERE = Recall(np.ones((1, 1), np.float32), 1.0)
-"""Way back of items that are nowhere outside; it weighs nothing."""
-
 _Part: TypeAlias = tuple[slice, slice]
 
 
@@ -116,9 +112,10 @@ class RepeatingLevel(Level):
         self._torus = torus = Torus(lattice, px_per_cu, int(ROOM * largest * px_per_cu) + 2)
         everywhere = np.ones(torus.shape, np.float32)
         room = everywhere if taken is None else np.maximum(everywhere - taken, 0)
+        # No item is outside: the way back weighs nothing.
         super().__init__(
             container, outlines, resolution, losses, nominal, limits,
-            free_space=FreeSpace(room, NOWHERE),
+            free_space=FreeSpace(room, Recall(np.ones((1, 1), np.float32), 1.0)),
             seen=round(len(outlines) * everywhere.size / (torus.cell[0] * torus.cell[1])),
         )  # fmt: skip
         self.corner = (-torus.margin / px_per_cu, -torus.margin / px_per_cu)
