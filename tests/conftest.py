@@ -19,6 +19,7 @@ from made_fonts import make_font_folders
 from packwork import compiled, precompile
 from packwork.display import bar
 from packwork.fonts import FOLDERS
+from packwork.metrics import pixel
 from packwork.readers import cache
 
 # Kernels compile on their first call, and run uncompiled under NUMBA_DISABLE_JIT=1, a hundred
@@ -35,6 +36,9 @@ gc.set_threshold(50_000)
 
 SECONDS_BETWEEN = 0.2
 """Time between two looks whether the kernels are compiled. Chosen."""
+
+WHOLE_RUNS = {"pipeline", "uses"}
+"""Rooms of tests most of which make layouts and measure them."""
 
 MOST_SECONDS = 180.0
 """Time that is waited for them, for who compiles them may have been killed. Chosen: several times
@@ -99,6 +103,15 @@ def _nothing_by_chance() -> Iterator[None]:
         patch.setattr(compiled.listeners, "_tell_once", lambda: None)
         patch.setattr(cache, "DRAWINGS", _OfThisSession())
         patch.setattr(cache, "GLYPHS", _OfThisSession())
+        yield
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _coarse_measures(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Whole runs, of which tests look at other things, are measured by fewer pixels."""
+    with pytest.MonkeyPatch.context() as patch:
+        if request.path.parent.name in WHOLE_RUNS:
+            patch.setattr(pixel, "RESOLUTION", 300)
         yield
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import Result
 
@@ -83,7 +83,7 @@ def test_the_same_work_gives_the_same_bytes(work: str, shop: Path, packwork: Com
 def test_an_effort_bounds_the_passes(
     asked: str, effort: str | None, most: int, shop: Path, packwork: Command
 ) -> None:
-    assert packwork(f"nest 60mm disc.svg*2 {asked} -o a.svg --report a.json").exit_code == 0
+    assert packwork(f"nest 40mm disc.svg {asked} -o a.svg --report a.json").exit_code == 0
     said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
     assert said["effort"] == effort
     assert 0 < said["passes"] <= most
@@ -273,7 +273,7 @@ def test_parts_of_an_earlier_nest_stay_where_they_are(
 ) -> None:
     line = f"nest 200x100mm bracket.svg*4 --kerf 1mm --passes 40 -o a.{ending}"
     assert packwork(line).exit_code == 0
-    line = f"nest a.{ending},200x100mm disc.svg*14 --kerf 1mm --passes 300 -o b.{ending}"
+    line = f"nest a.{ending},200x100mm disc.svg*14 --kerf 1mm --passes 40 -o b.{ending}"
     result = packwork(line)
     assert result.exit_code == 0
     assert "its parts go into a DXF as outlines" not in " ".join(result.output.split())
@@ -353,7 +353,6 @@ def test_a_file_that_was_not_written_as_measured_is_not_certified(
     | st.dictionaries(st.sampled_from(["items", "strip_height", "demand", "shape", "id"]), inner),
     max_leaves=20,
 ).map(lambda value: json.dumps(value).encode()))  # fmt: skip
-@settings(deadline=None, max_examples=60)
 def test_any_bytes_are_an_instance_or_refused(data: bytes) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "any.json")

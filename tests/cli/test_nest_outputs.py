@@ -60,7 +60,7 @@ def test_the_table_says_where_each_part_lies(shop: Path, packwork: Command) -> N
 
 
 def test_one_pdf_has_all_sheets_and_a_list_of_parts(shop: Path, packwork: Command) -> None:
-    line = "nest 65x45mm hook.svg*6 =tile.svg*5 --kerf 1mm --passes 400"
+    line = "nest 65x45mm hook.svg*6 =tile.svg*5 --kerf 1mm --passes 40"
     result = packwork(f"{line} -o a.pdf -o a.csv -o a.dxf -o b.pdf")
     assert result.exit_code == 0, result.output
     assert "certified" in result.output

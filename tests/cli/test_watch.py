@@ -25,7 +25,7 @@ def be_deaf():
 with WATCH.listening():
     {before}
     # Said once the call is under way: before it, Ctrl-C is Python's own.
-    threading.Timer(1.0, print, ["ready"], {{"flush": True}}).start()
+    threading.Timer(0.4, print, ["ready"], {{"flush": True}}).start()
     {wait}
 """
 

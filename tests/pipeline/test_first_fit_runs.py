@@ -39,7 +39,7 @@ def test_words_are_put_one_after_another_and_certified() -> None:
     ],
 )
 def test_what_only_the_levels_know_is_left_to_them(options: dict[str, object]) -> None:
-    layout = pw.words("circle", WORDS, **{"effort": "draft", **options})
+    layout = pw.words("circle", WORDS, stop=lambda: True, **{"effort": "draft", **options})
     assert _starts(layout) == "distance-field"
 
 

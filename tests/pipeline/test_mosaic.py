@@ -192,7 +192,7 @@ def test_items_are_small_where_the_picture_has_much_to_show(corner: str) -> None
         ratios = []
         for seed in range(3):
             asked = {**QUICK, "seed": seed, "detail": detail, "picture": corner}
-            layout = pw.fill("square", "star", count=30, **asked)
+            layout = pw.fill("square", "star", count=20, **asked)
             assert layout.manifest["certified"]
             near = np.maximum(layout.poses.x, layout.poses.y) < 0.4 * layout.container.width
             scale = layout.poses.scale

@@ -237,7 +237,7 @@ def test_groups_of_the_same_marks_lie_alike() -> None:
 
 
 def test_time_is_shared_by_the_groups() -> None:
-    done = run("circle", by="kind", size_by="number", epochs=None, effort="best", time=3.0)
+    done = run("circle", by="kind", size_by="number", epochs=None, effort="best", time=1.0)
     assert len(done.layout.items) == 8
     assert done.metrics.exact.is_clean
 

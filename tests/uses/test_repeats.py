@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -14,10 +16,22 @@ WEIGHTS = {"honey": 8.0, "bear": 5.0, "bee": 3.0, "wood": 2.0, "fox": 1.0}
 QUICK = {"effort": "draft", "rotate": "mixed", "seed": 1}
 
 
+@cache
+def repeated(sizes: str) -> pw.Layout:
+    return pw.words(
+        "heart",
+        WEIGHTS,
+        sizes=sizes,
+        repeat="auto",
+        palette="#ff0000",
+        **QUICK,  # type: ignore[arg-type]
+    )
+
+
 @pytest.mark.parametrize("sizes", ["graded", "shared"])
 def test_words_are_repeated_smaller_where_nothing_else_fits(sizes: str) -> None:
     alone = pw.words("heart", WEIGHTS, sizes=sizes, **QUICK)  # type: ignore[arg-type]
-    layout = pw.words("heart", WEIGHTS, sizes=sizes, repeat="auto", **QUICK)  # type: ignore[arg-type]
+    layout = repeated(sizes)
     if sizes == "graded":
         _tells_of_the_words_themselves(layout)
     count = len(WEIGHTS)
@@ -32,7 +46,7 @@ def test_words_are_repeated_smaller_where_nothing_else_fits(sizes: str) -> None:
 
 
 def test_the_words_keep_their_colours_and_copies_are_grey() -> None:
-    layout = pw.words("heart", WEIGHTS, repeat="auto", palette="#ff0000", **QUICK)
+    layout = repeated("graded")
     fills = [item.art.markup.split('fill="')[1].split('"')[0] for item in layout.items]
     assert set(fills[: len(WEIGHTS)]) == {"#ff0000"}
     [grey] = set(fills[len(WEIGHTS) :])

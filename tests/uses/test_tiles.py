@@ -162,7 +162,7 @@ def test_a_container_with_a_shape_is_no_tile() -> None:
 
 
 def test_what_a_tile_has_not_is_said_before_it_is_written(tmp_path: Path) -> None:
-    layout = drafted("square", 3)
+    layout = drafted("square")
     for name, options in (
         ("a.svg", {"cut": "outlines"}),
         ("a.svg", {"flatten": True}),
@@ -175,7 +175,7 @@ def test_what_a_tile_has_not_is_said_before_it_is_written(tmp_path: Path) -> Non
 
 
 def test_a_preview_is_the_tile_side_by_side(tmp_path: Path) -> None:
-    layout = drafted("half-drop", 5)
+    layout = drafted("half-drop")
     layout.save(tmp_path / "one.png", pixels=200)
     layout.save(tmp_path / "nine.png", pixels=600, tiles=3)
     one, nine = (np.array(Image.open(tmp_path / f"{name}.png")) for name in ("one", "nine"))

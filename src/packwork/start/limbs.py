@@ -282,8 +282,16 @@ def _to_the_tips(
 
 def _is_thin(along: FloatArray, half: FloatArray, k: int) -> bool:
     """Whether a point is in a stretch that is long for its width and nowhere much wider."""
-    wide = np.flatnonzero((half > EVEN * half[k]) | (half < half[k] / EVEN))
+    enough = SLENDER * 2 * half[k]
+    # A stretch that goes on for so long on one side alone is long.
+    begin, end = np.searchsorted(along, [along[k] - enough, along[k] + enough])
+    near = half[begin:end]
+    wide = begin + np.flatnonzero((near > EVEN * half[k]) | (near < half[k] / EVEN))
     after = int(np.searchsorted(wide, k))
-    first = along[wide[after - 1]] if after else along[0] - half[k]
-    last = along[wide[after]] if after < len(wide) else along[-1] + half[k]
-    return bool(last - first >= SLENDER * 2 * half[k])
+    first = along[wide[after - 1]] if after else along[begin] - (half[k] if begin == 0 else enough)
+    last = (
+        along[wide[after]]
+        if after < len(wide)
+        else along[end - 1] + (half[k] if end == len(half) else enough)
+    )
+    return bool(last - first >= enough)
