@@ -9,7 +9,6 @@ import pytest
 
 import packwork as pw
 from packwork.live.face.templates import WORDS
-from packwork.live.refilling import covered
 from packwork.live.relayout import poured_again
 
 NAMES = ["bear", "fox", "owl", "snail", "ant", "tiger", "panther", "crow", "elk", "bee"]
@@ -36,7 +35,7 @@ def test_the_largest_word_is_where_it_was_put_and_the_cloud_is_full(
     assert is_there or "there is no room for it" in " ".join(session.unmet)
     assert np.hypot(after.poses.x[k] - x, after.poses.y[k] - y) < 60
     assert np.ptp(after.poses.scale / before.poses.scale) < 1e-9
-    assert covered(after) > covered(before) - 0.08
+    assert after.covered > before.covered - 0.08
     assert session.undo()
     assert session.document is before
 
@@ -64,7 +63,7 @@ def test_a_word_that_is_to_be_larger_than_the_cloud_is_as_large_as_there_is_room
     (said,) = session.unmet
     assert "not 9 times: there is no room for more" in said
     assert session.document.poses.scale[k] > before.poses.scale[k]
-    assert covered(session.document) > 0.5 * covered(before)
+    assert session.document.covered > 0.5 * before.covered
 
 
 def test_a_cloud_whose_sizes_give_way_is_as_full_poured_anew_or_in_another_font() -> None:
@@ -74,8 +73,8 @@ def test_a_cloud_whose_sizes_give_way_is_as_full_poured_anew_or_in_another_font(
     session.apply(poured_again(session.document, 1))
     assert session.finish().certified
     assert (session.document.poses.x != layout.poses.x).any()
-    assert covered(session.document) > 0.9 * covered(layout.edit().document)
+    assert session.document.covered > 0.9 * layout.edit().document.covered
     session.words(words, font="DejaVu Serif")
     assert session.finish().certified
     fresh = pw.words("bird", words, font="DejaVu Serif", effort="draft")
-    assert covered(session.document) > 0.9 * covered(fresh.edit().document)
+    assert session.document.covered > 0.9 * fresh.edit().document.covered

@@ -224,6 +224,11 @@ class Document:
         """``(n,)`` areas of the items as large as they lie, squared canvas units."""
         return self.own_areas * self.poses.scale**2
 
+    @property
+    def covered(self) -> float:
+        """Share of the container that items cover."""
+        return float(self.areas.sum()) / self.container.outline.area
+
     def forces(self, rows: IntArray) -> Forces:
         """Forces on some items."""
         texts = self.options.force

@@ -11,6 +11,7 @@ import numpy as np
 
 from packwork.live.commands.command import Command
 from packwork.live.document import Document
+from packwork.live.neighbourhood.allowance import Ranges, widened
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track, track_of
 
@@ -96,6 +97,12 @@ class Marks:
         Put somewhere or turned by hand since the last settle but one: polish leaves it as it is.
     unpolished
         Settled, yet not polished.
+    edited
+        Of what is touched, what commands have changed themselves.
+    ranges
+        Scales between which others may vary that edits have reached, until all is polished.
+    full
+        Share of the container that was covered at most before gestures; 0 if that is unknown.
     polished
         How many times polish was called: the seed of what it tries.
     tried
@@ -109,6 +116,9 @@ class Marks:
     turned_by_hand: set[int] = field(default_factory=set)
     recent: set[int] = field(default_factory=set)
     unpolished: set[int] = field(default_factory=set)
+    edited: set[int] = field(default_factory=set)
+    ranges: Ranges = field(default_factory=dict)
+    full: float = 0.0
     polished: int = 0
     tried: int = 0
 
@@ -126,14 +136,24 @@ class Marks:
         put |= {one for step in steps for one in step.keeps_places}
         return after if put == after.put else replace(after, put=put)
 
-    def settled(self) -> None:
-        """Forget what was to be settled."""
-        for kept in (self.touched, self.placed_by_user, self.turned, self.vacated):
+    def begin(self, base: Document) -> None:
+        """Note that a gesture begins unless one has: ``base`` is as full as is to be kept."""
+        if not self.touched:
+            self.recent.clear()
+            self.full = max(self.full, base.covered)
+
+    def settled(self, document: Document) -> None:
+        """Forget what was to be settled; what was edited is as large as it came to be, about."""
+        others = {n: one for n, one in self.ranges.items() if n not in self.edited}
+        rings = np.where(np.isin(document.ids, list(self.edited)), 1, -1)
+        self.ranges = widened(others, document, document, rings)
+        for kept in (self.touched, self.placed_by_user, self.turned, self.vacated, self.edited):
             kept.clear()
 
     def leapt(self) -> None:
         """Forget all items: the document is another one."""
         self.keep(set())
+        self.full = 0.0
 
     def keep(self, present: set[int]) -> None:
         """Forget items that are no more."""
@@ -141,6 +161,7 @@ class Marks:
             value = getattr(self, column.name)
             if isinstance(value, set):
                 value &= present
+        self.ranges = {number: one for number, one in self.ranges.items() if number in present}
 
 
 @dataclass(frozen=True)

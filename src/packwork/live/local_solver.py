@@ -12,13 +12,14 @@ from packwork.live.certificate import Certificate, Settlement, beyond
 from packwork.live.document import PROPERTIES, Change, Document, Invalidation, differing
 from packwork.live.history import Frames, Marks, SessionState
 from packwork.live.mosaic import coloured
+from packwork.live.neighbourhood.allowance import widened, within
 from packwork.live.neighbourhood.caches import LevelCache, ShapeCache
 from packwork.live.neighbourhood.contacts import RINGS
 from packwork.live.neighbourhood.fall import fallen
 from packwork.live.neighbourhood.flow import LINGER, Flow
 from packwork.live.neighbourhood.places import brought_inside
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
-from packwork.live.nested_again import separated, ways_apart
+from packwork.live.nested_again import taken_apart
 from packwork.live.refilling import is_other_cloud, refilled, sent_back, taken_back
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop
@@ -31,6 +32,13 @@ were. More lose more coverage, fewer leave less room for what was dropped. Tried
 
 ENOUGH = 6
 """Turns for each item that gestures have touched after which no more are tried. Chosen."""
+
+MOST_LOST = 0.012
+"""Share of the container by which less may be covered then, or turns go on and sizes vary farther.
+Larger empties what is edited often, smaller changes more about an edit. Tried."""
+
+STAGES = 3
+"""Times that turns are tried then at most, sizes varying farther each time. Chosen."""
 
 
 class LocalSolver:
@@ -125,8 +133,10 @@ class LocalSolver:
         if change.stale <= Invalidation.RULES:
             flow.set_rules(after, self._strict(after))
             return
-        if not self.marks.touched:
-            self.marks.recent.clear()
+        self.marks.begin(self.base)
+        if len(change.items) >= len(after):
+            # What changes all items is to cover what it says.
+            self.marks.full = 0.0
         if change.stale == Invalidation.POSES:
             self._take_poses(before.poses, after)
             return
@@ -135,10 +145,13 @@ class LocalSolver:
         if len(gone) and change.stale == Invalidation.ITEMS:
             rows = np.array([before.index(int(k)) for k in gone], dtype=np.int64)
             beside = set(before.ids[flow.contacts.beside(rows)].tolist())
+            self._allow(rows)
         flow.turn_to(after, self._strict(after))
         present = set(after.ids.tolist())
         self.marks.placed_by_user &= present
-        self.marks.touched = (self.marks.touched | beside | set(change.items.tolist())) & present
+        edited = set(change.items.tolist())
+        self.marks.touched = (self.marks.touched | beside | edited) & present
+        self.marks.edited = (self.marks.edited | edited) & present
         flow.activate(self._rows(self.marks.touched))
         self._hold()
         self.film()
@@ -153,8 +166,10 @@ class LocalSolver:
         marks.turned_by_hand |= set(numbers[turned].tolist())
         marks.recent |= set(numbers[moved | turned].tolist())
         new = np.flatnonzero(changed & ~np.isin(numbers, list(marks.touched)))
-        marks.vacated |= set(numbers[flow.contacts.rings(new, RINGS) >= 0].tolist())
+        if len(new):
+            marks.vacated |= set(numbers[self._allow(new) >= 0].tolist())
         marks.touched |= set(numbers[changed].tolist())
+        marks.edited |= set(numbers[changed].tolist())
         flow.set_rules(after, self._strict(after))
         kept = marks.placed_by_user | set(numbers[changed].tolist()) | set(self.grabbed)
         flow.make_way(self._rows(kept))
@@ -176,9 +191,11 @@ class LocalSolver:
             self.take(home.document)
         near, wrong = self._put_back(), self.violations
         # What is in conflict is touched, whenever that came about.
-        self.marks.touched |= beyond(wrong, near)
+        in_conflict = beyond(wrong, near)
+        self.marks.touched |= in_conflict
         if self.marks.touched and not stop():
             self._flow.begin()
+            self._allow(self._rows(self.marks.edited | in_conflict))
             self.news = (home.message,) if home else ()
             self._finish_touched(near, len(wrong), stop)
         if self.document.options.force and self.document is not self.base and not stop():
@@ -198,7 +215,7 @@ class LocalSolver:
         if shown is not self.document:
             self._turn_to(shown)
         self.base = self.document
-        self.marks.settled()
+        self.marks.settled(self.base)
         self.film()
 
     def restart(self, document: Document, marks: Marks) -> None:
@@ -230,17 +247,17 @@ class LocalSolver:
         return bool(self.marks.unpolished) and not is_busy
 
     def polish(self, trials: int, stop: Stop) -> int | None:
-        """Try turns of what was touched and those around it; how many have moved, or None."""
+        """Try turns of what edits have reached; how many have moved, or None."""
         marks, before = self.marks, self.document
         if trials < 1 or not self.is_rough:
             return None
         self._flow.begin(self._strict(before))
-        # What was put somewhere last stays there.
-        around = self._flow.contacts.rings(self._rows(marks.unpolished), RINGS) >= 0
-        rows = np.setdiff1d(np.flatnonzero(around), self._rows(marks.recent))
+        # What was put somewhere last stays there, and what no edit has reached.
+        rows = self._rows(set(marks.ranges) - marks.recent)
         held = before.held.copy()
         held[self._rows(marks.turned_by_hand), PROPERTIES.index("angle")] = True
-        strict = replace(before, held=held)
+        most = max(ENOUGH * len(rows), 1)
+        strict = within(replace(before, held=held), marks.ranges, stage=marks.tried // most)
         poses, is_clean = polish(strict, rows, trials, marks.polished + 1, self.shapes, stop)
         if stop():
             return None
@@ -250,8 +267,9 @@ class LocalSolver:
         self.base = now if is_clean else self.base
         self._turn_to(now)
         marks.tried += trials
-        if marks.tried >= ENOUGH * len(rows):
-            marks.unpolished, marks.tried = set(), 0
+        is_full = now.covered >= marks.full - MOST_LOST
+        if marks.tried >= most * (1 if is_full else STAGES):
+            marks.unpolished, marks.ranges, marks.tried = set(), {}, 0
         self.film()
         return int(differing(before.poses, now.poses).sum())
 
@@ -277,8 +295,12 @@ class LocalSolver:
     def _finish_touched(self, near: set[int], wrong: int, stop: Stop) -> None:
         """Finish what was touched near where it is; else pour all anew, or make all smaller."""
         self._bring_inside()
-        if self.document.kind.has_parts and self._separate(stop):
-            return
+        if self.document.kind.has_parts:
+            by_hand = self.marks.placed_by_user | self.marks.turned_by_hand
+            apart = taken_apart(self.document, self.base, by_hand, self._certificate, stop)
+            if apart is not None:
+                self._turn_to(apart)
+                return
         asked = self.document
         if not (is_other_cloud(self.base, asked) and self._refill(asked, stop)):
             strict = self._make_room(near)
@@ -294,33 +316,6 @@ class LocalSolver:
         if self._frames is not None:
             self._frames.keep(document)
         self.on_fall(document)
-
-    def _separate(self, stop: Stop) -> bool:
-        """Take apart parts of true size: from where all others lay before they gave way.
-
-        Those that the hand has put somewhere stay there if they can, and so do others that
-        nothing overlaps then.
-        """
-        now, base, marks = self.document, self.base, self.marks
-        by_hand = marks.placed_by_user | marks.turned_by_hand
-        _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
-        back = ~np.isin(now.ids[rows], list(by_hand))
-        poses = now.poses.with_some(rows[back], base.poses.subset(theirs[back]))
-        wrong = self._certificate.violations(now.with_poses(poses))
-        if not wrong:
-            self._turn_to(now.with_poses(poses))
-            return True
-        placed = np.isin(now.ids, list(by_hand))
-        met = [k for one in wrong for k in (one.item, one.other) if k is not None]
-        clear = ~np.isin(now.ids, met)
-        for start, still, near in ways_apart(now, poses, placed, clear):
-            found = separated(now.with_poses(start), still, stop, near)
-            if found is not None and not self._certificate.in_the_way(now.with_poses(found)):
-                self._turn_to(now.with_poses(found))
-                return True
-            if stop():
-                break
-        return False
 
     def _bring_inside(self) -> None:
         """Put what the hand has put where it sticks out to the nearest place, at its size.
@@ -345,7 +340,13 @@ class LocalSolver:
         flow.hold(self._rows(marks.placed_by_user))
         flow.raise_overlap_weight(LINGER, self._rows(near | marks.touched))
         self.film()
-        return replace(self.document, held=held)
+        return within(replace(self.document, held=held), marks.ranges, marks.edited)
+
+    def _allow(self, sources: IntArray) -> IntArray:
+        """Let sizes vary about some items, ``(m,)`` rows; rings from these."""
+        rings = self._flow.contacts.rings(sources, RINGS)
+        self.marks.ranges = widened(self.marks.ranges, self.document, self.base, rings)
+        return rings
 
     def _settle(self, strict: Document, stop: Stop) -> bool:
         """Finish what was touched; whether that could be without what is far from it."""

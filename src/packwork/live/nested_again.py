@@ -14,6 +14,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
 from packwork.geometry.overlay import buffered, difference, intersection, polygon_parts
 from packwork.geometry.polygon import Region
+from packwork.live.certificate import Certificate
 from packwork.live.commands.command import made
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import PROPERTIES, Document
@@ -40,6 +41,32 @@ SECONDS = 6.0
 REACHES = (1.0, 2.0)
 """How far about parts that overlap room is looked for first, in sides of a square as large as the
 largest of them. Larger leaves fewer layouts to be laid anew, smaller keeps parts nearer. Tried."""
+
+
+def taken_apart(
+    now: Document, base: Document, by_hand: set[int], certificate: Certificate, stop: Stop
+) -> Document | None:
+    """Parts of true size apart, from where all others lay before they gave way; None if they stay.
+
+    Those that the hand has put somewhere stay there if they can, and so do others that nothing
+    overlaps then.
+    """
+    _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
+    back = ~np.isin(now.ids[rows], list(by_hand))
+    poses = now.poses.with_some(rows[back], base.poses.subset(theirs[back]))
+    wrong = certificate.violations(now.with_poses(poses))
+    if not wrong:
+        return now.with_poses(poses)
+    placed = np.isin(now.ids, list(by_hand))
+    met = [k for one in wrong for k in (one.item, one.other) if k is not None]
+    clear = ~np.isin(now.ids, met)
+    for start, still, near in ways_apart(now, poses, placed, clear):
+        found = separated(now.with_poses(start), still, stop, near)
+        if found is not None and not certificate.in_the_way(now.with_poses(found)):
+            return now.with_poses(found)
+        if stop():
+            break
+    return None
 
 
 def ways_apart(

@@ -79,7 +79,7 @@ def refilled(
     if asked.options.sizes != "shared" or asked.kind.refusal or not (len(by_hand) or is_other):
         return None
     was_wrong = bool(Certificate().violations(settled))
-    is_fuller = covered(settled) >= covered(before) - MOST_LOST and not was_wrong
+    is_fuller = settled.covered >= before.covered - MOST_LOST and not was_wrong
     if is_fuller and not is_other_cloud(before, asked):
         return None
     held = asked.held.copy()
@@ -101,10 +101,10 @@ def refilled(
             break
     else:
         return None
-    if not was_wrong and covered(poured) <= covered(settled) + MOST_LOST:
+    if not was_wrong and poured.covered <= settled.covered + MOST_LOST:
         return None
     what = "words" if word_rows(asked) else "items"
-    share = f"{100 * covered(poured):.0f} % of the container"
+    share = f"{100 * poured.covered:.0f} % of the container"
     message = f"the {what} were poured anew, for they would not fill it else: {share}"
     return Refilled(kept, message)
 
@@ -136,7 +136,7 @@ def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled |
         columns = {name: getattr(before, name) for name in OF_ITEMS}
         message = f"taken back, for {elsewhere}"
         return Refilled(replace(now, **columns), message) if elsewhere else None
-    share = [100 * covered(one) for one in (before, now)]
+    share = [100 * one.covered for one in (before, now)]
     least = 1 - ROUNDING if now.kind.refusal else (share[0] - 100 * MOST_RUINED) / share[0]
     if share[1] >= share[0] * least and not (has_no_room or elsewhere):
         return None
@@ -166,11 +166,6 @@ def _advice_on_shape(document: Document) -> tuple[str, ...]:
         return () if found is None else (str(found),)
     except PackworkError:
         return ()
-
-
-def covered(document: Document) -> float:
-    """Share of the container that items cover."""
-    return float(document.areas.sum()) / document.container.outline.area
 
 
 def _has_others(before: Document, now: Document) -> bool:

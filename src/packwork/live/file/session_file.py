@@ -35,6 +35,7 @@ from packwork.scene.item import Item
 _LOG = logging.getLogger("packwork")
 
 _Path = Annotated[str, Field(pattern=r"^(items|containers)/[0-9a-f]{64}\.json$")]
+_Scale = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 _Ids = tuple[Annotated[int, Field(ge=0)], ...]
 
 
@@ -55,6 +56,9 @@ class MarksRecord(Options):
     by_hand: _Ids = ()
     lately: _Ids = ()
     rough: _Ids = ()
+    edited: _Ids = ()
+    ranges: dict[Annotated[int, Field(ge=0)], tuple[_Scale, _Scale]] = Field(default_factory=dict)
+    full: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
     polished: Annotated[int, Field(ge=0, le=2**53)] = 0
     tried: Annotated[int, Field(ge=0, le=2**53)] = 0
 

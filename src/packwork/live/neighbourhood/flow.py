@@ -16,6 +16,7 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.document import Document
+from packwork.live.neighbourhood.allowance import ranges
 from packwork.live.neighbourhood.caches import LevelCache
 from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.raster.coverage import Rasteriser
@@ -129,6 +130,7 @@ class Flow:
     def _reset(self, held: BoolArray) -> None:
         count, document = len(self.document), self.document
         self._strict = held
+        self._scale = document.poses.scale
         self._left = np.zeros(count, dtype=np.int64)
         self._given: IntArray = np.zeros(0, dtype=np.int64)
         self._active: IntArray = np.zeros(0, dtype=np.int64)
@@ -363,18 +365,17 @@ class Flow:
         some = document.poses.subset(active)
         free = Limits.free(count)
         turns = document.options.rotation.farthest
+        bounds = document.smallest[active], document.largest[active]
+        smallest, largest = ranges(self._scale[active], self._ring[active])
+        smallest, largest = np.clip(smallest, *bounds), np.clip(largest, *bounds)
         return replace(
             free,
             x=np.where(held[:, 0], some.x, np.nan),
             y=np.where(held[:, 0], some.y, np.nan),
             angle=np.where(held[:, 1], some.angle, np.nan),
             turn_limit=np.where(held[:, 1], np.inf, np.maximum(turns, np.abs(some.angle))),
-            smallest=np.where(
-                held[:, 2], some.scale, np.minimum(document.smallest[active], some.scale)
-            ),
-            largest=np.where(
-                held[:, 2], some.scale, np.maximum(document.largest[active], some.scale)
-            ),
+            smallest=np.where(held[:, 2], some.scale, np.minimum(smallest, some.scale)),
+            largest=np.where(held[:, 2], some.scale, np.maximum(largest, some.scale)),
         )
 
     def _options(self) -> SolveOptions:
