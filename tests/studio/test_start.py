@@ -24,7 +24,7 @@ def test_a_desk_without_inputs_offers_templates(open_desk: Callable[..., Desk]) 
     desk = open_desk()
     dialog = desk.page.locator("dialog.start[open]")
     dialog.wait_for()
-    assert dialog.locator("img[src*=templates]").count() == 10
+    assert dialog.locator("img[src*=templates]").count() == 11
     desk.until("[...document.querySelectorAll('dialog.start img')].every(one => one.naturalWidth)")
     desk.picture("start")
     dialog.get_by_role("button", name="Parts on a sheet").click()

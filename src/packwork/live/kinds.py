@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Literal, TypeAlias, final
+from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
@@ -14,11 +14,15 @@ from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.options import SizeMode
+from packwork.readers.words.options import Along
 from packwork.recipe.piles import PileOptions, parse_emitter
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 
-KindName: TypeAlias = Literal["collage", "nest", "chart", "pile", "tile"]
+KindName: TypeAlias = Literal["collage", "nest", "chart", "pile", "tile", "lines"]
+
+LineWay: TypeAlias = Along
+"""Lines of a container that words follow, as pages ask for them."""
 
 
 @dataclass(frozen=True)
@@ -192,6 +196,40 @@ class PileKind(Kind):
 
 @final
 @dataclass(frozen=True)
+class LineKind(Kind):
+    """Words that follow lines, set anew after each change.
+
+    ``along``, ``ring`` and ``palette`` as options of words have them.
+    """
+
+    name = "lines"
+    refusal = "words on lines are as large as these have room for; change how often they are there"
+    shows_shape = False
+
+    along: Along | None = None
+    ring: tuple[str, ...] = ()
+    palette: str | None = None
+
+    @classmethod
+    def stated_in(cls, said: Mapping[str, Any]) -> LineKind | None:
+        """Kind of words that a manifest, which may hold anything, says; None of those on no lines.
+
+        Examples
+        --------
+        >>> LineKind.stated_in({"ring": ["CIDER", 3]}), LineKind.stated_in({"along": "x"})
+        (LineKind(own_angles=frozenset(), along=None, ring=('CIDER',), palette=None), None)
+        """
+        along, ring, palette = (said.get(name) for name in ("along", "ring", "palette"))
+        listed = ring if isinstance(ring, list | tuple) else ()
+        texts = tuple(one for one in listed if isinstance(one, str))[:2]
+        known = along if along in get_args(Along) else None
+        if known is None and not texts:
+            return None
+        return cls(along=known, ring=texts, palette=palette if isinstance(palette, str) else None)
+
+
+@final
+@dataclass(frozen=True)
 class TileKind(Kind):
     """Items on a canvas that repeats without a seam."""
 
@@ -227,7 +265,15 @@ def kind_of(
         return ChartKind()
     if isinstance(recipe, Mapping) and isinstance(heaped := recipe.get("pile"), Mapping):
         return PileKind.stated_in(heaped)
-    return COLLAGE
+    said = manifest.get("lines") if "lines" in manifest else _words_of(recipe)
+    return (LineKind.stated_in(said) if isinstance(said, Mapping) else None) or COLLAGE
+
+
+def _words_of(recipe: object) -> object:
+    """What a recipe, which may be anything, says of words, and their palette."""
+    if not isinstance(recipe, Mapping) or not isinstance(said := recipe.get("words"), Mapping):
+        return None
+    return {**said, "palette": recipe.get("palette")}
 
 
 def _numbers(said: object) -> frozenset[int]:

@@ -173,7 +173,7 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
     yield from weighed(session, zip(new, weights, strict=True))
     if gone:
         yield made(Remove, items=tuple(int(document.ids[k]) for k in gone))
-    left_out = _left_out(document, gone, set(now))
+    left_out = left_out_of(document, gone, set(now))
     if left_out != document.left_out:
         yield made(LeaveOut, words=left_out)
 
@@ -270,7 +270,7 @@ def _part_labels(document: Document) -> list[int]:
     return [k for k, one in enumerate(document.items) if one.source.startswith(PART_LABEL)]
 
 
-def _left_out(document: Document, gone: Sequence[int], now: set[str]) -> dict[str, float]:
+def left_out_of(document: Document, gone: Sequence[int], now: set[str]) -> dict[str, float]:
     """Words left out with how often they were there; none where there are others than before."""
     before, words = document.left_out, [item.name for item in document.items]
     if not now <= {*before, *words}:

@@ -16,16 +16,13 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, valid
 from packwork.live.certificate import promise_of
 from packwork.live.chart_groups import poured_by_group
-from packwork.live.commands.command import Command, Library, made, named_container, named_item
-from packwork.live.commands.container import SetContainer, SetOption
-from packwork.live.commands.items import Add, Remove
+from packwork.live.commands.command import made
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.kinds import PileKind
+from packwork.live.kinds import LineKind, PileKind
 from packwork.live.macros import word_rows
 from packwork.live.mosaic import Mosaic
 from packwork.live.nested_again import nested_again
-from packwork.live.options import LiveOptions
 from packwork.pipeline import run
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules, RuleSource
@@ -63,6 +60,8 @@ def poured_again(
     ``asked``: where items are to lie, as recipes say it: ``arrange``, or ``embeddings`` with
     ``anchors``.
     """
+    if isinstance(document.kind, LineKind):
+        raise RecipeError("pour", "words on lines have one layout; change words, weights or lines")
     if document.kind.has_parts:
         return _nested(document, seed, shown, stop, asked)
     if isinstance(document.kind, PileKind):
@@ -233,7 +232,7 @@ def arranged(numbers: Sequence[int], poses: Poses) -> Arrange:
     return made(Arrange, items=tuple(numbers), poses=[tuple(pose) for pose in asked])
 
 
-def _ground_of(document: Document) -> dict[str, Any]:
+def ground_of(document: Document) -> dict[str, Any]:
     """Canvas of a document, and the way in which it repeats, as recipes have them."""
     container = document.container
     size = f"{container.width:.17g}x{container.height:.17g}{container.unit}"
@@ -247,7 +246,7 @@ def _recipe(document: Document, seed: int, asked: Mapping[str, Any]) -> Recipe:
         items=["circle"],
         effort="draft",
         seed=seed,
-        **_ground_of(document),
+        **ground_of(document),
         padding=f"{options.padding:.17g}{document.container.unit}",
         sizes=options.sizes,
         size_ratio=options.size_ratio,
@@ -338,63 +337,3 @@ def poured(
 ) -> Layout:
     """Layout of a recipe, every moment of its run shown; in a container in place of its own."""
     return run_shown(uses.read(recipe, None, container), shown, stop)[0]
-
-
-def poured_into(
-    document: Document,
-    use: str,
-    source: str,
-    options: Mapping[str, Any],
-    shown: Shown,
-    stop: Stop = never,
-) -> Layout:
-    """Other items in the container of a document: a run of their own.
-
-    Parameters
-    ----------
-    use
-        ``items``, ``words`` or ``photos``.
-    source
-        Of them: a folder or a bundled name, or the file of a text or a table.
-    options
-        ``count``, items in all, and of words ``font`` and ``palette``; what is None the use
-        decides by itself.
-    """
-    given: dict[str, Any] = {"effort": "draft", **_ground_of(document)}
-    given |= {name: value for name, value in options.items() if value is not None}
-    if use == "words":
-        recipe = uses.words_recipe("page", source, **given)
-    elif use == "photos":
-        recipe = uses.photos_recipe("page", [source], **given)
-    else:
-        recipe = make_recipe(container="page", items=[source], **given)
-    return run_shown(uses.read(recipe, None, document.container.sheet), shown, stop)[0]
-
-
-def in_place(document: Document, library: Library, layout: Layout) -> list[Command]:
-    """Commands after which the items of a layout are there, and none of those before."""
-    options = LiveOptions.from_manifest(layout.manifest)
-    poses, container = layout.poses, layout.container
-    kept = ("padding", "sizes", "size_ratio", "rotate")
-    asked = [
-        made(SetOption, name=name, value=getattr(options, name))
-        for name in kept
-        if getattr(options, name) != getattr(document.options, name)
-    ]
-    brought = [
-        made(
-            Add,
-            asset=named_item(library, replace(item, weight=float(weight))),
-            x=float(poses.x[k]),
-            y=float(poses.y[k]),
-            area=item.outline.area * float(poses.scale[k]) ** 2,
-            angle=math.degrees(poses.angle[k]),
-        )
-        for k, (item, weight) in enumerate(zip(layout.items, layout.weights, strict=True))
-    ]
-    other = (
-        []
-        if container is document.container
-        else [made(SetContainer, asset=named_container(library, container))]
-    )
-    return [*other, *brought, made(Remove, items=tuple(document.ids.tolist())), *asked]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from packwork.studio.tab import Tab
 
 Template: TypeAlias = Literal[
-    "icons", "letters", "words", "names", "paper", "jar", "nest", "photos", "mosaic"
+    "icons", "letters", "words", "names", "badge", "paper", "jar", "nest", "photos", "mosaic"
 ]
 Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
 Font: TypeAlias = Annotated[str, Field(max_length=200)]

@@ -21,12 +21,12 @@ from packwork.live.face.offers import TileWay, container_of, items_of, labels_of
 from packwork.live.face.opening import opening_sent
 from packwork.live.macros import brought, labelled, labels_in
 from packwork.live.owner import Leap
-from packwork.live.relayout import BY_TEXT
 from packwork.live.session import Session
 from packwork.scene.container import Container, on_canvas, tiled
 from packwork.studio.clipboard import Copy, Paste
 from packwork.studio.documents import Begin, BeginChart, Font, Name, Open, PageRequest
 from packwork.studio.files import FILES
+from packwork.studio.filling import Alike, Fill, Lines, Order, Words
 from packwork.studio.pictures import Mix, Picture
 from packwork.studio.wire import SAID
 from packwork.units import canvas_size
@@ -50,7 +50,14 @@ PAGE = "page"
 
 Count32: TypeAlias = Annotated[int, Field(ge=0, lt=2**32)]
 Place: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
-Weight: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+
+
+OF_THE_HAND = frozenset(
+    {"grab", "move", "turn", "scale", "exchange", "align", "distribute", "duplicate", "flip"}
+)
+"""Commands that put items somewhere."""
+
+STAYS = "words on lines lie where these have room for them; change the words, or the lines"
 
 
 class Do(PageRequest):
@@ -62,7 +69,11 @@ class Do(PageRequest):
     command: AnyCommand
 
     def act(self, tab: Tab) -> None:
-        """Post it."""
+        """Post it; what would move words that lines place is refused."""
+        shown = tab.workspace.shown
+        is_on_lines = shown is not None and shown.view.kind.name == "lines"
+        if is_on_lines and any(step.kind in OF_THE_HAND for step in self.command.steps):
+            raise PackworkError(STAYS)
         tab.post(self.command, self.n)
 
 
@@ -240,86 +251,6 @@ class OutlineMessage(PageRequest):
         tab.workspace.pour(0, lambda _: [made(DrawContainer, line=self.line)])
 
 
-class Fill(PageRequest):
-    """Fill the container with other items, all of those there taken away."""
-
-    type: Literal["fill"] = "fill"
-    use: Literal["items", "words", "photos"]
-    source: Name
-    count: Annotated[int, Field(ge=1, le=2_000)] | None = None
-    font: Font | None = None
-    """Of words, as of a container."""
-    palette: Annotated[str, Field(max_length=200)] | None = None
-    """Of words."""
-    without: Annotated[tuple[Name, ...], Field(max_length=500)] = ()
-    """Words of a text that are left out."""
-
-    def act(self, tab: Tab) -> None:
-        """Have a run of what is read."""
-        tab.importer.read(partial(self._fill, tab), "Pouring")
-
-    def _fill(self, tab: Tab) -> None:
-        importer, options = tab.importer, dict[str, Any](count=self.count)
-        source = importer.source(self.source)
-        if self.use == "words":
-            source = importer.file(self.source) if self.source.startswith(FILES) else source
-            options |= {"font": importer.font(self.font), "palette": self.palette}
-            # One list, with a comma at the end: none of its words is taken for a file.
-            options["stopwords"] = ",".join((*self.without, "")) if self.without else None
-        tab.workspace.fill(self.use, source, options)
-
-
-class Order(PageRequest):
-    """Put all anew in an order along a way; no measure of a file, which a page cannot name."""
-
-    type: Literal["order"] = "order"
-    way: Literal["right", "left", "down", "up", "outwards", "inwards", "around", "along"]
-    by: Literal["weight", "hue", "lightness", "name"]
-
-    def act(self, tab: Tab) -> None:
-        """Have a run."""
-        asked = {"arrange": f"{self.way} by={self.by}"}
-        tab.importer.read(lambda: tab.workspace.pour_now(asked), "Pouring")
-
-
-class Alike(PageRequest):
-    """Put all anew, like items side by side, by vectors in a file that was sent before."""
-
-    type: Literal["alike"] = "alike"
-    source: Name
-    """The file, or ``auto``: of words, by their text."""
-
-    def act(self, tab: Tab) -> None:
-        """Have a run."""
-
-        def read() -> None:
-            source = self.source if self.source == BY_TEXT else tab.importer.file(self.source)
-            tab.workspace.pour_now({"embeddings": source})
-
-        tab.importer.read(read, "Pouring")
-
-
-class Words(PageRequest):
-    """Have these words with these weights; those that stay keep their places."""
-
-    type: Literal["words"] = "words"
-    words: Annotated[tuple[tuple[Name, Weight], ...], Field(min_length=1, max_length=2_000)]
-    font: Font | None = None
-
-    def act(self, tab: Tab) -> None:
-        """Set them, and change those that are others."""
-
-        def read() -> None:
-            font = tab.importer.font(self.font)
-            options = {} if font is None else {"fonts": [font]}
-            words = dict(self.words)
-            tab.workspace.change(
-                lambda session: edits.words(session, words, **options), "Setting words"
-            )
-
-        tab.importer.read(read, "Setting words")
-
-
 class More(PageRequest):
     """Try the same items from other first places, beside what there is."""
 
@@ -344,7 +275,8 @@ class Set(PageRequest):
 
 Told: TypeAlias = Annotated[
     Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Open | Begin | BeginChart | Swap | Room
-    | OutlineMessage | Fill | Mix | Copy | Paste | Picture | Order | Alike | Words | More | Set,
+    | OutlineMessage | Fill | Mix | Copy | Paste | Picture | Order | Alike | Words | Lines
+    | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

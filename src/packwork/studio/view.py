@@ -20,7 +20,7 @@ from packwork.live.document import (
 )
 from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, font_told, path_of
 from packwork.live.ground import gradient_text, underlays
-from packwork.live.kinds import COLLAGE, Kind
+from packwork.live.kinds import COLLAGE, Kind, LineKind
 from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
 from packwork.live.relayout import Moment
@@ -145,6 +145,16 @@ class View:
         return float(np.mean([self.mosaic.tint_of(item) for item in self.items]))
 
     @property
+    def rings(self) -> tuple[str, ...]:
+        """Texts round the edge of the container."""
+        return self.kind.ring if isinstance(self.kind, LineKind) else ()
+
+    def is_on_line(self, item: Item) -> bool:
+        """Whether an item is a word that follows a line, and no text of a ring."""
+        is_text = item.text is not None and item.name not in self.rings
+        return is_text and isinstance(self.kind, LineKind)
+
+    @property
     def numbers(self) -> FloatArray:
         """``(n, 4)`` x, y, angle and scale of each item."""
         if self.poses is None:
@@ -224,6 +234,8 @@ class Scenes:
             halos=view.halos,
             rim=view.rim,
             repeat=_repeat_of(container),
+            along=view.kind.along if isinstance(view.kind, LineKind) else None,
+            ring=view.rings,
             under=self._underlays(view),
         )
         # The scene before may still be on its way; of what was wanted longer ago little is kept.
@@ -245,7 +257,7 @@ class Scenes:
             weight=float(view.weights[k]),
             stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
             count=counted_weight(item),
-            is_word=is_straight_word(item),
+            is_word=is_straight_word(item) or view.is_on_line(item),
             held=(place, angle, size),
             halo=item.halo,
             crop=None if item.parts is not None else _crop_of(item.art),

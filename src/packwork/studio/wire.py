@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 
 from packwork.live.commands.placing import Arrange
-from packwork.live.kinds import KindName
+from packwork.live.kinds import KindName, LineWay
 
 HEAD = struct.Struct("<4I")
 """Of a frame: its number, the version of the scene it is of, the newest command of this page that
@@ -127,6 +127,10 @@ class Scene(Message):
     """Share of the colours of the picture shown that items take on; None without one."""
     halos: str = ""
     """Items that were asked to have halos, or that have some in a file; empty for none."""
+    along: LineWay | None = None
+    """Lines that words follow."""
+    ring: tuple[str, ...] = ()
+    """Texts round the edge of the container, of words that follow lines."""
     repeat: tuple[float, float, float] | None = None
     """Of a seamless tile the width and height of its cell, and the drop of each column of them."""
     rim: float = 0.0

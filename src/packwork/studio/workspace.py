@@ -24,10 +24,12 @@ from packwork.errors import PackworkError
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Cancel, Drop, Grab
 from packwork.live.commands.together import Together
+from packwork.live.face.lines import put_anew
 from packwork.live.face.opening import Keeper, Opening, begun_with, kept_in
 from packwork.live.macros import prepared
+from packwork.live.other_items import in_place, poured_into
 from packwork.live.owner import WINNING_BACK, Frame, Leap, Owner
-from packwork.live.relayout import Moment, in_place, poured_again, poured_into
+from packwork.live.relayout import Moment, poured_again
 from packwork.live.session import Session
 from packwork.studio.clipboard import Clipboard
 from packwork.studio.kept_workspaces import Shelf
@@ -240,7 +242,7 @@ class Workspace:
             pour = partial(self._pour, self.owner, seed, make, keeps_hand=keeps_hand)
             self.work("Pouring", pour)
 
-    def pour_now(self, asked: Mapping[str, str]) -> None:
+    def pour_now(self, asked: Mapping[str, Any]) -> None:
         """Fill the container anew, in the worker that calls this.
 
         ``asked``: where items are to lie, as :func:`packwork.live.relayout.poured_again` has it.
@@ -335,7 +337,7 @@ class Workspace:
         owner: Owner,
         seed: int,
         make: Make,
-        asked: Mapping[str, str] = MappingProxyType({}),
+        asked: Mapping[str, Any] = MappingProxyType({}),
         *,
         keeps_hand: bool = False,
     ) -> None:
@@ -347,9 +349,8 @@ class Workspace:
             poses = moment.poses and replace(moment.poses, stretch=document.poses.stretch)
             self._see(View.of_document(document, poses), moment)
 
-        arranged = poured_again(document, seed, show, self._stop.is_set, **asked)
-        whole = Together(commands=(*commands, arranged))  # type: ignore[arg-type]
-        owner.call(lambda session: session.apply(whole)).result()
+        put = put_anew(document, seed, show, self._stop.is_set, **asked)
+        owner.call(lambda one: one.do_together((*commands, *put(one.library)))).result()
 
     def _see(self, view: View, moment: Moment) -> None:
         self._moment, self._progress = view, moment.progress

@@ -30,6 +30,7 @@ from packwork.live.commands.items import (
     Replace,
     Weigh,
 )
+from packwork.live.commands.lines import SetLines
 from packwork.live.commands.look import Background, CropPhoto, Paint, SetHalos, SetMosaic
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
@@ -40,7 +41,7 @@ SingleCommand: TypeAlias = Annotated[
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | Flip
     | Group | Ungroup
     | SetContainer | Reshape | PlaceContainer | SetOption | Entitle | LeaveOut
-    | Paint | SetMosaic | CropPhoto | Background | SetHalos | DrawContainer,
+    | Paint | SetMosaic | CropPhoto | Background | SetHalos | DrawContainer | SetLines,
     Field(discriminator="kind"),
 ]  # fmt: skip
 """Any command that is one edit by itself."""

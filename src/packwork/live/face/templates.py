@@ -98,6 +98,14 @@ def _names() -> Opening:
     return Opening(recipe=recipe, title="names")
 
 
+def _badge() -> Opening:
+    recipe = uses.words_recipe(
+        "circle", dict(WORDS), ring=("THE SECRET GARDEN", "OPEN ALL YEAR"), effort="draft",
+        palette="ink",
+    )  # fmt: skip
+    return Opening(recipe=recipe, title="badge")
+
+
 def _paper() -> Opening:
     recipe = make_recipe(
         container="page", items=list(ON_PAPER), count=IN_TILE, tile="half-drop", padding="0.7%",
@@ -117,7 +125,7 @@ def _mosaic(folder: Path) -> Opening:
 
 _OWN: Mapping[str, Callable[[], Opening]] = {
     "icons": lambda: opening_of([]), "letters": _letters, "words": _words, "names": _names,
-    "paper": _paper, "jar": _jar, "nest": _cut
+    "badge": _badge, "paper": _paper, "jar": _jar, "nest": _cut
 }  # fmt: skip
 
 _OF_FILES: Mapping[str, Callable[[Path], Opening]] = {

@@ -62,7 +62,8 @@ function choosing(studio) {
 function items(studio) {
   const { choice } = studio;
   const when = () => choice.ids.size > 0;
-  const turns = () => when() || studio.room.isOn;
+  const moves = () => kindOf(studio.collage).moves;
+  const turns = () => (when() && moves()) || studio.room.isOn;
   const orders = () => studio.collage.hasPoses && kindOf(studio.collage).orders;
   const grows = () => when() && kindOf(studio.collage).grows;
   const edge = () => studio.collage.hasPoses && kindOf(studio.collage).edge;
@@ -75,10 +76,10 @@ function items(studio) {
     { id: "copy", group: "Items", label: "Copy", keys: ["Mod+C"], isNative: true, when, run: () => studio.clipboard.ask("copy") },
     { id: "cut", group: "Items", label: "Cut", keys: ["Mod+X"], isNative: true, when, run: () => studio.clipboard.ask("cut") },
     { id: "paste", group: "Items", label: "Paste", keys: ["Mod+V"], isNative: true, when: () => studio.collage.hasPoses && kindOf(studio.collage).grows, run: () => studio.clipboard.askPaste() },
-    { id: "middle", group: "Items", label: "Put it in the middle", keys: ["M"], when: () => choice.ids.size === 1, run: () => studio.toMiddle() },
+    { id: "middle", group: "Items", label: "Put it in the middle", keys: ["M"], when: () => choice.ids.size === 1 && moves(), run: () => studio.toMiddle() },
     { id: "inspect", group: "Items", label: "Its numbers: place, size and angle", keys: ["I"], icon: "options", when, run: () => studio.inspect() },
-    { id: "flip", group: "Items", label: "Flip left and right", keys: ["Shift+F"], icon: "flip", when, run: () => studio.flip("horizontal") },
-    { id: "flip-down", group: "Items", label: "Flip top and bottom", keys: ["Shift+V"], icon: "flipDown", when, run: () => studio.flip("vertical") },
+    { id: "flip", group: "Items", label: "Flip left and right", keys: ["Shift+F"], icon: "flip", when: () => when() && moves(), run: () => studio.flip("horizontal") },
+    { id: "flip-down", group: "Items", label: "Flip top and bottom", keys: ["Shift+V"], icon: "flipDown", when: () => when() && moves(), run: () => studio.flip("vertical") },
     { id: "crop", group: "Items", label: "Move the photograph in its frame, or keep it", keys: ["Enter"], icon: "crop", when: () => studio.crops, run: () => studio.crop() },
     { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
     { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: orders, run: () => studio.dropping.choosePicture() },
@@ -87,7 +88,7 @@ function items(studio) {
     { id: "like-by-text", group: "Items", label: "Words that stand together in the text beside each other", keys: ["Shift+L"], when: () => studio.collage.items.some((item) => item.is_word), run: () => studio.ordering.byText() },
     { id: "group", group: "Items", label: "Group: they keep their places to each other", keys: ["Mod+G"], icon: "group", when: () => choice.ids.size > 1 && kindOf(studio.collage).groups, run: () => studio.group(true) },
     { id: "ungroup", group: "Items", label: "Ungroup", keys: ["Mod+Shift+G"], icon: "ungroup", when: () => studio.groups.length > 0, run: () => studio.group(false) },
-    { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
+    { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2 && moves(), run: () => studio.exchange() },
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
     { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when: sizes, run: () => studio.resize(LARGER) },
     { id: "smaller", group: "Items", label: "Smaller", keys: ["-"], repeats: true, when: sizes, run: () => studio.resize(1 / LARGER) },
@@ -108,9 +109,9 @@ function lines(studio) {
   const chosen = () => [...choice.ids];
   return [
     ...EDGES.map(([to, key, label]) => ({ id: `align-${to}`, group: /** @type {const} */ ("Items"), label, keys: [`Alt+${key}`], icon: to,
-      when: () => choice.ids.size > 1, run: () => connection.do({ kind: "align", items: chosen(), to }) })),
+      when: () => choice.ids.size > 1 && kindOf(studio.collage).moves, run: () => connection.do({ kind: "align", items: chosen(), to }) })),
     ...WAYS.map(([direction, key, label, icon]) => ({ id: `distribute-${direction}`, group: /** @type {const} */ ("Items"), label, keys: [`Alt+Shift+${key}`], icon,
-      when: () => choice.ids.size > 2, run: () => connection.do({ kind: "distribute", items: chosen(), direction }) })),
+      when: () => choice.ids.size > 2 && kindOf(studio.collage).moves, run: () => connection.do({ kind: "distribute", items: chosen(), direction }) })),
   ];
 }
 
@@ -137,7 +138,7 @@ function views(studio) {
     ...PANELS.map(([id, , label], k) => ({ id: `panel-${id}`, group: /** @type {const} */ ("View"), label: `Panel: ${label}`, keys: [String(k + 1)], run: () => studio.panels.goTo(id) })),
     { id: "draw", group: "View", label: "Draw the container freehand", keys: ["K"], when: edge, run: () => studio.sketch.begin(false) },
     { id: "draw-hole", group: "View", label: "Draw a hole in the container", keys: ["Shift+K"], when: edge, run: () => studio.sketch.begin(true) },
-    { id: "force", group: "View", label: "Draw a force as an arrow", keys: ["G"], when: edge, run: () => studio.forces.begin() },
+    { id: "force", group: "View", label: "Draw a force as an arrow", keys: ["G"], when: () => edge() && kindOf(studio.collage).moves, run: () => studio.forces.begin() },
     { id: "tiles", group: "View", label: "Show three by three tiles, or one", keys: ["Shift+T"], when: () => Boolean(studio.collage.tiling.repeat), run: () => studio.panels.repeating.show(!studio.collage.tiling.isPreview) },
     { id: "faults", group: "View", label: "Show what is free, covered and overlapping", keys: ["V"], icon: "layers", run: () => studio.toggleFaults() },
     { id: "theme", group: "View", label: "Light or dark", keys: ["T"], icon: "theme", run: () => studio.toggleTheme() },

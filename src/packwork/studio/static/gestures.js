@@ -26,7 +26,7 @@ export class Gestures {
    * @param {View} view
    * @param {Choice} choice
    * @param {Hand} hand
-   * @param {{changed: () => void, menu: (x: number, y: number) => void}} hears
+   * @param {{changed: () => void, menu: (x: number, y: number) => void, stays: () => void}} hears
    */
   constructor(stage, view, choice, hand, hears) {
     this.stage = stage;
@@ -137,6 +137,7 @@ export class Gestures {
     if (!doing.moves && far < STILL[doing.kind]) return;
     clearTimeout(this.timer);
     if (!doing.moves) this.begin(doing);
+    if (!this.doing) return;
     doing.moves = true;
     this.follow(doing, at, event.shiftKey, event.ctrlKey || event.metaKey);
     doing.at = at;
@@ -144,6 +145,10 @@ export class Gestures {
 
   /** @param {Doing} doing */
   begin(doing) {
+    if (doing.act === "item" && !kindOf(this.stage.collage).moves) {
+      this.doing = null;
+      return this.hears.stays();
+    }
     if (doing.act === "item" || doing.act === "turn" || doing.act === "scale") {
       if (doing.id !== undefined && !this.choice.has(doing.id)) this.choice.set([doing.id]);
       this.choice.isBusy = true;

@@ -3,13 +3,13 @@
 
 /** @typedef {import("./wire.js").Scene["kind"]} Name */
 /**
- * @typedef {{again: string, sizes: boolean, turns: boolean, groups: boolean, orders: boolean, grows: boolean, edge: boolean, settings: Set<string> | null}} Kind
+ * @typedef {{again: string, sizes: boolean, turns: boolean, groups: boolean, orders: boolean, grows: boolean, edge: boolean, moves: boolean, settings: Set<string> | null}} Kind
  * What filling again is called; whether items are sized by hand, turned beyond what they are held at, grouped, put in
- * an order or coloured by a picture, and more of them come; whether the container has an edge; the settings for all, null for every one.
+ * an order or coloured by a picture, and more of them come; whether the container has an edge, and items are for the hand; the settings for all, null for every one.
  */
 
 /** @type {Kind} */
-const COLLAGE = { again: "Pour anew", sizes: true, turns: true, groups: true, orders: true, grows: true, edge: true, settings: null };
+const COLLAGE = { again: "Pour anew", sizes: true, turns: true, groups: true, orders: true, grows: true, edge: true, moves: true, settings: null };
 
 /** @type {Record<NonNullable<Name>, Kind>} */
 const KINDS = {
@@ -17,6 +17,7 @@ const KINDS = {
   nest: { ...COLLAGE, again: "Nest anew", sizes: false, turns: false, groups: false, orders: false, settings: new Set(["padding", "rotate"]) },
   chart: { ...COLLAGE, sizes: false, groups: false, orders: false, grows: false, settings: new Set(["padding", "rotate", "evenness"]) },
   tile: { ...COLLAGE, orders: false, edge: false },
+  lines: { again: "Set anew", sizes: false, turns: false, groups: false, orders: false, grows: false, edge: true, moves: false, settings: new Set() },
   pile: { ...COLLAGE, again: "Heap anew", orders: false, settings: new Set(["padding", "rotate"]) },
 };
 

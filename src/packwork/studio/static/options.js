@@ -22,7 +22,7 @@ export function fillOptions(body, studio, questions) {
   body.dataset.of = subject(studio);
   const asked = questions.filter((one) => !settings || settings.has(one.name));
   body.replaceChildren(...asked.map((one) => (one.choices.length ? choiceOf(one, now, set) : sliderOf(one, now, set, studio))),
-    ...(kindOf(studio.collage).edge ? [studio.forces.element] : []), h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
+    ...(kindOf(studio.collage).edge && kindOf(studio.collage).moves ? [studio.forces.element] : []), h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
   studio.forces.refresh();
 }
 

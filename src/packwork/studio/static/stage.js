@@ -401,6 +401,7 @@ export class Stage {
     const [ux, uy] = unit(d, a);
     const top = [(a[0] + b[0]) / 2 + TURN_AWAY * ux, (a[1] + b[1]) / 2 + TURN_AWAY * uy];
     const corners = kindOf(this.collage).sizes ? [a, b, c, d] : [];
+    if (!kindOf(this.collage).moves) return [];
     return [
       ...corners.map((at, corner) => ({ at, kind: /** @type {const} */ ("scale"), corner })),
       { at: /** @type {[number, number]} */ (top), kind: "turn", corner: -1 },

@@ -47,6 +47,8 @@ const ABOVE = 62;
 const FOCUSABLE = ":is(button, input, select, textarea):not(:disabled)";
 /** Subject of the line about what was asked for and not had. */
 const MISSED = "not as asked";
+/** Said where words on lines are dragged. */
+const STAYS = "Words on lines lie where these have room for them; change the words, or the lines, on the Words panel.";
 
 export class Studio {
   constructor() {
@@ -69,6 +71,7 @@ export class Studio {
     this.hand = new Hand(this.collage, this.connection);
     this.gestures = new Gestures(this.stage, this.view, this.choice, this.hand, {
       changed: () => this.redraw(),
+      stays: () => tell(STAYS, { about: STAYS }),
       menu: (x, y) => this.menu.open(x, y + this.canvas.getBoundingClientRect().top, this.choice.ids.size > 0),
     });
     this.dropping = new Dropping(this.connection, this.collage);
@@ -268,7 +271,7 @@ export class Studio {
     this.bar.show(this.collage.scene?.title ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
     this.bar.rename("pour", kindOf(this.collage).again);
     byId("empty").hidden = this.collage.hasPoses;
-    byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown;
+    byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown || !kindOf(this.collage).moves;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
     this.panels.refresh();
     this.redraw();

@@ -3,6 +3,7 @@
 
 import { h } from "./dom.js";
 import { FontField } from "./fonts.js";
+import { Lines } from "./lines.js";
 import { Mixing } from "./mixing.js";
 import { tell } from "./toasts.js";
 import { WordTable } from "./wordtable.js";
@@ -23,6 +24,7 @@ export class Words {
     this.font = new FontField(studio, "Font", (name) => this.setIn(name));
     this.palette = h("select", {});
     this.mixing = new Mixing(studio);
+    this.lines = new Lines(this);
     this.update = h("button", { type: "button", onclick: () => this.change() }, "Change these, keep their places");
     this.list = new WordTable(this);
     this.form = h("form", { class: "stack", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
@@ -32,7 +34,7 @@ export class Words {
 
   /** @param {HTMLElement} body */
   async fill(body) {
-    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet, which undo brings back, or come beside it with a share of their own."), this.mixing.element, this.font.element, this.list.element,
+    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet, which undo brings back, or come beside it with a share of their own."), this.mixing.element, this.font.element, this.lines.element, this.list.element,
       h("details", { open: true }, h("summary", {}, "A text or another table"), this.form));
     this.list.listed = "";
     if (!this.text.value.trim()) this.filled = this.text.value;
@@ -62,6 +64,7 @@ export class Words {
     this.font.show(this.studio.collage.scene?.font ?? "");
     this.fillText(this.table());
     this.mixing.refresh();
+    this.lines.refresh();
     this.update.hidden = !this.studio.collage.items.some((item) => item.is_word);
   }
 
@@ -103,7 +106,7 @@ export class Words {
   fillFrom(batch) {
     const words = { source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null };
     if (this.mixing.isBeside) this.mixing.send(words);
-    else this.studio.connection.send({ type: "fill", use: "words", ...words, without: [...this.list.without.keys()] });
+    else this.studio.connection.send({ type: "fill", use: "words", ...words, ...this.lines.asked, without: [...this.list.without.keys()] });
   }
 
   /**

@@ -3,6 +3,7 @@
 
 import { button, colourField, h } from "./dom.js";
 import { together } from "./hand.js";
+import { kindOf } from "./kinds.js";
 
 /** @typedef {import("./wire.js").Thing} Thing */
 
@@ -73,6 +74,7 @@ export class WordTable {
     const upright = button("upright", `${name} stays upright`, () => connection.do(held[1]
       ? { kind: "release", items: [id], properties: ["angle"] }
       : together([{ kind: "turn", item: id, angle: 0 }, { kind: "hold", items: [id], properties: ["angle"] }])), { "aria-pressed": String(held[1]) });
+    upright.hidden = !kindOf(collage).moves;
     return h("li", {}, button("eye", `Leave ${name} out`, () => this.leaveOut(name)),
       h("button", { type: "button", class: "name", dir: "auto", onclick: () => choice.set([id]) }, name), count, colour, upright);
   }

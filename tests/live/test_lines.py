@@ -1,0 +1,76 @@
+"""Words on lines: set again where words, lines or the container change, in their colours."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.live.document import Document
+from packwork.live.face.lines import put_anew, words_in
+from packwork.live.kinds import LineKind
+from packwork.live.relayout import poured_again
+from packwork.scene.recolour import one_colour
+
+TABLE = {"apple": 9, "cider": 7, "press": 5, "barrel": 4, "bloom": 3, "pear": 3, "oak": 2, "bee": 2}
+
+
+@pytest.fixture(scope="module")
+def badge() -> pw.Layout:
+    return pw.words("circle", TABLE, ring=("OLD ORCHARD", "HEREFORD"), effort="draft")
+
+
+def put(session: pw.Session, **asked: object) -> None:
+    made = put_anew(session.document, 0, lambda _: None, **asked)
+    session.do_together(made(session.library))
+
+
+def names(document: Document) -> set[str]:
+    return {item.name for item in document.items}
+
+
+def test_a_badge_is_set_anew_with_other_words_in_their_colours_and_undone(
+    badge: pw.Layout,
+) -> None:
+    session = badge.edit()
+    before = session.document
+    assert before.kind == LineKind(ring=("OLD ORCHARD", "HEREFORD"))
+    assert words_in(before) == TABLE
+    session.do("recolour", items=session.find("cider"), colour="#123456")
+    words = {**TABLE, "bee": 12}
+    del words["oak"]
+    put(session, words=words)
+    assert session.settle().certified
+    now = session.document
+    assert words_in(now) == words
+    assert names(now) == {*words, "OLD ORCHARD", "HEREFORD"}
+    assert now.left_out == {"oak": 2}
+    drawn = next(item for item in now.items if item.name == "cider").art
+    assert (one_colour(drawn) or ())[:3] == (0x12, 0x34, 0x56)
+    areas = dict(zip((item.name for item in now.items), now.areas.tolist(), strict=True))
+    assert areas["bee"] > 0.5 * areas["apple"]
+    assert session.undo()
+    assert np.array_equal(session.document.poses.x, before.poses.x)
+    assert session.document.kind == before.kind
+
+
+def test_words_come_from_where_there_is_room_onto_lines_and_back(badge: pw.Layout) -> None:
+    session = badge.edit()
+    put(session, along="edge", ring=())
+    assert session.document.kind == LineKind(along="edge")
+    assert session.settle().certified
+    assert any(run.angle for item in session.document.items for run in item.text.runs)
+    put(session, along=None, ring=())
+    assert session.document.kind.name == "collage"
+    assert session.settle().certified
+    assert names(session.document) == set(TABLE)
+    assert not any(run.angle for item in session.document.items for run in item.text.runs)
+
+
+def test_what_lines_have_not_is_said(badge: pw.Layout) -> None:
+    with pytest.raises(RecipeError, match="pour: words on lines have one layout"):
+        poured_again(badge.edit().document, 1)
+    session = pw.fill("circle", "star", count=3, effort="draft").edit()
+    with pytest.raises(RecipeError, match="along: is for words, and there are none"):
+        put_anew(session.document, 0, lambda _: None, along="edge")
