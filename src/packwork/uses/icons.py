@@ -147,8 +147,8 @@ class IconsUse(Use):
         else:
             # First fit is not tried.
             placed = placing(job, suits_first_fit=False)
-            if others := alike_upright(job):
-                placed = [BestOf([placed, *others], best_balanced)]
+            others = alike_upright(job) if 1 < len(job.items) <= MOST_ALIKE else []
+            placed = [BestOf([placed, *others], best_balanced)] if others else placed
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
@@ -160,11 +160,10 @@ def alike_upright(job: Job) -> list[list[RunStep]]:
     """Several starts of few items, near upright and of about one size, unless asked otherwise.
 
     Each of few is looked at: one that lies on its side beside a giant looks thrown down. None where
-    items are many, or something is asked of where they lie.
+    something is asked of where they lie.
     """
     plan = job.plan
-    is_open = plan.seconds is None and not plan.voids.fills and may_rearrange(job)
-    if not (is_open and 1 < len(job.items) <= MOST_ALIKE):
+    if plan.seconds is not None or plan.voids.fills or not may_rearrange(job):
         return []
     near = Rotation(limit=math.radians(NEAR_UPRIGHT))
     rotation = near if plan.rotation.is_free else plan.rotation
