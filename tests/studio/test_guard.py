@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from typing import Any
 
 import pytest
+from starlette.applications import Starlette
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from each import for_each
 from packwork.live.face.opening import Opening
-from packwork.studio.app import Studio
+from packwork.studio.app import Studio, page_text
 from packwork.studio.files import Uploads
 from packwork.studio.guard import AGAIN, OPEN, Guard, Message
 from packwork.studio.proof import Secret, mac
@@ -44,7 +46,9 @@ def asked() -> list[tuple[str, str, str]]:
 
 
 ASKED = asked()
-CLOSED = [one for one in ASKED if one[2] not in {"/", "/static/main.js", f"/proof/{'1' * 32}"}]
+CLOSED = [
+    one for one in ASKED if one[2] not in {"/", f"/proof/{'1' * 32}"} and "main.js" not in one[2]
+]
 PROOF_OF_PAGE = mac(SECRET.key_before, f"page {HOST} {SECRET.nonce}")
 
 
@@ -63,23 +67,27 @@ def headers_of(
     return [(name.encode(), value.encode()) for name, value in given.items() if value is not None]
 
 
-def answer(kind: str, method: str, path: str, headers: list[tuple[bytes, bytes]]) -> list[Message]:
-    """What the guard sends; what it lets through is answered by 204."""
+async def let_through(scope: Message, receive: Any, send: Any) -> None:
+    if scope["type"] == "websocket":
+        await send({"type": "websocket.accept"})
+    else:
+        await send({"type": "http.response.start", "status": 204, "headers": []})
+
+
+def answer(
+    kind: str, method: str, path: str, headers: list[tuple[bytes, bytes]], app: Any = let_through
+) -> list[Message]:
+    """What the guard sends; what it lets through is answered by 204, unless by an application."""
     sent: list[Message] = []
 
-    async def app(scope: Message, receive: Any, send: Any) -> None:
-        if kind == "websocket":
-            await send({"type": "websocket.accept"})
-        else:
-            await send({"type": "http.response.start", "status": 204, "headers": []})
-
     async def receive() -> Message:
-        return {"type": "websocket.connect"}
+        # A page that stays.
+        return {"type": "websocket.connect"} if kind == "websocket" else await asyncio.Future()
 
     async def send(message: Message) -> None:
         sent.append(message)
 
-    scope = {"type": kind, "method": method, "path": path, "headers": headers}
+    scope = {"type": kind, "method": method, "path": path, "root_path": "", "headers": headers}
     asyncio.run(Guard(app, SECRET)(scope, receive, send))
     return sent
 
@@ -183,3 +191,19 @@ def test_answers_say_what_a_page_may_do() -> None:
     assert "*" not in policy
     assert said["x-content-type-options"] == "nosniff"
     assert said["referrer-policy"] == "no-referrer"
+
+
+def test_the_page_names_what_browsers_keep_by_its_version_and_all_else_is_not_stored() -> None:
+    app = Starlette(routes=routes())
+
+    def kept(path: str) -> tuple[int, bytes]:
+        sent = answer("http", "GET", path, headers_of("http", "GET"), app)
+        return sent[0]["status"], dict(sent[0]["headers"])[b"cache-control"]
+
+    parts = re.findall(r'"(/static/[^"]+)"', page_text())
+    assert {one.rpartition("/")[2] for one in parts} >= {"icon.svg", "studio.css", "main.js"}
+    assert {kept(one) for one in parts} == {(200, b"max-age=31536000, immutable")}
+    # Also what there is not, lest a browser keeps that.
+    others = ("/", "/choices", "/static/main.js", "/static/0123456789abcdef/main.js")
+    missing = f"{parts[0].rpartition('/')[0]}/none.js"
+    assert {kept(one)[1] for one in (*others, missing)} == {b"no-store"}

@@ -11,7 +11,8 @@ from collections.abc import AsyncIterator, Callable, Iterable
 from contextlib import asynccontextmanager
 from dataclasses import asdict
 from functools import cache
-from importlib import resources
+from hashlib import sha256
+from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
@@ -60,10 +61,10 @@ class Studio:
     @property
     def routes(self) -> list[BaseRoute]:
         """All that is served."""
-        static = StaticFiles(packages=[("packwork.studio", "static")])
         return [
             Route("/", self._page),
-            Mount("/static", static),
+            Mount(f"/static/{version_of_page()}", LastingFiles(directory=PAGE)),
+            Mount("/static", StaticFiles(directory=PAGE)),
             Route("/proof/{nonce}", self._proof),
             Route(AGAIN, self._again, methods=["POST"]),
             Route("/choices", self._choices),
@@ -148,14 +149,36 @@ class Studio:
                 raise found
 
 
+PAGE = Path(__file__).with_name("static")
+"""Folder of what the page is made of."""
+
+
+class LastingFiles(StaticFiles):
+    """Files that a browser keeps for good, for what is another file has another address."""
+
+    def file_response(self, *given: Any, **named: Any) -> Response:
+        """Answer with a file."""
+        response = super().file_response(*given, **named)
+        response.headers["cache-control"] = "max-age=31536000, immutable"
+        return response
+
+
+@cache
+def version_of_page() -> str:
+    """Digest of all that the page is made of, as it was when this was first asked for."""
+    files = sorted(one for one in PAGE.rglob("*") if one.is_file())
+    told = b"".join(one.name.encode() + one.read_bytes() for one in files)
+    return sha256(told).hexdigest()[:16]
+
+
 @cache
 def page_text() -> str:
     """The page; all its modules are asked for at once, not one after the other that needs it."""
-    static = resources.files("packwork.studio").joinpath("static")
-    names = sorted(one.name for one in static.iterdir() if one.name.endswith(".js"))
+    names = sorted(one.name for one in PAGE.glob("*.js"))
     links = (f'<link rel="modulepreload" href="/static/{name}">' for name in names)
-    page = static.joinpath("index.html").read_text(encoding="utf-8")
-    return page.replace('<link rel="modulepreload" href="/static/main.js">', "\n".join(links))
+    page = (PAGE / "index.html").read_text(encoding="utf-8")
+    page = page.replace('<link rel="modulepreload" href="/static/main.js">', "\n".join(links))
+    return page.replace("/static/", f"/static/{version_of_page()}/")
 
 
 GONE = (WebSocketDisconnect, RuntimeError)

@@ -98,12 +98,12 @@ class Guard:
         return None if is_known(token) else "the token is missing"
 
     def _with_policy(self, send: Send) -> Send:
-        """Have answers carry what browsers are to keep to."""
-        headers = _policy(self.host)
+        """Have answers carry what browsers are to keep to, unless they say it themselves."""
+        policy = _policy(self.host)
 
         async def sent(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = [*message.get("headers", []), *headers]
+                message["headers"] = [*(policy | dict(message.get("headers", ()))).items()]
             await send(message)
 
         return sent
@@ -134,7 +134,7 @@ def _is_open(path: str) -> bool:
     return path == root or any(path.startswith(folder) for folder in folders)
 
 
-def _policy(host: str) -> list[tuple[bytes, bytes]]:
+def _policy(host: str) -> dict[bytes, bytes]:
     said = {
         "content-security-policy": POLICY.format(host=host),
         "x-content-type-options": "nosniff",
@@ -144,7 +144,7 @@ def _policy(host: str) -> list[tuple[bytes, bytes]]:
         "cross-origin-resource-policy": "same-origin",
         "cache-control": "no-store",
     }
-    return [(name.encode(), value.encode()) for name, value in said.items()]
+    return {name.encode(): value.encode() for name, value in said.items()}
 
 
 async def _refuse(scope: Message, receive: Receive, send: Send, reason: str) -> None:

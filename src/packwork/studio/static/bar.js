@@ -32,7 +32,7 @@ export class Bar {
     const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), "aria-keyshortcuts": "Control+E", onclick: share.run }, "Export");
     this.buttons.set("export", [leave]);
     byId("bar").append(
-      h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title, menu, this.saved),
+      h("div", { class: "group" }, h("img", { src: String(new URL("icon.svg", import.meta.url)), alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title, menu, this.saved),
       h("div", { class: "group", role: "group", "aria-label": "History" }, ...LEFT.map((id) => this.button(id))),
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );

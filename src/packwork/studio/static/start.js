@@ -22,7 +22,7 @@ export class Start {
     this.kept = h("section", { hidden: true }, h("h3", {}, "Recent"), this.recent);
     this.dialog = h("dialog", { class: "start", "aria-label": "New document" },
       h("div", { class: "row head" }, h("h2", {}, "Begin with"), h("button", { type: "button", onclick: () => this.files() }, "Open a file …")),
-      h("div", { class: "starts" }, ...TEMPLATES.map(([name, label, accept]) => this.card(`/static/templates/${name}.webp`, label, "", () => this.begin(name, accept)))),
+      h("div", { class: "starts" }, ...TEMPLATES.map(([name, label, accept]) => this.card(`${new URL("templates", import.meta.url)}/${name}.webp`, label, "", () => this.begin(name, accept)))),
       this.kept,
       h("div", { class: "row end" }, h("span", { class: "hint" }, "All you do is kept on this machine."), h("button", { type: "button", onclick: () => this.dialog.close() }, "Cancel")));
     document.body.append(this.dialog);
