@@ -96,7 +96,7 @@ def test_what_is_not_touched_is_about_as_large_as_it_was(
 
 
 def test_a_gesture_far_away_changes_nothing() -> None:
-    layout = pw.fill("square", "hexagon", count=60, epochs=60, levels="50,100")
+    layout = pw.fill("square", "hexagon", count=90, epochs=60, levels="50,100")
     session, before = layout.edit(), layout.poses
     corner = int(np.argmin(before.x + before.y))
     session.remove(corner)
@@ -104,7 +104,7 @@ def test_a_gesture_far_away_changes_nothing() -> None:
     while session.is_rough:
         session.polish(48)
     after = session.document
-    ids = np.delete(np.arange(60), corner)
+    ids = np.delete(np.arange(90), corner)
     rings = ContactGraph(layout.edit().document, LevelCache()).rings(np.array([corner]), RINGS)
     far = ids[rings[ids] < 0]
     assert len(far) > 20

@@ -37,7 +37,7 @@ MOST_LOST = 0.012
 """Share of the container by which less may be covered then, or turns go on and sizes vary farther.
 Larger empties what is edited often, smaller changes more about an edit. Tried."""
 
-STAGES = 3
+STAGES = 4
 """Times that turns are tried then at most, sizes varying farther each time. Chosen."""
 
 
@@ -252,12 +252,15 @@ class LocalSolver:
         if trials < 1 or not self.is_rough:
             return None
         self._flow.begin(self._strict(before))
-        # What was put somewhere last stays there, and what no edit has reached.
-        rows = self._rows(set(marks.ranges) - marks.recent)
+        reached = self._rows(set(marks.ranges))
+        most = max(ENOUGH * len(reached), 1)
+        stage = marks.tried // most
+        # What was put somewhere last stays there; what no edit has reached takes part in need.
+        around = self._flow.contacts.rings(reached, stage) >= 0
+        rows = np.setdiff1d(np.flatnonzero(around), self._rows(marks.recent))
         held = before.held.copy()
         held[self._rows(marks.turned_by_hand), PROPERTIES.index("angle")] = True
-        most = max(ENOUGH * len(rows), 1)
-        strict = within(replace(before, held=held), marks.ranges, stage=marks.tried // most)
+        strict = within(replace(before, held=held), marks.ranges, stage=stage)
         poses, is_clean = polish(strict, rows, trials, marks.polished + 1, self.shapes, stop)
         if stop():
             return None

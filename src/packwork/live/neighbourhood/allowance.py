@@ -66,12 +66,12 @@ def within(
 ) -> Document:
     """A document whose sizes vary within ranges only, and not at all where there is none.
 
-    ``free``: numbers of items whose sizes vary as they did; ``stage``: halves of its range that
-    each may grow beyond it.
+    ``free``: numbers of items whose sizes vary as they did; with each ``stage`` an item may grow
+    beyond its range, by half of it at first, then twice as much as before.
     """
     scales = zip(document.ids.tolist(), document.poses.scale.tolist(), strict=True)
     low, high = np.array([known.get(n, (s, s)) for n, s in scales]).reshape(-1, 2).T
-    high = high * (high / low) ** (stage / 2)
+    high = high * (high / low) ** ((2**stage - 1) / 2)
     is_free = np.isin(document.ids, list(free))
     smallest, largest = document.smallest, document.largest
     return replace(
