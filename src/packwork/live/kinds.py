@@ -270,7 +270,7 @@ def kind_of(
 
 
 def _words_of(recipe: object) -> object:
-    """What a recipe, which may be anything, says of words, and their palette."""
+    """Words of a recipe, which may be anything, as it says them, and their palette."""
     if not isinstance(recipe, Mapping) or not isinstance(said := recipe.get("words"), Mapping):
         return None
     return {**said, "palette": recipe.get("palette")}

@@ -212,7 +212,7 @@ class _Wall:
 
 @final
 class _NoWall:
-    """What repeats by a lattice: where two meet, one of them lies in the cell."""
+    """Lattice by which all repeats: where two meet, one of them lies in the cell."""
 
     def __init__(self, lattice: Lattice, gap: float) -> None:
         left, top, right, bottom = lattice.cell

@@ -331,7 +331,7 @@ class Flow:
         return self._levels.outlines(outlines, document.poses.subset(items), px_per_cu, margin)
 
     def _level(self, active: IntArray, resolution: int) -> Level:
-        """What items that are active see: the room that those which stand still leave free."""
+        """Level of items that are active, in the room that those which stand still leave free."""
         document = self.document
         container, seen = document.container, self._seen_of(active, resolution)
         lattice = container.lattice
