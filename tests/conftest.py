@@ -37,12 +37,12 @@ gc.set_threshold(50_000)
 SECONDS_BETWEEN = 0.2
 """Time between two looks whether the kernels are compiled. Chosen."""
 
-WHOLE_RUNS = {"pipeline", "uses"}
-"""Rooms of tests most of which make layouts and measure them."""
-
 MOST_SECONDS = 180.0
 """Time that is waited for them, for who compiles them may have been killed. Chosen: several times
 what it takes on two processors."""
+
+WHOLE_RUNS = {"pipeline", "uses"}
+"""Rooms of tests most of which make layouts and measure them."""
 
 
 @pytest.hookimpl(optionalhook=True)

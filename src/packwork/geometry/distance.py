@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
+from packwork.arrays import IntArray
 from packwork.geometry import _kernels
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import Region, buffered, polygon_parts, quiet, union, valid
@@ -41,6 +42,31 @@ def distance(first: Region, second: Region) -> float:
     if shapely.intersects(larger, smaller):
         return 0.0
     return float(shapely.shortest_line(larger, smaller).length)
+
+
+def near_pairs(
+    tree: shapely.STRtree, first: int, count: int, last: int, reach: float
+) -> tuple[IntArray, IntArray]:
+    """Pairs within ``reach`` of which one is among ``count`` regions of a tree from ``first`` on.
+
+    Each is found once, where regions before ``last`` are asked about by portions in their order:
+    for two of these by the later one. Faster where the portion is prepared.
+
+    >>> row = [shapely.box(x, 0, x + 1, 1) for x in (0.0, 1.5, 3.5)]
+    >>> [pairs.tolist() for pairs in near_pairs(shapely.STRtree(row), 0, 3, 3, 0.75)]
+    [[1], [0]]
+    """
+    regions = tree.geometries
+    boxes = shapely.bounds(regions[first : first + count]) + reach * np.array(
+        [-1.0, -1.0, 1.0, 1.0]
+    )
+    full = np.flatnonzero(~np.isnan(boxes[:, 0]))
+    own, other = tree.query(shapely.box(*boxes[full].T))
+    own = full[own] + first
+    is_once = (other < own) | (other >= last)
+    own, other = own[is_once], other[is_once]
+    near = shapely.dwithin(regions[own], regions[other], reach)
+    return own[near], other[near]
 
 
 def clearance(region: Region, most: float) -> float:

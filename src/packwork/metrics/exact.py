@@ -13,7 +13,7 @@ import shapely
 
 from packwork.arrays import IntArray
 from packwork.errors import ShapeError
-from packwork.geometry.distance import distance
+from packwork.geometry.distance import distance, near_pairs
 from packwork.geometry.outline import Outline
 from packwork.geometry.outline import regions as regions_of
 from packwork.geometry.overlay import (
@@ -220,11 +220,10 @@ def _gap_within(
     for begin in range(0, len(regions), PORTION):
         portion = regions[begin : begin + PORTION]
         shapely.prepare(portion)
-        i, j = tree.query(portion, predicate="dwithin", distance=reach)
-        before = j < i + begin
+        i, j = near_pairs(tree, begin, len(portion), len(regions), reach)
         near_edge = portion[shapely.dwithin(edge, portion, reach)]
-        first = np.concatenate([portion[i[before]], np.full(len(near_edge), edge, dtype=object)])
-        second = np.concatenate([regions[j[before]], near_edge])
+        first = np.concatenate([regions[i], np.full(len(near_edge), edge, dtype=object)])
+        second = np.concatenate([regions[j], near_edge])
         if len(first):
             least = reach = _least_distance(first, second, reach)
         shapely.destroy_prepared(portion)

@@ -142,7 +142,8 @@ class _Laying:
             for part in parts
         ]
         self.random = np.random.default_rng(seed)
-        self.areas = [part.region.area for part in parts]
+        self.areas = np.array([part.region.area for part in parts])
+        self.priorities = np.array([part.priority for part in self.parts])
         self.laid = dict[int, LaidSheet]()
 
     def lay(self, queue: list[int], work: WorkBound) -> Counter[int]:
@@ -178,15 +179,15 @@ class _Laying:
 
     def _supply(self, queue: Sequence[int], area: float) -> tuple[list[int], list[int]]:
         """Parts of the highest priority that a sheet may choose from, by chance, and all others."""
-        order = self.random.permutation(queue).tolist()
-        order.sort(key=lambda kind: -self.parts[kind].priority)
-        taken = int(np.searchsorted(np.cumsum([self.areas[kind] for kind in order]), SUPPLY * area))
+        order = self.random.permutation(queue)
+        order = order[np.argsort(-self.priorities[order], kind="stable")]
+        taken = int(np.searchsorted(np.cumsum(self.areas[order]), SUPPLY * area))
         taken = min(taken + 1, MOST_IN_WINDOW)
-        return order[:taken], order[taken:]
+        return order[:taken].tolist(), order[taken:].tolist()
 
     def area(self, queue: Sequence[int]) -> float:
         """Area of parts, in square units."""
-        return float(sum(self.areas[kind] for kind in queue))
+        return float(self.areas[list(queue)].sum())
 
     def lay_together(
         self, queue: Sequence[int], loose: list[int], work: WorkBound
@@ -306,7 +307,7 @@ class _Laying:
 
     def _taken(self, queue: Sequence[int], room: float) -> int:
         """Number of parts at the head of a queue that a window takes; all where few are left."""
-        sums = np.cumsum([self.areas[kind] for kind in queue])
+        sums = np.cumsum(self.areas[list(queue)])
         if sums[-1] <= 1.5 * room and len(queue) <= MOST_IN_WINDOW:
             return len(queue)
         return min(max(int(np.searchsorted(sums, room)), 1), MOST_IN_WINDOW)

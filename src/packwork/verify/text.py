@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from packwork import writers
 from packwork.errors import PackworkError
+from packwork.geometry.distance import near_pairs
 from packwork.geometry.outline import regions as regions_of
 from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise, unclean
@@ -201,8 +202,8 @@ def _are_apart(regions: NDArray[Any], count: int, edge: Region, gap: float) -> b
     for begin in range(0, count, PORTION):
         portion = regions[begin : min(begin + PORTION, count)]
         shapely.prepare(portion)
-        near = tree.query(portion, predicate="dwithin", distance=gap)
+        near, _ = near_pairs(tree, begin, len(portion), count, gap)
         shapely.destroy_prepared(portion)
-        if near.shape[1] > len(portion) or shapely.dwithin(edge, portion, gap).any():
+        if len(near) or shapely.dwithin(edge, portion, gap).any():
             return False
     return True
