@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from typing import Any
 
 import pytest
@@ -122,11 +122,66 @@ async def _played(scenario: Scenario, opening: Opening) -> None:
         uploads.close()
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
+class KeptBrowser:
+    """A browser that serves one module after another, with its wide page.
+
+    A new browser, or page, loads all programs anew.
+    """
+
+    def __init__(self) -> None:
+        self._held = ExitStack()
+        self.browser: Any = None
+        self._page: Any = None
+
+    def opened(self) -> Any:
+        """The browser; begun where there is none."""
+        if self.browser is None:
+            self.browser = self._held.enter_context(chromium())
+        return self.browser
+
+    def wide_page(self) -> Any:
+        """The page, as one that was never used; made anew where a test has closed it."""
+        if self._page is None or self._page.is_closed():
+            self._page = new_page(self.opened(), WIDE)
+        return self._page
+
+    def is_wide(self, page: Any) -> bool:
+        """Whether a page is the one that is kept."""
+        return page is self._page
+
+    def leave(self) -> None:
+        """Close all that a module has opened beside the wide page."""
+        for context in self.browser.contexts:
+            if self._page is None or context is not self._page.context:
+                context.close()
+
+    def close(self) -> None:
+        """End it, for a loop of events runs as long as it is there, beside which none can."""
+        self._held.close()
+        self.browser = self._page = None
+
+
+KEPT = KeptBrowser()
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(nextitem: pytest.Item | None) -> None:
+    """The browser ends before a test that has none."""
+    if nextitem is None or "browser" not in getattr(nextitem, "fixturenames", ()):
+        KEPT.close()
+
+
+@pytest.fixture(scope="session")
+def kept_browser() -> Iterator[KeptBrowser]:
     pytest.importorskip("playwright")
-    with chromium() as found:
-        yield found
+    yield KEPT
+    KEPT.close()
+
+
+@pytest.fixture(scope="module")
+def browser(kept_browser: KeptBrowser) -> Iterator[Any]:
+    yield kept_browser.opened()
+    kept_browser.leave()
 
 
 def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
@@ -137,26 +192,6 @@ def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
     return context.new_page()
 
 
-class WidePage:
-    """A wide page that serves one test after another, for a new one loads all programs anew.
-
-    Parameters
-    ----------
-    browser
-        Of the module.
-    """
-
-    def __init__(self, browser: Any) -> None:
-        self._browser = browser
-        self.page: Any = None
-
-    def taken(self) -> Any:
-        """The page, as one that was never used; made anew where a test has closed it."""
-        if self.page is None or self.page.is_closed():
-            self.page = new_page(self._browser, WIDE)
-        return self.page
-
-
 @pytest.fixture(scope="module")
 def server() -> Iterator[Server]:
     made = Server("circle", "star", "heart", "moon", "-n", "14").start()
@@ -164,21 +199,14 @@ def server() -> Iterator[Server]:
     made.stop()
 
 
-@pytest.fixture(scope="module")
-def wide_page(browser: Any) -> WidePage:
-    return WidePage(browser)
-
-
 @pytest.fixture
-def open_desk(
-    browser: Any, server: Server, wide_page: WidePage
-) -> Iterator[Callable[..., PageDesk]]:
+def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., PageDesk]]:
     """Opens a page, by default a wide one, all one person's; at the end none has met a fault."""
     desks: list[PageDesk] = []
 
     def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> PageDesk:
-        if size is WIDE and not more and not any(desk.page is wide_page.page for desk in desks):
-            page = wide_page.taken()
+        if size is WIDE and not more and not any(KEPT.is_wide(desk.page) for desk in desks):
+            page = KEPT.wide_page()
         else:
             page = new_page(browser, size, **more)
         desk = PageDesk(page, address or server.address)
@@ -189,7 +217,7 @@ def open_desk(
     yield opened
     for desk in desks:
         desk.leave()
-        if desk.page is not wide_page.page:
+        if not KEPT.is_wide(desk.page):
             desk.page.context.close()
     for desk in desks:
         assert desk.faults == []
