@@ -323,7 +323,6 @@ def test_items_like_the_background_are_named_and_may_have_rims(
 @pytest.mark.parametrize(
     ("files", "lack"),
     [
-        ("-o a.packwork", "session"),
         ("-o a.svg -o a.dxf", "lines for a DXF"),
         ("-o a.svg --film a.gif", "film"),
         ("-o a.svg --cut outlines", "lines for a cutter"),

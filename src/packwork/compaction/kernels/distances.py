@@ -98,7 +98,7 @@ def most_points(starts, pairs):
     return most
 
 
-class Room(NamedTuple):
+class Scratch(NamedTuple):
     """Scratch of a distance: edges of the two polygons, boxes about :data:`RUN` of the second."""
 
     first: np.ndarray
@@ -115,7 +115,7 @@ slower. Tried."""
 def room_for(most):
     """Room for distances of polygons of so many points."""
     edges = np.empty((2, most), np.int64)
-    return Room(edges[0], edges[1], np.empty((most // RUN + 1, 4)))
+    return Scratch(edges[0], edges[1], np.empty((most // RUN + 1, 4)))
 
 
 @leaf
