@@ -22,7 +22,7 @@ ICONS = ["anchor", "bell", "cactus", "guitar", "kite", "leaf", "snail", "spiral"
 
 
 def before(**options: Any) -> RunState:
-    asked = {"container": "heart", "items": ["star", "moon", "bell"], "count": 9}
+    asked = {"container": "heart", "items": ["star", "moon", "bell"], "count": 6}
     job = uses.read(make_recipe(**asked | {"sizes": "shared"} | options))
     steps = job.use.steps(job)
     at = next(k for k, step in enumerate(steps) if isinstance(step, Separate))
