@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.separation.compact import StripCompaction
+from packwork.separation.double_lattice import laid_on_lattice
 from packwork.separation.ground import Ground
 from packwork.separation.kernels.collision import X0, X1, Y1
 from packwork.separation.shapes import Floats, Part, flattest
@@ -43,6 +44,9 @@ DEAD_ENDS, GAIN = 30, 0.001
 """Dead ends in a row after which a search begins anew, and the share of a strip's length that
 counts as gained. More sit longer where nothing is found, fewer leave what could still be shortened;
 so many take most of a minute. Chosen."""
+
+LATTICE_FROM = 6
+"""Parts of one kind from which on they are laid on a lattice first. Chosen."""
 
 LARGE_QUANTILE = 0.75
 """Parts that are exchanged to leave a dead end have hulls above that quantile of all area."""
@@ -256,6 +260,21 @@ class StripSearch:
         length = self.ground.skip_back(best.length - cut, self.problem.narrowest)
         self.put(length, poses, fresh=True)
 
+    def lay_lattice(self) -> bool:
+        """Lay parts that are all alike on their densest lattice, cropped; whether that is shorter.
+
+        Few are laid better one by one.
+        """
+        if len(self.problem.parts) > 1 or len(self.problem) < LATTICE_FROM:
+            return False
+        found = laid_on_lattice(self.problem.parts[0], self.ground.height)
+        if found is None or found[0] >= self.best.length:
+            return False
+        self.put(*found)
+        if self.layout.loss == 0.0:
+            self.keep(found[1])
+        return self.layout.loss == 0.0
+
     def lay_all(self, until: float) -> None:
         """Lay all parts without overlap, on ever longer strips; the fallback is the longest."""
         while not self.is_over(until):
@@ -343,7 +362,8 @@ class StripSearch:
             # Not counted: kernels are compiled in the first pass of all.
             self.step()
             self.work.start()
-            self.lay_all(EXPLORED)
+            if not self.lay_lattice():
+                self.lay_all(EXPLORED)
             return self.shorten()
 
     def is_over(self, until: float) -> bool:
