@@ -41,7 +41,7 @@ MOST_SECONDS = 180.0
 """Time that is waited for them, for who compiles them may have been killed. Chosen: several times
 what it takes on two processors."""
 
-WHOLE_RUNS = {"cli", "pipeline", "uses"}
+WHOLE_RUNS = {"cli", "live", "pipeline", "uses"}
 """Rooms of tests most of which make layouts and measure them."""
 
 

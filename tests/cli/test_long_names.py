@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from typer.testing import Result
@@ -35,16 +31,3 @@ def test_a_name_that_no_disk_takes_is_one_line(packwork: Command, line: str) -> 
             said = (letters, ending, result.stderr)
             assert result.exit_code == 2, said
             assert result.stderr.count("\n") == 1, said
-
-
-@pytest.mark.skipif(os.name != "posix", reason="closes a descriptor")
-def test_a_closed_standard_input_is_one_line(tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "packwork", "words", "circle", "-", "-o", str(tmp_path / "a.svg")],
-        preexec_fn=lambda: os.close(0),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 2
-    assert "standard input: is closed" in done.stderr.splitlines()[-1]

@@ -16,10 +16,16 @@ from packwork.live.relayout import Moment, poured_again
 from packwork.live.session import Session
 
 
-@pytest.fixture
-def session() -> pw.Session:
+@pytest.fixture(scope="module")
+def heap() -> pw.Layout:
     """Twenty icons in the lower half of a square."""
-    return pw.pile("square", ["star", "hexagon"], count=20, size="14%", effort="draft").edit()
+    return pw.pile("square", ["star", "hexagon"], count=20, size="14%", effort="draft")
+
+
+@pytest.fixture
+def session(heap: pw.Layout) -> pw.Session:
+    """A session that begins with the heap."""
+    return heap.edit()
 
 
 def test_what_is_added_falls_on_the_heap_as_one_watches(session: pw.Session) -> None:

@@ -24,7 +24,7 @@ def test_a_move_of_the_largest_leaves_the_container_full_and_certified(
     if what == "cloud":
         layout = pw.words("heart", WEIGHTS, sizes="shared", seed=seed, **QUICK)
     else:
-        layout = pw.fill("heart", "icons", count=15, sizes="shared", seed=seed, **QUICK)
+        layout = pw.fill("heart", "icons", count=10, sizes="shared", seed=seed, **QUICK)
     session = layout.edit()
     session.move(0, "50%", "60%")
     session.settle()

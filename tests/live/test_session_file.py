@@ -11,6 +11,7 @@ import textwrap
 import zipfile
 from collections.abc import Callable
 from dataclasses import fields
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -32,10 +33,12 @@ from packwork.scene.pose import Poses
 QUICK = {"effort": "draft", "levels": "50", "epochs": 40}
 
 
+@cache
 def icons() -> pw.Layout:
     return pw.fill("circle", ["star", "builtin:icons"], count=9, **QUICK)
 
 
+@cache
 def words() -> pw.Layout:
     return pw.words("heart", {"Grüße": 3, "سلام": 2, "fill & <b>": 1}, **QUICK)
 
