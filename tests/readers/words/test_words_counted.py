@@ -17,7 +17,13 @@ from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import ranked_words, read_words
-from packwork.readers.words.tokens import guess_language, segments, sentences, stop_words
+from packwork.readers.words.tokens import (
+    guess_language,
+    segments,
+    sentences,
+    stop_words,
+    without_clitics,
+)
 from packwork.recipe.refusals import validated
 
 
@@ -157,6 +163,45 @@ def test_content_words_are_of_the_lists_that_they_are_taken_from() -> None:
 def test_pronouns_come_off_french_verbs() -> None:
     text = "Il est là, et elle est dans la maison, répondit-il. Oui, répondit-elle, peut-être."
     assert counted(text, language="fr")["répondit"] == 2.0
+
+
+@pytest.mark.parametrize("language", ["auto", "fr"])
+@pytest.mark.parametrize("apostrophe", ["'", "\u2019"])
+def test_articles_come_off_french_words(language: str, apostrophe: str) -> None:
+    text = (
+        "L'odeur de l'hiver s'éveille, c'est une odeur d'abricots et de pain, et l'on dit "
+        "qu'il est là aujourd'hui, c'est-à-dire jusqu'à la nuit ; D'Artagnan n'a pas peur."
+    )
+    found = counted(text.replace("'", apostrophe), language=language)
+    assert found.pop("odeur") == 2.0
+    kept = {"hiver", "éveille", "abricots", "pain", "nuit", "Artagnan", "peur", "aujourd'hui"}
+    assert kept <= set(found)
+    assert not [word for word in set(found) - {"aujourd'hui"} if "'" in word or "est" in word]
+
+
+def test_what_is_nothing_but_clitics_is_a_word_still() -> None:
+    assert all(without_clitics(["d'-la", "l''l", "d''", "c'-ce-la"], ["fr", "ca", "it", "pt"]))
+
+
+@pytest.mark.parametrize(
+    ("language", "text", "expected"),
+    [
+        (
+            "it",
+            "L'acqua dell'anno, un'ora: com'è quest'isola? C'era mezz'ora",
+            "acqua isola mezz'ora",
+        ),
+        ("ca", "L'aigua d'un poble, i veure's: banyar-se, veure'l, s'ha", "aigua poble"),
+        ("pt", "um copo d'água, viu-se", "copo água"),
+        ("en", "don't, it's O'Connor's, d'you", "O'Connor d'you"),
+        ("de", "Er stieg aufs Pferd, fürs Rennen, ins Tal, übers Feld, zum Haus", "Pferd Tal Haus"),
+    ],
+)
+def test_what_joins_function_words_is_left_out(language: str, text: str, expected: str) -> None:
+    found = counted(text, language=language)
+    assert set(expected.split()) <= set(found)
+    others = set(found) - set(expected.split())
+    assert not [word for word in others if "'" in word or word.endswith("s")]
 
 
 def test_phrases_are_counted_and_taken_off_their_words() -> None:

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -40,7 +40,7 @@ def stop_words(language: str) -> frozenset[str]:
 
     English is a list of our own: that of ``stopwordsiso`` has nouns such as "computer" and
     "world". All others are that package's; those of ten languages without their nouns and
-    adjectives, such as "Mensch" and "вода".
+    adjectives, such as "Mensch" and "вода", and some with what they lack, such as "aufs".
 
     Examples
     --------
@@ -119,16 +119,16 @@ def _list(code: str) -> frozenset[str]:
     import stopwordsiso
 
     usual = frozenset(word.casefold() for word in stopwordsiso.stopwords(code))
-    return usual - _content_words().get(code, frozenset())
+    return usual - _words_of("content.txt", code) | _words_of("further.txt", code)
+
+
+def _words_of(name: str, code: str) -> frozenset[str]:
+    """Words of a language, case folded: the package's that say something, or those it lacks."""
+    lines = (line.split() for line in _bundled(name).splitlines())
+    return frozenset(word.casefold() for first, *words in lines if first == code for word in words)
 
 
 @cache
-def _content_words() -> Mapping[str, frozenset[str]]:
-    """Words of the package's lists that say something, case folded, by language."""
-    lines = (line.split() for line in _bundled("content.txt").splitlines())
-    return {code: frozenset(map(str.casefold, words)) for code, *words in lines}
-
-
 def _bundled(name: str) -> str:
     place = resources.files("packwork.bundled").joinpath("words", name)
     return place.read_text(encoding="utf-8")
@@ -293,12 +293,20 @@ _DASH = re.compile(r"(?<![^\s-])-|-(?![^\s-])")
 """A hyphen that stands for a dash, or ends a word: none of two words that it joins."""
 
 _CLITICS = {
+    "ca": re.compile(r"^[dlmnst]'|'(?:ls?|ns?|[mt])$", re.IGNORECASE),
     "fr": re.compile(
-        r"(?:-(?:t|je|tu|ils?|elles?|on|nous|vous|ce|moi|toi|lui|leur|les?|la|en|y|l\u00e0|ci))+$"
+        r"^(?:[cdjlmnst]|(?:jus|lors|puis|quoi)?qu)'"
+        r"|(?:-(?:t|je|tu|ils?|elles?|on|nous|vous|ce|moi|toi|lui|leur|les?|la|en|y|l\u00e0|ci))+$",
+        re.IGNORECASE,
     ),
-    "pt": re.compile(r"(?:-(?:me|te|se|lhes?|[nv]os|[nl]?[oa]s?))+$"),
+    "it": re.compile(
+        r"^(?:[cdlmnstv]|gl|(?:d[ae]|ne|su|co|que|a|be)ll|quest|(?:ness|alc|qualc|ciasc)?un"
+        r"|tutt|anch|com|cos|dov|quand)'",
+        re.IGNORECASE,
+    ),
+    "pt": re.compile(r"^[Dd]'|(?:-(?:me|te|se|lhes?|[nv]os|[nl]?[oa]s?))+$"),
 }
-"""Pronouns that hang on verbs by a hyphen, as in "dit-il"."""
+"""Articles, pronouns and prepositions that hang on words: "l'été", "dell'anno", "dit-il"."""
 
 
 def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]]:
@@ -366,16 +374,16 @@ def _is_number(word: str) -> bool:
 
 
 def without_clitics(words: Sequence[str], languages: Iterable[str]) -> list[str]:
-    """Words without the pronouns that hang on them by hyphens in French and Portuguese.
+    """Words without the articles and pronouns that hang on them in four languages.
 
     Examples
     --------
-    >>> without_clitics(["répondit-elle", "a-t-on", "arc-en-ciel"], ["fr"])
-    ['répondit', 'a', 'arc-en-ciel']
+    >>> without_clitics(["répondit-elle", "a-t-on", "arc-en-ciel", "d'aujourd'hui"], ["fr"])
+    ['répondit', 'a', 'arc-en-ciel', "aujourd'hui"]
     """
     found = list(words)
     for clitics in (_CLITICS[code] for code in languages if code in _CLITICS):
-        found = [clitics.sub("", word) for word in found]
+        found = [clitics.sub("", word).strip("'-") or word for word in found]
     return found
 
 
