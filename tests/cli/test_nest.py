@@ -110,6 +110,8 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest 300mm", "there is nothing to nest"),
         ("nest wide bracket.svg", "wide: "),
         ("nest 300 x 200 mm bracket.svg", "sheet: 300 x ... has spaces; write it as 600x400mm"),
+        ("nest 300x200mm star 12 moon", "12: is no part; star*12 asks for so many"),
+        ("nest 300x200mm 12 star", "12: is no part; bracket.dxf*12 asks for so many"),
         ("nest 300x200 mm bracket.svg", "sheet: 300x200 mm ... has spaces"),
         ("nest 30x20 disc.svg", "or state its unit, as 600x400mm"),
         ("nest squares.json bracket.svg", "an instance holds its parts"),

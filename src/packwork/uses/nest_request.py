@@ -178,6 +178,10 @@ def read_request(
         raise RecipeError("items", "there is nothing to nest; name parts, as bracket.dxf*12")
     if named and named[0].casefold() in {"x", "*", *get_args(Unit)} and not exists(named[0]):
         raise RecipeError("sheet", f"{sheet} {named[0]} ... has spaces; write it as 600x400mm")
+    for before, text in zip([sheet, *named], named, strict=False):
+        if text.isdecimal() and not exists(text):
+            meant = f"{before}*{text}" if before != sheet else f"bracket.dxf*{text}"
+            raise ReadError(text, f"is no part; {meant} asks for so many")
     sheets = read_sheets(sheet)
     parts = [
         part
