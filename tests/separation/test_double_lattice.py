@@ -11,10 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.separation.container import SquareGround, SquareSearch
-from packwork.separation.double_lattice import DoubleLattice, densest_lattices, laid_on_lattice
+from packwork.separation.double_lattice import (
+    DoubleLattice,
+    densest_lattices,
+    laid_on_lattice,
+    laid_on_sheet,
+)
 from packwork.separation.ground import Ground
 from packwork.separation.shapes import Floats, Part, placed
+from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import StripSearch, WorkBound
+from packwork.separation.windows import FreeSheet, lay_on_sheets
 
 pytestmark = pytest.mark.compiled
 
@@ -103,6 +110,50 @@ def test_what_is_cropped_lies_on_the_strip_at_allowed_angles(
     assert max(x1, y1 if math.isinf(height) else 0.0) <= length + 1e-9
     assert y1 <= height + 1e-9
     assert turns is None or set(poses[:, 2]) <= set(turns)
+
+
+HIDE = shapely.Point(3, 3).buffer(3) - shapely.Point(3.4, 3.3).buffer(0.6)
+
+
+@settings(max_examples=10, deadline=None)
+@given(
+    wide=st.floats(1.2, 5.0), tall=st.floats(1.2, 4.0), count=st.integers(6, 40),
+    x=st.floats(0.0, 5.0), turns=st.sampled_from([HALF_TURNS, (0.3,), (0.0, math.pi / 2)]),
+)  # fmt: skip
+def test_what_lies_on_a_sheet_is_inside_and_clear_of_what_is_there(
+    wide: float, tall: float, count: int, x: float, turns: tuple[float, ...]
+) -> None:
+    held = shapely.Point(x, 1.0).buffer(0.5)
+    poses = laid_on_sheet(Part(region=TREE, count=count, turns=turns), wide, tall, (held,))
+    regions = regions_of(Part(region=TREE), poses)
+    assert len(regions) <= count
+    assert overlap([*regions, held]) <= 1e-9
+    assert all(shapely.box(-1e-9, -1e-9, wide + 1e-9, tall + 1e-9).covers(one) for one in regions)
+    assert set(poses[:, 2]) <= set(turns)
+
+
+@pytest.mark.parametrize("sheet", [shapely.box(0, 0, 5, 3), HIDE], ids=["plate", "hide"])
+def test_sheets_hold_sixty_parts_on_less_than_without_a_lattice(
+    sheet: shapely.Polygon, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    part = Part(region=TREE, count=60, turns=HALF_TURNS)
+
+    def taken() -> tuple[int, float]:
+        laid, left = lay_on_sheets(
+            [part], [FreeSheet(sheet)] * 6, seed=0, workers=1, work=WorkBound(places=60_000),
+            stop=lambda: False,
+        )  # fmt: skip
+        assert not left
+        for one in laid:
+            regions = regions_of(part, one.poses)
+            assert overlap(regions) <= 1e-9
+            assert all(sheet.buffer(1e-6).covers(region) for region in regions)
+        last = regions_of(part, laid[-1].poses)
+        return len(laid), max(region.bounds[2] for region in last)
+
+    with_lattice = taken()
+    monkeypatch.setattr(SheetSearch, "lay_lattice", lambda _: False)
+    assert with_lattice < taken()
 
 
 def test_a_strip_lower_than_the_part_has_no_lattice() -> None:

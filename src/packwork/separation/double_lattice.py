@@ -12,15 +12,18 @@ convolution", IROS 2011) has all that bound them.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 import shapely
 
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.separation.kernels.lattices import search_lattices
-from packwork.separation.shapes import FREE_TURNS, Floats, Part, rings_of
+from packwork.separation.shapes import FREE_TURNS, Floats, Part, placed, rings_of
 
 ANGLES, BEGINNINGS, STEPS = 90, 24, 500
 """Angles of rows that are tried, lattices that are made denser from there, and steps of each. More
@@ -46,6 +49,9 @@ SHORT_STEPS = np.array([[1, 0], [0, 1], [1, 1], [1, -1], [2, 1], [2, -1], [1, 2]
 """Vectors of a lattice that rows on a sheet may lie along, as sums of its two."""
 
 QUARTERS = (0.0, 0.5 * math.pi)
+
+MOST_CLEAR = 8
+"""Layouts of a box that are held against what lies on it. More take longer."""
 
 OFFSETS = 6
 """Places of the middle of a sheet in a cell of the lattice, along each vector. More take longer,
@@ -86,7 +92,8 @@ class DoubleLattice:
         )
 
 
-def densest_lattices(region: Region, *, has_twin: bool) -> list[DoubleLattice]:
+@lru_cache(maxsize=64)
+def densest_lattices(region: Region, *, has_twin: bool) -> tuple[DoubleLattice, ...]:
     """Lattices of a region that were found, the densest first; with its twin, and without.
 
     >>> triangle = shapely.Polygon([(0, 0), (1, 0), (0, 1)])
@@ -111,7 +118,7 @@ def densest_lattices(region: Region, *, has_twin: bool) -> list[DoubleLattice]:
                 vectors = np.array([[period, 0.0], [shift * period, height]]) @ frame
                 at = np.array([column * period, above]) @ frame if is_double else None
                 found.append(DoubleLattice(vectors, at))
-    return sorted(found, key=lambda one: one.area)
+    return tuple(sorted(found, key=lambda one: one.area))
 
 
 def _turn(angle: float) -> Floats:
@@ -163,6 +170,52 @@ def _twin_of(angle: float, turns: Floats) -> float | None:
     return float(turns[np.argmin(off)]) if off.min() < PARALLEL else None
 
 
+@dataclass(frozen=True)
+class _Crops:
+    """Parts of a lattice, turned, in a box about each of several middles.
+
+    ``poses``: of all parts near; ``first``, ``last``: their boxes; ``far``: ``(middles, n, 2)``
+    twice the distance of a part's far edge from a middle.
+    """
+
+    poses: Floats
+    first: Floats
+    last: Floats
+    far: Floats
+
+    def kept(self, chosen: npt.NDArray[np.int64], slack: float) -> Floats:
+        """Poses of some, at 0 on both axes but for what rounding may take."""
+        poses = self.poses[chosen]
+        poses[:, :2] += slack - self.first[chosen].min(axis=0)
+        return poses
+
+
+def _crops(part: Part, lattice: DoubleLattice, angle: float, box: Floats, reach: float) -> _Crops:
+    """Parts of a lattice about all middles of a box ``(2,)`` that are tried, as far as a reach."""
+    points = shapely.get_coordinates(part.region.convex_hull) @ _turn(angle)
+    low, high = points.min(axis=0), points.max(axis=0)
+    own, twins = lattice.places(angle, reach)
+    shares = (np.indices((OFFSETS, OFFSETS)).reshape(2, -1).T + 0.5) / OFFSETS - 0.5
+    rest = shares @ lattice.vectors @ _turn(angle)
+    # Rows of parts or of twins along its edges, too.
+    edges = [low] if lattice.twin is None else [low, lattice.twin @ _turn(angle) - high]
+    for axis in np.flatnonzero(np.isfinite(box)):
+        aligned = [rest]
+        for edge in edges:
+            aligned.append(rest.copy())
+            aligned[-1][:, axis] = edge[axis] + 0.5 * box[axis]
+        rest = np.vstack(aligned)
+    widest = 0.5 * box + np.abs(rest).max(axis=0)
+    own, twins = (one[(np.abs(one) <= widest).all(axis=1)] for one in (own, twins))
+    poses = np.ones((len(own) + len(twins), 4))
+    poses[:, :2], poses[: len(own), 2] = np.vstack([own, twins]), angle
+    half = None if part.turns is None else _twin_of(angle, np.array(part.turns, np.float64))
+    poses[len(own) :, 2] = angle + math.pi if half is None else half
+    first, last = np.vstack([own + low, twins - high]), np.vstack([own + high, twins - low])
+    far = 2.0 * np.maximum(last - rest[:, None], rest[:, None] - first)
+    return _Crops(poses, first, last, far)
+
+
 def cropped(
     part: Part, lattice: DoubleLattice, angle: float, height: float
 ) -> tuple[float, Floats] | None:
@@ -170,35 +223,17 @@ def cropped(
 
     At 0 on both axes. Of a square where the height is infinite; None where so many are not met.
     """
-    points = shapely.get_coordinates(part.region.convex_hull) @ _turn(angle)
-    # Rounding may take so much.
-    slack = PARALLEL * part.region.length
-    low, high = points.min(axis=0), points.max(axis=0)
-    diagonal = float(np.hypot(*(high - low)))
     side = math.sqrt(part.count * lattice.area)
     if math.isfinite(height):
         side = max(part.count * lattice.area / height, height)
-    own, twins = lattice.places(angle, ROOMIER * side + 2.0 * diagonal)
-    shares = (np.indices((OFFSETS, OFFSETS)).reshape(2, -1).T + 0.5) / OFFSETS - 0.5
-    rest = shares @ lattice.vectors @ _turn(angle)
+    # Rounding may take so much.
+    slack = PARALLEL * part.region.length
+    crops = _crops(part, lattice, angle, np.array([math.inf, height]),
+                   ROOMIER * side + part.region.length)  # fmt: skip
+    needed = crops.far.max(axis=2)
     if math.isfinite(height):
-        # Rows of parts or of twins along its edge, too.
-        edges = [-0.5 * height - low[1]]
-        if lattice.twin is not None:
-            edges.append(-0.5 * height + high[1] - float((lattice.twin @ _turn(angle))[1]))
-        rows = [np.column_stack([rest[:, 0], np.full(len(rest), -edge)]) for edge in edges]
-        rest = np.vstack([rest, *rows])
-        own, twins = (
-            one[np.abs(one[:, 1]) <= 0.5 * height + np.abs(rest[:, 1]).max()]
-            for one in (own, twins)
-        )
-    first = np.vstack([own + low, twins - high])
-    last = np.vstack([own + high, twins - low])
-    # Twice the distance of a part's far edge from the middle of the strip, of each middle.
-    far = 2.0 * np.maximum(last - rest[:, None], rest[:, None] - first)
-    needed = far.max(axis=2)
-    if math.isfinite(height):
-        needed = np.where(far[..., 1] <= height - 2.0 * slack, far[..., 0], np.inf)
+        is_low = crops.far[..., 1] <= height - 2.0 * slack
+        needed = np.where(is_low, crops.far[..., 0], np.inf)
     if needed.shape[1] < part.count:
         return None
     lengths = np.partition(needed, part.count - 1, axis=1)[:, part.count - 1]
@@ -206,25 +241,53 @@ def cropped(
     if math.isinf(lengths[best]):
         return None
     kept = np.argsort(needed[best], kind="stable")[: part.count]
-    poses = np.ones((len(needed[0]), 4))
-    poses[:, :2], poses[:, 2] = np.vstack([own, twins]), angle
-    turns = None if part.turns is None else np.array(part.turns)
-    half = angle + math.pi if turns is None else _twin_of(angle, turns)
-    poses[len(own) :, 2] = angle if half is None else half
-    poses[:, :2] += slack - first[kept].min(axis=0)
-    sides = np.ptp(np.vstack([first[kept], last[kept]]), axis=0) + 2.0 * slack
-    return float(sides.max() if math.isinf(height) else sides[0]), poses[kept]
+    sides = np.ptp(np.vstack([crops.first[kept], crops.last[kept]]), axis=0) + 2.0 * slack
+    length = float(sides.max() if math.isinf(height) else sides[0])
+    return length, crops.kept(kept, slack)
+
+
+def _tried(part: Part) -> Iterator[tuple[DoubleLattice, float]]:
+    """Lattices of a part, and angles of each on the sheet."""
+    angles, has_twin = orientations(part)
+    for lattice in densest_lattices(part.region, has_twin=has_twin)[: MOST_CROPS // len(angles)]:
+        yield from ((lattice, float(angle)) for angle in angles)
+        if part.turns is None and has_twin:
+            # Rows along either axis.
+            rows = np.array([np.arctan2(*step[::-1]) for step in SHORT_STEPS @ lattice.vectors])
+            yield from ((lattice, quarter - row) for quarter in QUARTERS for row in rows.tolist())
 
 
 def laid_on_lattice(part: Part, height: float) -> tuple[float, Floats] | None:
     """Shortest of the strips to which dense lattices of a part are cropped, as `cropped`."""
-    angles, has_twin = orientations(part)
-    tried = list[tuple[float, Floats]]()
-    for lattice in densest_lattices(part.region, has_twin=has_twin)[: MOST_CROPS // len(angles)]:
-        along = angles
-        if part.turns is None and has_twin:
-            # Rows along either axis.
-            rows = np.array([np.arctan2(*step[::-1]) for step in SHORT_STEPS @ lattice.vectors])
-            along = np.concatenate([angles, *(quarter - rows for quarter in QUARTERS)])
-        tried += filter(None, (cropped(part, lattice, float(one), height) for one in along))
-    return min(tried, key=lambda one: one[0], default=None)
+    found = (cropped(part, lattice, angle, height) for lattice, angle in _tried(part))
+    return min((one for one in found if one), key=lambda one: one[0], default=None)
+
+
+@lru_cache(maxsize=16)
+def laid_on_sheet(part: Part, wide: float, tall: float, taken: tuple[Region, ...]) -> Floats:
+    """Poses of the most parts of a lattice in a box at 0 that are clear of what lies there.
+
+    ``(n, 4)``, no more than there are of the part: the first of them along x.
+    """
+    box, slack = np.array([wide, tall]), PARALLEL * part.region.length
+    found = list[Floats]()
+    for lattice, angle in _tried(part):
+        crops = _crops(part, lattice, angle, box, 0.5 * math.hypot(wide, tall) + part.region.length)
+        is_inside = (crops.far <= box - 2.0 * slack).all(axis=2)
+        if is_inside.any():
+            found.append(crops.kept(np.flatnonzero(is_inside[np.argmax(is_inside.sum(1))]), slack))
+    found = sorted(found, key=len, reverse=True)[:MOST_CLEAR]
+    if taken:
+        held = shapely.STRtree(taken)
+        regions = [np.array([placed(part.region, pose) for pose in poses]) for poses in found]
+        found = [
+            np.delete(poses, held.query(own, predicate="intersects")[0], axis=0)
+            for poses, own in zip(found, regions, strict=True)
+        ]
+    best = max(found, key=len, default=np.zeros((0, 4)))
+    if len(best) >= part.count:
+        strip = None if taken else laid_on_lattice(part, tall)
+        best = best[np.argsort(best[:, 0], kind="stable")][: part.count]
+        if strip is not None and strip[0] <= wide:
+            best = strip[1]
+    return best

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
+import shapely
 
+from packwork.separation.double_lattice import laid_on_sheet
 from packwork.separation.shapes import Floats
 from packwork.separation.strip import PATIENCE_AT_END, SHRINKS, Strip, StripSearch
 
@@ -46,9 +49,33 @@ class SheetSearch(StripSearch):
         """No part is laid."""
         return self.best.poses
 
+    def lay_lattice(self) -> bool:
+        """Lay parts that are all alike on their densest lattice, a sheet after the other."""
+        if not self.is_alike:
+            return False
+        part, poses, at = self.problem.parts[0], self.best.poses.copy(), 0
+        for bay in self.ground.bays:
+            if at == len(poses):
+                break
+            taken = tuple(
+                shapely.transform(one, lambda points, x=bay.start: points - (x, 0.0))
+                for one in self.ground.obstacles
+                if one.bounds[0] < bay.end and one.bounds[2] > bay.start
+            )
+            left = replace(part, count=len(poses) - at)
+            found = laid_on_sheet(left, bay.end - bay.start, self.ground.height, taken)
+            poses[at : at + len(found)] = found + np.array([bay.start, 0.0, 0.0, 0.0])
+            at += len(found)
+        self.put(self.ground.end, poses)
+        if at and self.layout.loss == 0.0:
+            self.keep(poses)
+        return at > 0 and self.layout.loss == 0.0
+
     def lay_all(self, until: float) -> None:
         """Bring all parts onto the sheets that have to be."""
         length = self.ground.length_for(self.problem.area / SPARSE)
+        if self.lay_lattice():
+            length = max(length, self.best.length)
         self.bring_in(min(max(length, self.problem.widest), self.ground.end), until)
 
     def bring_in(self, length: float, until: float) -> None:
@@ -57,8 +84,7 @@ class SheetSearch(StripSearch):
         Those for which there is no room go back, and have another turn when all others had theirs.
         ``length``: where the sheets are cut off at first.
         """
-        order = np.lexsort((-self.problem.hulls, -self.priorities))
-        waiting = deque(self.first_fit(order.tolist(), length, until))
+        waiting = deque(self.first_fit(self.unlaid(), length, until))
         failed, patience, kinds = 0, FIRST_PATIENCE, self.problem.shape_of
         batch = math.ceil(len(waiting) / 2)
         while waiting and not self.is_over(BROUGHT_IN * until):
@@ -92,6 +118,11 @@ class SheetSearch(StripSearch):
         for bay in dict.fromkeys((self.ground.bays[last], self.ground.bays[-1])):
             if not self.stop():
                 waiting = deque(self.first_fit(waiting, bay.end, math.inf))
+
+    def unlaid(self) -> list[int]:
+        """Parts that are not laid, the largest of the highest priority first."""
+        order = np.lexsort((-self.problem.hulls, -self.priorities))
+        return [int(k) for k in order if np.isnan(self.best.poses[k, 0])]
 
     def first_fit(self, parts: Iterable[int], length: float, until: float) -> list[int]:
         """Lay parts where nothing has to give way; returns those that found no such place."""
@@ -139,9 +170,9 @@ class SheetSearch(StripSearch):
             self.step()
             self.work.start()
             end = self.ground.end
-            order = np.lexsort((-self.problem.hulls, -self.priorities)).tolist()
-            waiting = self.first_fit(order, end, math.inf)
-            while waiting and len(waiting) < len(order) and not self.is_over(1.0):
+            self.lay_lattice()
+            waiting = self.first_fit(self.unlaid(), end, math.inf)
+            while waiting and len(waiting) < len(self.problem) and not self.is_over(1.0):
                 self.close_up(1.0)
                 waiting = self.first_fit(waiting, end, math.inf)
             return self.best

@@ -260,12 +260,17 @@ class StripSearch:
         length = self.ground.skip_back(best.length - cut, self.problem.narrowest)
         self.put(length, poses, fresh=True)
 
+    @property
+    def is_alike(self) -> bool:
+        """Whether there is one kind of parts, and not few of it."""
+        return len(self.problem.parts) == 1 and len(self.problem) >= LATTICE_FROM
+
     def lay_lattice(self) -> bool:
         """Lay parts that are all alike on their densest lattice, cropped; whether that is shorter.
 
         Few are laid better one by one.
         """
-        if len(self.problem.parts) > 1 or len(self.problem) < LATTICE_FROM:
+        if not self.is_alike:
             return False
         found = laid_on_lattice(self.problem.parts[0], self.ground.height)
         if found is None or found[0] >= self.best.length:
