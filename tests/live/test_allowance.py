@@ -13,6 +13,7 @@ from packwork.arrays import FloatArray
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Move
 from packwork.live.document import Document
+from packwork.live.history import Marks
 from packwork.live.neighbourhood.allowance import ranges, widened, within
 from packwork.live.neighbourhood.caches import LevelCache
 from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
@@ -145,6 +146,21 @@ def test_sizes_vary_within_ranges_and_never_beyond_those_that_a_person_gave() ->
     assert bound.largest[rows] == pytest.approx(
         [min(1.1 * scale[1], document.largest[1]), *document.largest[[2, 3]], scale[4]]
     )
+
+
+def test_what_is_undone_or_removed_leaves_no_trials_and_no_ranges(session: pw.Session) -> None:
+    session.move(0, "50%", "50%")
+    session.settle()
+    assert {0, 1} <= set(session.marks.ranges)
+    session.polish(4)
+    assert session.marks.tried == 4
+    session.undo()
+    assert session.marks == Marks(polished=1)
+    session.move(0, "50%", "50%")
+    session.settle()
+    session.remove(0)
+    session.settle()
+    assert 0 not in session.marks.ranges
 
 
 def test_many_gestures_do_not_empty_a_layout() -> None:

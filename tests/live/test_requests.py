@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 import packwork as pw
+from packwork.live.certificate import Requests
 from packwork.live.commands.gestures import Cancel, Grab
+from packwork.live.document import Document
 from packwork.live.names import called
 from packwork.live.relayout import poured_again
 
@@ -133,12 +137,44 @@ def test_what_was_put_by_hand_and_made_way_is_said_until_the_next_gesture(
     (said,) = session.unmet
     assert said.startswith(f"{called(before, row)} is at ")
     assert said.endswith("not at 300, 300 as put by hand: it made way")
+    session.settle()
+    assert session.unmet == (said,)
     session.turn(second, 20)
     session.finish()
     assert not any("made way" in line and "not at 300, 300" in line for line in session.unmet)
     session.undo()
     session.undo()
     assert session.unmet == ()
+
+
+def placed(document: Document, x: float, y: float) -> Document:
+    """A document whose first item lies there, as put by hand."""
+    columns = {name: getattr(document.poses, name).copy() for name in ("x", "y")}
+    columns["x"][0], columns["y"][0] = x, y
+    return replace(document, poses=replace(document.poses, **columns), put=frozenset({0}))
+
+
+def test_what_makes_way_bit_by_bit_is_said_once(session: pw.Session) -> None:
+    document, requests, lines = session.document, Requests(), list[int]()
+    ways = [placed(document, 300.0 + way, 300.0) for way in (0.0, 0.0, 5.0, 10.0, 15.0, 20.0, 40.0)]
+    for before, now in pairwise(ways):
+        requests.settled(before, now, set())
+        lines.append(len(requests.unmet(now)))
+    assert lines == [0, 0, 0, 1, 0, 0]
+    again = placed(document, 340.0, 301.0)
+    requests.settled(ways[-1], again, {0})
+    requests.settled(again, placed(document, 300.0, 300.0), set())
+    (said,) = requests.unmet(placed(document, 300.0, 300.0)).values()
+    assert "not at 340, 301 as put by hand" in said
+
+
+def test_on_a_tile_the_nearest_image_of_the_place_is_named() -> None:
+    tile = pw.fill("page", ["star", "heart"], count=6, tile="square", levels="50", epochs=40)
+    put = placed(tile.edit().document, 2.0, 1.0)
+    now, requests = placed(put, 570.0, 590.0), Requests()
+    requests.settled(put, now, set())
+    (said,) = requests.unmet(now).values()
+    assert "is at 570, 590, not at 602, 601 as put by hand" in said
 
 
 def test_what_is_put_elsewhere_by_a_run_has_not_made_way(session: pw.Session) -> None:

@@ -16,7 +16,15 @@ import pytest
 import packwork as pw
 from packwork.errors import ReadError
 from packwork.live.file import disk, documents
-from packwork.live.file.session_file import EASILY_UNPACKED, packed, read_session, unpacked
+from packwork.live.file.session_file import (
+    EASILY_UNPACKED,
+    MOST_TRIED,
+    packed,
+    read_session,
+    unpacked,
+)
+from packwork.live.local_solver import LocalSolver
+from packwork.progress import never
 from packwork.readers import json_text
 
 MOST_TAKEN = 64_000_000
@@ -116,6 +124,26 @@ def test_no_part_is_unpacked_before_it_is_named(good: bytes) -> None:
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert most < MOST_TAKEN
+
+
+@pytest.mark.parametrize(
+    "marks",
+    [{"tried": 2**53}, {"ranges": {"1": [2.0, 1.0]}}, {"ranges": {"1": [1e-300, 1e300]}}],
+    ids=["tried", "descending", "endless"],
+)
+def test_marks_that_no_session_has_are_refused(good: bytes, marks: dict[str, object]) -> None:
+    refusal(changed(good, "session.json", lambda found: found["marks"].update(marks)))
+
+
+def test_polish_after_as_many_trials_as_a_file_may_say(good: bytes) -> None:
+    marks = {"touched": [], "rough": [1], "ranges": {"1": [0.1, 1.0]}, "tried": MOST_TRIED}
+    state, _ = read_session(
+        changed(good, "session.json", lambda found: found["marks"].update(marks)), "a.packwork"
+    )
+    solver = LocalSolver(state.document)
+    solver.go_on_from(state)
+    assert solver.polish(4, never) is not None
+    assert not solver.is_rough
 
 
 def test_few_documents_of_few_items_go(good: bytes, monkeypatch: pytest.MonkeyPatch) -> None:

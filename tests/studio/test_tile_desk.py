@@ -93,6 +93,18 @@ def test_what_goes_over_the_edge_comes_in_again_is_undone_and_exported(
     assert np.array_equal(four, np.tile(four[:150, :150], (2, 2, 1)))
 
 
+ASKED_OF_ANOTHER = """(({ connection, document, panels }) => {
+    const [sent, before] = [[], panels.repeating.before];
+    connection.send = (message) => sent.push(message);
+    studio.opened(document);
+    panels.repeating.ask("");
+    delete connection.send;
+    panels.repeating.before = before;
+    return sent[0].canvas;
+})(studio)"""
+"""Canvas without a repeat that is asked for just after another document was opened."""
+
+
 def test_a_canvas_repeats_another_way_and_gets_its_edge_back(
     open_desk: Callable[..., Desk],
 ) -> None:
@@ -103,6 +115,9 @@ def test_a_canvas_repeats_another_way_and_gets_its_edge_back(
     desk.until("studio.collage.scene.height < studio.collage.scene.width")
     desk.settled()
     desk.picture("tile-hexagon")
+    # Of another document, or another sheet, the canvas before is not this one's.
+    canvas = desk.look("[studio.collage.scene.width, studio.collage.scene.height]")
+    assert desk.look(ASKED_OF_ANOTHER) == "{}x{}px".format(*canvas)
     desk.page.get_by_label("Repeats").select_option("")
     desk.until("!studio.collage.scene.repeat && studio.collage.scene.kind === 'collage'")
     desk.settled()

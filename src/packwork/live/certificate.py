@@ -123,6 +123,10 @@ NEAR = 0.005
 """Distance from the place asked for, in sides of the canvas, up to which an item is there. Larger
 passes over what is seen, smaller tells of what is not. Chosen."""
 
+AWAY = 0.02
+"""The same from where a hand has put an item once, for which others have made it make way. Larger
+passes over what is seen, smaller tells of what no eye finds. Chosen."""
+
 ROUNDING = 1e-6
 """Share by which a size may miss its range and keep it. Derived: rounding of the finish."""
 
@@ -164,14 +168,21 @@ class Requests:
     def settled(self, before: Document, document: Document, recent: set[int]) -> None:
         """Forget what a document that is settled has: later gestures may take it away again.
 
-        What hands put somewhere before, other than the numbers ``recent``, is to be where it was.
+        What hands put somewhere before, other than the numbers ``recent``, is to be where they put
+        it, until it was said once that it is not.
         """
-        unmet = self.unmet(document)
-        asked = {key: one for key, one in self._asked.items() if one.number in unmet}
-        self._asked = {key: one for key, one in asked.items() if key[0] != "stay"}
-        for number in sorted(before.put & document.put - recent):
-            row = before.index(number)
-            if row is not None and ("place", number) not in self._asked:
+        if Change.between(before, document).stale == Invalidation.NOTHING:
+            return
+        told, unmet, put = self.unmet(before), self.unmet(document), document.put - recent
+        asked, self._asked = self._asked, {}
+        for (what, number), one in asked.items():
+            if what == "stay" and number in put:
+                self._asked[what, number] = replace(one, is_told=one.is_told or one.number in told)
+            elif what != "stay" and one.number in unmet:
+                self._asked[what, number] = one
+        for number in sorted(before.put & put):
+            row, places = before.index(number), {("stay", number), ("place", number)}
+            if row is not None and not places & self._asked.keys():
                 self._ask("stay", number, (before.poses.x[row], before.poses.y[row]))
         self._settled = self._count
 
@@ -194,7 +205,7 @@ class Requests:
         """Sentences about what items of a document have not got, by the count of what was asked."""
         sentences = {}
         for (what, number), asked in self._asked.items():
-            k = document.index(number)
+            k = None if asked.is_told else document.index(number)
             told = None if k is None else _MISSES[what](document, k, *asked.value)
             if told is not None:
                 sentences[asked.number] = told
@@ -205,32 +216,34 @@ class Requests:
 class _Request:
     """Request, in the order of asking.
 
-    ``value``: coordinates; of a size itself and what it was before.
+    ``value``: coordinates; of a size itself and what it was before. ``is_told``: whether that it is
+    not had was said and is not to be said again.
     """
 
     number: int
     value: tuple[float, float]
+    is_told: bool = False
 
 
 def _miss_of_place(document: Document, k: int, x: float, y: float) -> str | None:
-    at = document.poses.x[k], document.poses.y[k]
-    # What forces pull at does not stay where it is put.
-    if document.container.lattice is not None:
-        x, y = document.container.lattice.nearest(np.array([x, y]), np.array(at)).tolist()
-    if document.options.force or math.dist((x, y), at) <= NEAR * document.container.side:
-        return None
-    return f"{_elsewhere(document, k, x, y)}: there is no room for it"
+    found = _elsewhere(document, k, x, y, NEAR)
+    return found and f"{found}: there is no room for it"
 
 
 def _miss_of_stay(document: Document, k: int, x: float, y: float) -> str | None:
-    if _miss_of_place(document, k, x, y) is None:
+    found = _elsewhere(document, k, x, y, AWAY)
+    return found and f"{found} as put by hand: it made way"
+
+
+def _elsewhere(document: Document, k: int, x: float, y: float, near: float) -> str | None:
+    """Sentence where an item is farther off than ``near``, in sides of the canvas."""
+    at, container = (float(document.poses.x[k]), float(document.poses.y[k])), document.container
+    if container.lattice is not None:
+        x, y = container.lattice.nearest(np.array([x, y]), np.array(at)).tolist()
+    # What forces pull at does not stay where it is put.
+    if document.options.force or math.dist((x, y), at) <= near * container.side:
         return None
-    return f"{_elsewhere(document, k, x, y)} as put by hand: it made way"
-
-
-def _elsewhere(document: Document, k: int, x: float, y: float) -> str:
-    here = document.poses.x[k], document.poses.y[k]
-    return f"{called(document, k)} is at {here[0]:.4g}, {here[1]:.4g}, not at {x:.4g}, {y:.4g}"
+    return f"{called(document, k)} is at {at[0]:.4g}, {at[1]:.4g}, not at {x:.4g}, {y:.4g}"
 
 
 def _miss_of_size(document: Document, k: int, asked: float, first: float) -> str | None:

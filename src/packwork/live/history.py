@@ -147,13 +147,14 @@ class Marks:
         others = {n: one for n, one in self.ranges.items() if n not in self.edited}
         rings = np.where(np.isin(document.ids, list(self.edited)), 1, -1)
         self.ranges = widened(others, document, document, rings)
+        self.keep(set(document.ids.tolist()))
         for kept in (self.touched, self.placed_by_user, self.turned, self.vacated, self.edited):
             kept.clear()
 
     def leapt(self) -> None:
         """Forget all items: the document is another one."""
         self.keep(set())
-        self.full = 0.0
+        self.full, self.tried = 0.0, 0
 
     def keep(self, present: set[int]) -> None:
         """Forget items that are no more."""

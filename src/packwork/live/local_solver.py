@@ -254,7 +254,7 @@ class LocalSolver:
         self._flow.begin(self._strict(before))
         reached = self._rows(set(marks.ranges))
         most = max(ENOUGH * len(reached), 1)
-        stage = marks.tried // most
+        stage = min(marks.tried // most, STAGES - 1)
         # What was put somewhere last stays there; what no edit has reached takes part in need.
         around = self._flow.contacts.rings(reached, stage) >= 0
         rows = np.setdiff1d(np.flatnonzero(around), self._rows(marks.recent))

@@ -40,6 +40,8 @@ def test_weights_are_heights_areas_or_ink() -> None:
 def test_heights_too_far_apart_are_refused() -> None:
     with pytest.raises(RecipeError, match="1e\\+04 times as high as the smallest"):
         read({"bear": 1e4, "ox": 1.0})
+    with pytest.raises(RecipeError, match=r"1\.8e\+308 times as high as the smallest"):
+        read({"bear": 1e300, "ox": 1e-300})
     assert len(read({"bear": 1e4, "ox": 1.0}, weight_is="area").items) == 2
 
 

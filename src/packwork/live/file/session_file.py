@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, replace
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from packwork.errors import RecipeError
 from packwork.live.file.documents import (
@@ -25,19 +25,33 @@ from packwork.live.file.documents import (
 from packwork.live.file.records import ContainerRecord, ItemRecord
 from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
 from packwork.live.history import MOST_ENTRIES, Marks, SessionState, UndoHistory
+from packwork.live.local_solver import ENOUGH, STAGES
 from packwork.options import Options
 from packwork.phrasing import number_of
 from packwork.readers.json_text import is_read
+from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE
 from packwork.readers.reading import UnfitError, reading_file
+from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 
 _LOG = logging.getLogger("packwork")
 
 _Path = Annotated[str, Field(pattern=r"^(items|containers)/[0-9a-f]{64}\.json$")]
-_Scale = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+_Scale = Annotated[float, Field(ge=SMALLEST_SCALE / 2, le=2 * LARGEST_SCALE)]
 _Ids = tuple[Annotated[int, Field(ge=0)], ...]
 
+
+def _ascending(scales: tuple[float, float]) -> tuple[float, float]:
+    if scales[0] > scales[1]:
+        raise ValueError(f"the smallest scale, {scales[0]:g}, is above the largest, {scales[1]:g}")
+    return scales
+
+
+_Range = Annotated[tuple[_Scale, _Scale], AfterValidator(_ascending)]
+
+MOST_TRIED = ENOUGH * STAGES * MAX_COUNT
+"""Turns that polish tries at most before it has done with all. Derived."""
 
 _IN_FILE = {
     "placed_by_user": "given", "vacated": "left", "turned_by_hand": "by_hand",
@@ -57,10 +71,10 @@ class MarksRecord(Options):
     lately: _Ids = ()
     rough: _Ids = ()
     edited: _Ids = ()
-    ranges: dict[Annotated[int, Field(ge=0)], tuple[_Scale, _Scale]] = Field(default_factory=dict)
+    ranges: dict[Annotated[int, Field(ge=0)], _Range] = Field(default_factory=dict)
     full: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
     polished: Annotated[int, Field(ge=0, le=2**53)] = 0
-    tried: Annotated[int, Field(ge=0, le=2**53)] = 0
+    tried: Annotated[int, Field(ge=0, le=MOST_TRIED)] = 0
 
 
 class SessionRecord(Options):

@@ -75,7 +75,9 @@ class ContactGraph:
         found[sources] = 0
         front = inner = np.asarray(sources, dtype=np.int64)
         for ring in range(1, most + 1):
-            inner = np.union1d(inner, self.beside(front)) if len(front) else inner
+            if not len(front):
+                break
+            inner = np.union1d(inner, self.beside(front))
             front = inner[found[inner] < 0]
             found[front] = ring
         return found

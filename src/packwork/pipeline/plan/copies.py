@@ -233,7 +233,7 @@ def expand_copies(
                 asked[k] = asked[k].merged(rule, source)
     pairs = zip(asked, shares[which].tolist(), strict=True)
     weights = np.array([one.values.get("weight", weight) for one, weight in pairs])
-    if weights.max() / weights.min() > WIDEST_WEIGHTS:
+    if float(weights.max()) / float(weights.min()) > WIDEST_WEIGHTS:
         raise RecipeError(
             "weights",
             f"the largest may be {WIDEST_WEIGHTS:g} times the smallest, "

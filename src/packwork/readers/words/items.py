@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import logging
 import math
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -257,7 +258,8 @@ def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs)
     """
     own = np.array([item.outline.area for item in items])
     heights = height_shares(items, weights, weight_is)
-    widest = float(heights.max() / heights.min())
+    # As numbers of Python, which become infinite without a warning.
+    widest = min(float(heights.max()) / float(heights.min()), sys.float_info.max)
     if widest > WIDEST_HEIGHTS:
         raise RecipeError(
             "weight_is",

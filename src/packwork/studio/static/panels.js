@@ -140,6 +140,7 @@ export class Panels {
     const size = asked === OTHER ? prompt("Width and height with a unit, as 300x200mm or 12x9in", "300x200mm") : asked;
     if (!size) return this.refresh();
     this.studio.dropping.sheet = size;
+    this.repeating.opened();
     const tile = this.repeating.now;
     this.studio.connection.send({ type: "room", source: tile ? "page" : "same", canvas: size, tile });
   }

@@ -17,8 +17,8 @@ export class Repeating {
     this.preview = h("input", { type: "checkbox", onchange: () => this.show(this.preview.checked) });
     this.shown = h("label", { class: "row" }, this.preview, "Show three by three tiles");
     this.elements = [h("label", { class: "row" }, "Repeats", this.way), this.shown];
-    /** Size of the canvas before it became a honeycomb's. */
-    this.size = "";
+    /** Canvas before it was made a honeycomb's, which is as wide. @type {{size: string, width: number, unit: string} | null} */
+    this.before = null;
   }
 
   /** @returns {Way | null} */
@@ -33,10 +33,17 @@ export class Repeating {
   ask(way) {
     const { scene } = this.studio.collage;
     if (!scene) return;
-    const size = `${scene.width}x${scene.height}${scene.unit}`;
-    const canvas = this.now === "hexagon" ? this.size || size : size;
-    this.size = canvas;
+    const { before } = this;
+    const { width, height, unit } = scene;
+    const isOurs = before && this.now === "hexagon" && before.width === width && before.unit === unit;
+    const canvas = isOurs ? before.size : `${width}x${height}${unit}`;
+    this.before = { size: canvas, width, unit };
     this.studio.connection.send({ type: "room", source: "page", canvas, tile: way || null });
+  }
+
+  /** Forget the canvas that was: this is another one. */
+  opened() {
+    this.before = null;
   }
 
   /** @param {boolean} isPreview */

@@ -196,6 +196,7 @@ export class Studio {
     this.variants.clear();
     this.forces.places.clear();
     this.words.opened();
+    this.panels.repeating.opened();
   }
 
   /**
