@@ -86,6 +86,8 @@ def test_a_picture_is_shown_by_steps_of_its_own(tmp_path: Any) -> None:
     Image.linear_gradient("L").save(tmp_path / "grey.png")
     extra = set(names(picture=str(tmp_path / "grey.png"))) - set(PLAIN)
     assert extra == {"ShowPicture"}
+    # A tint tells neighbours apart.
+    assert "TellOneColour" not in names(picture=str(tmp_path / "grey.png"))
 
 
 def test_without_an_exact_finish_nothing_of_it_is_listed() -> None:

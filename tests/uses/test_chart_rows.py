@@ -152,3 +152,27 @@ def test_any_cells_are_parted_or_refused_in_one_line(cells: list[Any], step: flo
     assert len(read.items) + sum(is_missing(cell) or step is not None for cell in cells) >= len(
         cells
     )
+
+
+@pytest.mark.parametrize("cell", ["k. A.", "k.A.", "n/a", "#NV", "–", "-", "…", "keine Angabe"])
+def test_usual_marks_of_no_value_are_empty_cells(cell: str) -> None:
+    rows = ({"a": "x", "kg": "1,5"}, {"a": "y", "kg": cell}, {"a": "z", "kg": "2"})
+    read = read_chart(ChartOptions(data=rows, size_by="kg", label_by="a"))
+    assert read.notices == ("left out 1 row of 3 whose kg is missing: y",)
+    assert not read.lost
+
+
+def test_dashes_are_categories_among_texts() -> None:
+    rows = tuple({"rh": rh, "n": 1} for rh in ("+", "-", "n/a"))
+    read = read_chart(ChartOptions(data=rows, size_by="n", color_by="rh"))
+    assert read.colour_of == ("+", "-", "no value")
+
+
+def test_a_total_without_a_group_is_left_out_once() -> None:
+    rows = (
+        *({"a": name, "land": land, "kg": 2} for name, land in ("xA", "yB", "zA")),
+        {"a": "Summe", "land": "", "kg": 6},
+        {"a": "w", "land": "", "kg": 0},
+    )
+    read = read_chart(ChartOptions(data=rows, size_by="kg", by="land", label_by="a"))
+    assert [sum("Summe" in one for one in read.notices), len(read.notices)] == [1, 2]

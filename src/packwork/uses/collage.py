@@ -158,7 +158,7 @@ def reporting(
         steps.append(Advise())
     if is_dressed or job.plan.palette or any(one.values for one in job.asked):
         steps.append(Dress())
-    if shows_shape and not job.plan.gap:
+    if shows_shape and not job.plan.gap and job.target is None:
         steps.append(TellOneColour())
     if job.target is not None:
         steps.append(ShowPicture(job.target, judge))

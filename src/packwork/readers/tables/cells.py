@@ -32,6 +32,14 @@ numbers. Chosen."""
 MISSING = "no value"
 """Category of cells that hold nothing."""
 
+_NONE = {
+    *("", "na", "n/a", "n.a.", "nan", "<na>", "#n/a", "#na", "#nv", "null", "n.v."),
+    *("k.a.", "k.a", "keineangabe", "keineangaben", "n/d", "s/d"),
+}
+"""Cells that hold nothing, case folded and without spaces, as people and programs write them."""
+
+_STROKES = frozenset(" \u00a0-\u2010\u2011\u2012\u2013\u2014\u2212./?\u2026")
+
 LONGEST = 60
 """Letters of a cell that can be a number. More would only be work. Chosen."""
 
@@ -277,12 +285,23 @@ def is_missing(cell: Any) -> bool:
 
     Examples
     --------
-    >>> [is_missing(cell) for cell in (None, "", " NA ", float("nan"), 0, "0")]
-    [True, True, True, True, False, False]
+    >>> [is_missing(cell) for cell in (None, "", " NA ", "k. A.", float("nan"), 0, "0", "-")]
+    [True, True, True, True, True, False, False, False]
     """
     if isinstance(cell, float):
         return math.isnan(cell)
-    return cell is None or (isinstance(cell, str) and cell.strip() in {"", "NA", "N/A", "NaN"})
+    return cell is None or (isinstance(cell, str) and "".join(cell.casefold().split()) in _NONE)
+
+
+def is_blank(cell: Any) -> bool:
+    """Whether a cell of a column of numbers stands for none: empty, or a dash or dots.
+
+    Examples
+    --------
+    >>> [is_blank(cell) for cell in (None, "n/a", " – ", "...", "-1", "many")]
+    [True, True, True, True, False, False]
+    """
+    return is_missing(cell) or (isinstance(cell, str) and not set(cell) - _STROKES)
 
 
 def as_number(cell: Any) -> float:

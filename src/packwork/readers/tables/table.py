@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes
-from packwork.readers.tables.cells import Written, figure, written_numbers
+from packwork.readers.tables.cells import Written, figure, is_blank, written_numbers
 from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import ENDINGS, MOST_ROWS, TextTable, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
@@ -61,7 +62,7 @@ class Table:
 
         Without a decimal sign, that is told from the column. With ``whole`` the column is
         one of numbers only if all that it holds are some: so categories such as ``1.200``
-        need no decision.
+        need no decision. Dashes and their like are empty cells there.
 
         Examples
         --------
@@ -80,6 +81,9 @@ class Table:
             if whole and not all(_may_be_number(cell) for cell in cells):
                 return self
             raise
+        if not all(map(math.isnan, numbers)) and (not whole or all(map(_may_be_number, cells))):
+            # Dashes say something among texts, such as groups of blood, and nothing among numbers.
+            cells = ["" if isinstance(cell, str) and is_blank(cell) else cell for cell in cells]
         rows = tuple(
             {**row, column: Written(cell, number)} if isinstance(cell, str) else row
             for row, cell, number in zip(self.rows, cells, numbers, strict=True)
@@ -88,7 +92,7 @@ class Table:
 
 
 def _may_be_number(cell: Any) -> bool:
-    return not isinstance(cell, str) or not cell or figure(cell) is not None
+    return not isinstance(cell, str) or is_blank(cell) or figure(cell) is not None
 
 
 def read_table(

@@ -10,7 +10,7 @@ from typing import Any
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated, number_of
-from packwork.readers.tables.cells import is_number_like
+from packwork.readers.tables.cells import is_blank, is_number_like
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import (
     MOST_NAMED,
@@ -90,7 +90,7 @@ _EMPTY = frozenset({"without a weight", "whose weight is 0"})
 def _why(pair: Pair) -> str:
     if not pair.name:
         return "without a word"
-    if pair.written is None:
+    if is_blank(pair.written):
         return "without a weight"
     if pair.number == 0:
         return "whose weight is 0"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from packwork.errors import RecipeError
@@ -55,16 +55,17 @@ class Groups:
     notices: dict[str, bool]
 
 
-def read_groups(table: Table, options: ChartOptions) -> Groups | None:
+def read_groups(table: Table, options: ChartOptions, shown: Collection[int]) -> Groups | None:
     """Groups that a chart asks for; None if it asks for none.
 
-    Numbers and dates ascend, all else comes as it first stands in the table.
+    Numbers and dates ascend, all else comes as it first stands in the table. Of those
+    in no group the rows that would be ``shown`` are named: others are left out anyway.
 
     Examples
     --------
     >>> rows = ({"year": 1999}, {"year": 1962}, {"year": 1995}, {"year": None})
     >>> asked = ChartOptions(data=rows, by="year", by_step=10)
-    >>> groups = read_groups(Table("data", ("year",), rows), asked)
+    >>> groups = read_groups(Table("data", ("year",), rows), asked, range(4))
     >>> groups.names, groups.of_row
     (('1960s', '1970s', '1980s', '1990s'), (3, 0, 3, -1))
     >>> groups.notices
@@ -74,7 +75,7 @@ def read_groups(table: Table, options: ChartOptions) -> Groups | None:
     if column is None:
         return None
     if options.by_step is not None:
-        return _steps(table, column, options.by_step, options.label_by)
+        return _steps(table, column, options.by_step, options.label_by, shown)
     missing = [k for k, row in enumerate(table.rows) if is_missing(row.get(column))]
     has_numbers, told = is_numeric(table.rows, column), list[str]()
     if has_numbers:
@@ -91,12 +92,15 @@ def read_groups(table: Table, options: ChartOptions) -> Groups | None:
     if is_ordered:
         names = tuple(sorted(names, key=float if has_numbers else None))
     numbers = {"": -1} | {name: number for number, name in enumerate(names)}
-    said = [left_out(table, column, "is missing", missing, options.label_by)] if missing else []
+    odd = [k for k in missing if k in shown]
+    said = [left_out(table, column, "is missing", odd, options.label_by)] if odd else []
     of_row = tuple(numbers[name] for name in named)
     return Groups(names, of_row, False, is_ordered, dict.fromkeys([*said, *told], False))
 
 
-def _steps(table: Table, column: str, step: float, label_by: str | None) -> Groups:
+def _steps(
+    table: Table, column: str, step: float, label_by: str | None, shown: Collection[int]
+) -> Groups:
     """Groups of numbers from one multiple of the step up to the next."""
     numbers = [as_number(row.get(column)) for row in table.rows]
     held = [number for number in numbers if not math.isnan(number)]
@@ -125,7 +129,7 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
         which = [
             k
             for k, number in enumerate(of_row)
-            if number < 0 and is_missing(table.rows[k].get(column)) == is_so
+            if number < 0 and k in shown and is_missing(table.rows[k].get(column)) == is_so
         ]
         if which:
             said[left_out(table, column, why, which, label_by)] = not is_so

@@ -27,7 +27,14 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
 from packwork.scene.item import MAX_LENGTH, Datum, Item, Label
 from packwork.uses.charts.groups import Groups, read_groups
-from packwork.uses.charts.rows import NUMBERS, marks_of, oddities, read_amounts, read_chart_table
+from packwork.uses.charts.rows import (
+    NUMBERS,
+    marks_of,
+    oddities,
+    read_amounts,
+    read_chart_table,
+    sized_rows,
+)
 from packwork.uses.cutting import part_of
 
 _LOG = logging.getLogger("packwork")
@@ -112,8 +119,9 @@ def read_chart(
     """
     asked = asked or TableFormat()
     table = read_chart_table(options, asked)
-    groups = read_groups(table, options)
-    shown_rows = read_amounts(table, options, groups, keeps_totals=asked.keep_totals)
+    sized, of_sizes = sized_rows(table, options, keeps_totals=asked.keep_totals)
+    groups = read_groups(table, options, sized)
+    shown_rows = read_amounts(table, options, groups, sized)
     rows, amounts = shown_rows.rows, shown_rows.amounts
     owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
@@ -125,7 +133,7 @@ def read_chart(
     )
     colour_of = None if colours is None else tuple(colours[k] for k in owner)
     of_groups = {} if groups is None else groups.notices
-    of_rows = dict.fromkeys(table.notices, False) | shown_rows.notices | of_groups
+    of_rows = dict.fromkeys(table.notices, False) | of_sizes | of_groups
     notices = of_rows | dict.fromkeys((*oddities(table, options), *more, *told), False)
     for notice in notices:
         _LOG.warning("%s", f"{table.name}: {notice}" if notice in table.notices else notice)

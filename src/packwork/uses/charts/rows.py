@@ -208,28 +208,32 @@ def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> st
 class Amounts:
     """Rows that are shown, or one for all that are shown alike, and how much each stands for.
 
-    ``amounts`` ``(n,)`` are in the unit of the size column, or numbers of rows; ``notices`` are
-    sentences about what was left out, and whether they are about rows with data.
+    ``amounts`` ``(n,)`` are in the unit of the size column, or numbers of rows.
     """
 
     rows: list[Row]
     amounts: FloatArray
     groups: IntArray
-    notices: dict[str, bool]
+
+
+def sized_rows(
+    table: Table, options: ChartOptions, *, keeps_totals: bool = False
+) -> tuple[dict[int, float], dict[str, bool]]:
+    """Amounts of the rows that have one and are no totals, and sentences as of :func:`sizes`."""
+    if options.size_by is None:
+        return dict.fromkeys(range(len(table.rows)), 1.0), {}
+    found, notices = sizes(table, options.size_by, options.label_by)
+    if keeps_totals:
+        return found, notices
+    found, told = without_totals(table, options.size_by, options.label_by, found)
+    return found, notices | told
 
 
 def read_amounts(
-    table: Table, options: ChartOptions, groups: Groups | None, *, keeps_totals: bool = False
+    table: Table, options: ChartOptions, groups: Groups | None, found: Mapping[int, float]
 ) -> Amounts:
-    """Rows of a table that are shown; those in no group are not, nor are totals."""
+    """Rows that are shown of those with an amount; those in no group are not."""
     member = [0] * len(table.rows) if groups is None else groups.of_row
-    notices: dict[str, bool] = {}
-    found = dict.fromkeys(range(len(table.rows)), 1.0)
-    if options.size_by is not None:
-        found, notices = sizes(table, options.size_by, options.label_by)
-        if not keeps_totals:
-            found, told = without_totals(table, options.size_by, options.label_by, found)
-            notices |= told
     which = [k for k in found if member[k] >= 0]
     if not which:
         raise RecipeError("by", f"no row has both a group in {options.by!r} and a size")
@@ -239,7 +243,6 @@ def read_amounts(
         [table.rows[k] for k in which],
         np.array([found[k] for k in which]),
         np.array([member[k] for k in which], dtype=np.int64),
-        notices,
     )
 
 
@@ -263,7 +266,7 @@ def _counted(
         for row, (group, _) in zip(rows, counts, strict=True):
             row[options.by] = groups.names[group]
     amounts = np.array(list(counts.values()), dtype=np.float64)
-    return Amounts(rows, amounts, np.array([group for group, _ in counts]), {})
+    return Amounts(rows, amounts, np.array([group for group, _ in counts]))
 
 
 def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
