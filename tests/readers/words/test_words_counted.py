@@ -16,13 +16,13 @@ from hypothesis import strategies as st
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
+from packwork.readers.words.plurals import without_clitics
 from packwork.readers.words.source import ranked_words, read_words
 from packwork.readers.words.tokens import (
     guess_language,
     segments,
     sentences,
     stop_words,
-    without_clitics,
 )
 from packwork.recipe.refusals import validated
 
@@ -124,6 +124,61 @@ def test_plurals_count_with_singulars_that_are_there(
 ) -> None:
     found = counted(text, language=language)
     assert {word: n for word, n in found.items() if word != "luogo"} == expected
+
+
+@pytest.mark.parametrize(
+    ("language", "text"),
+    [
+        ("it", "casa caso; porto porta; partito partita; scale scali; chiese chiesi"),
+        ("de", "Bar Bär; Pol Polen; Fall Falle; Band Bande; Grab Graben; Burger Bürger"),
+        ("pt", "mão mãe mães; avó avós"),
+        ("nl", "zon zoon zonen; man maan manen; kop koop kopen"),
+        ("es", "cruz cruces cruce"),
+    ],
+)
+def test_two_words_are_not_joined_through_forms(language: str, text: str) -> None:
+    # Only what stands before a word's own plural is one with it.
+    own = {"mães", "zonen", "manen", "kopen"}
+    words = text.replace(";", "").split()
+    assert set(words) - set(counted(text, language=language)) <= own
+
+
+def test_forms_are_those_of_one_singular() -> None:
+    text = "casa case caso casi casi"
+    assert counted(text, language="it") == {"casa": 2.0, "casi": 3.0}
+    assert counted(text, language="it", stopwords="caso") == {"casa": 2.0}
+    german = "Bär Bären Bar Fall Fälle Fällen Falle"
+    assert counted(german, language="de") == {"Bär": 2.0, "Bar": 1.0, "Fall": 3.0, "Falle": 1.0}
+
+
+LONG = 20_000
+
+
+@pytest.mark.parametrize(
+    ("language", "long"),
+    [
+        ("fr", "a" + "-t" * LONG + "-x"),
+        ("de", "A" + "a" * LONG + "e"),
+        ("en", "a-" * LONG),
+        ("en", "a@" * LONG),
+        ("en", "a@" + "." * LONG),
+        ("en", "a" + "\u0301\u0327" * LONG),
+    ],
+)
+def test_a_word_as_long_as_a_text_takes_no_longer_than_one(language: str, long: str) -> None:
+    # Each of these took minutes.
+    assert "chat" in counted(f"chat {long * 5} chat", language=language)
+
+
+def test_addresses_of_mail_are_no_words() -> None:
+    assert tokens("to a.b@c.org, (x@y.co.uk) and @bear or a@b") == [
+        "to",
+        "and",
+        "bear",
+        "or",
+        "a",
+        "b",
+    ]
 
 
 GERMAN = (

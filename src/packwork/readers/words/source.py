@@ -18,7 +18,7 @@ from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.words.options import Word, WordOptions, sound
-from packwork.readers.words.plurals import without_plurals
+from packwork.readers.words.plurals import without_clitics, without_plurals
 from packwork.readers.words.table import MAX_BYTES, read_word_table
 from packwork.readers.words.tokens import (
     guess_language,
@@ -28,7 +28,6 @@ from packwork.readers.words.tokens import (
     says_little,
     sentences,
     stop_words,
-    without_clitics,
 )
 from packwork.sources import note_input
 

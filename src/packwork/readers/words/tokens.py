@@ -188,7 +188,7 @@ def segments(text: str) -> list[str]:
     return [
         word
         for word in found
-        if len(word) > 1 and not (len(word) < 3 and _HIRAGANA.fullmatch(word))
+        if 1 < len(word) <= LONGEST and not (len(word) < 3 and _HIRAGANA.fullmatch(word))
     ]
 
 
@@ -285,35 +285,26 @@ def found_in(pattern: str, texts: Sequence[str], *, groups: bool = False) -> lis
 JOINERS = "\u200c\u200d"
 """Unseen characters that belong to words of Persian and Indian scripts."""
 
-_ADDRESS = re.compile(r"(?:https?://|www\.)\S+|\S+@\S+\.\w+")
+_ADDRESS = re.compile(r"(?:https?://|www\.)\S+|(?<![^\s@])[^\s@]+@[^\s@]+\.\w+")
+_SIGNS = re.compile(r"[^\w\s]{100}")
+"""Runs of marks that are cut before they are normalised, which takes the square of their length."""
+
 _APOSTROPHES = dict.fromkeys(map(ord, "\u2018\u2019\u02bc\uff07"), "'")
 _POSSESSIVE = re.compile(r"'[sS]$")
 _HYPHENS = dict.fromkeys(map(ord, "\u2010\u2011\ufe63\uff0d"), "-")
 _DASH = re.compile(r"(?<![^\s-])-|-(?![^\s-])")
 """A hyphen that stands for a dash, or ends a word: none of two words that it joins."""
 
-_CLITICS = {
-    "ca": re.compile(r"^[dlmnst]'|'(?:ls?|ns?|[mt])$", re.IGNORECASE),
-    "fr": re.compile(
-        r"^(?:[cdjlmnst]|(?:jus|lors|puis|quoi)?qu)'"
-        r"|(?:-(?:t|je|tu|ils?|elles?|on|nous|vous|ce|moi|toi|lui|leur|les?|la|en|y|l\u00e0|ci))+$",
-        re.IGNORECASE,
-    ),
-    "it": re.compile(
-        r"^(?:[cdlmnstv]|gl|(?:d[ae]|ne|su|co|que|a|be)ll|quest|(?:ness|alc|qualc|ciasc)?un"
-        r"|tutt|anch|com|cos|dov|quand)'",
-        re.IGNORECASE,
-    ),
-    "pt": re.compile(r"^[Dd]'|(?:-(?:me|te|se|lhes?|[nv]os|[nl]?[oa]s?))+$"),
-}
-"""Articles, pronouns and prepositions that hang on words: "l'été", "dell'anno", "dit-il"."""
+LONGEST = 200
+"""Letters of a word at most: what is longer is data that stands in a text. Chosen."""
 
 
 def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]]:
     """Words that follow each other with nothing but spaces between them, as they are written.
 
-    A word is letters, marks and digits, with apostrophes and hyphens inside; numbers alone and
-    addresses of the web are none. Text of scripts without spaces is segmented.
+    A word is letters, marks and digits, with apostrophes and hyphens inside; numbers alone,
+    addresses of the web and what is longer than ``LONGEST`` are none. Text of scripts without
+    spaces is segmented.
 
     Examples
     --------
@@ -322,7 +313,7 @@ def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]
     >>> list(sentences("Twenty-six e-mails - and 3-4 Ein- und Ausgänge"))
     [['Twenty-six', 'e-mails'], ['and', 'Ein'], ['und', 'Ausgänge']]
     """
-    for run in _runs(_ADDRESS.sub("\n", unicodedata.normalize("NFC", text))):
+    for run in _runs(_ADDRESS.sub("\n", _normal(text))):
         words = [word for token in run.split() for word in _words(token, include_numbers)]
         if words:
             yield words
@@ -336,11 +327,14 @@ def matches(text: str, pattern: str) -> Iterator[list[str]]:
     >>> list(matches("a #bear and\n#honey", r"#\w+"))
     [['#bear'], ['#honey']]
     """
-    lines = unicodedata.normalize("NFC", text).splitlines()
-    for found in found_in(pattern, lines):
+    for found in found_in(pattern, _normal(text).splitlines()):
         words = [word for match in found if (word := sound(match))]
         if words:
             yield words
+
+
+def _normal(text: str) -> str:
+    return unicodedata.normalize("NFC", _SIGNS.sub("\\g<0>\f", text))
 
 
 def _runs(text: str) -> list[str]:
@@ -365,26 +359,14 @@ def _words(token: str, include_numbers: bool) -> Iterator[str]:
     word = _POSSESSIVE.sub("", token.strip("'-" + JOINERS))
     if any(is_unspaced(character) for character in word):
         yield from segments(word)
-    elif word and (include_numbers or not _is_number(word)):
+    elif len(word) > LONGEST or not any(map(str.isalnum, word)):
+        return
+    elif include_numbers or not _is_number(word):
         yield word
 
 
 def _is_number(word: str) -> bool:
     return all(unicodedata.category(character)[0] == "N" for character in word.replace("-", ""))
-
-
-def without_clitics(words: Sequence[str], languages: Iterable[str]) -> list[str]:
-    """Words without the articles and pronouns that hang on them in four languages.
-
-    Examples
-    --------
-    >>> without_clitics(["répondit-elle", "a-t-on", "arc-en-ciel", "d'aujourd'hui"], ["fr"])
-    ['répondit', 'a', 'arc-en-ciel', "aujourd'hui"]
-    """
-    found = list(words)
-    for clitics in (_CLITICS[code] for code in languages if code in _CLITICS):
-        found = [clitics.sub("", word).strip("'-") or word for word in found]
-    return found
 
 
 def says_little(word: str, stops: frozenset[str]) -> bool:
