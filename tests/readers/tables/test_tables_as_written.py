@@ -24,6 +24,7 @@ from packwork.readers.tables.totals import total_rows
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
+from packwork.readers.words.table import read_word_table
 from packwork.recipe import make_recipe
 from packwork.uses.charts.marks import ChartRead, read_chart
 
@@ -91,6 +92,38 @@ def test_headings_are_told_from_titles(text: str, columns: tuple[str, ...], tmp_
     file.write_text(text, encoding="utf-8")
     found = read_table(str(file)).columns
     assert tuple(name for name in found if name in columns) == columns
+
+
+NAMES = "".join(f"name{k}\n" for k in range(100))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("name,value,\n\nbear,2,x\nfox,3,y\n", {"bear": 2.0, "fox": 3.0}),
+        ("bear\nfox,2\nowl,3", {"fox": 2.0, "owl": 3.0}),
+        ("bear\nfox,2000\nowl,3", {"fox": 2000.0, "owl": 3.0}),
+        (NAMES + "fox,3\n", {"fox": 3.0}),
+        (NAMES + "\nword,weight\nfox,3\n", {"fox": 3.0}),
+        ("my list\n\nfox,2\nowl,3", {"fox": 2.0, "owl": 3.0}),
+    ],
+)
+def test_rows_of_a_table_are_no_titles(text: str, words: dict[str, float], tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text(text, encoding="utf-8")
+    table = read_word_table(str(file), TableFormat())
+    assert {word.text: word.weight for word in table.words} == words
+    assert "above" not in " ".join(table.notices)
+
+
+@pytest.mark.parametrize(
+    "text", ["Anna,5\nBert,6\n\nCarl,7,late\n", "a,b\n1,2\n3,4\n\nx,y,z\n1,2,3"]
+)
+def test_a_table_above_another_is_refused(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ReadError, match=r"line \d: has 3 cells, not 2"):
+        read_word_table(str(file), TableFormat())
 
 
 def test_lines_are_numbered_as_in_the_file(tmp_path: Path) -> None:

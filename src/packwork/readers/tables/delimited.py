@@ -36,6 +36,10 @@ SAMPLE_LINES = 200
 SAMPLE_LETTERS = 1_000 * SAMPLE_LINES
 """Letters of these at most: a thousand a line."""
 
+MOST_TITLES = 5
+"""Lines above a table at most that are taken for titles. More are a list. Chosen."""
+
+_YEAR = re.compile(r"(?:1[5-9]|20)\d\d")
 _DECLARED = re.compile(r'"?sep=(.)"?[ \t]*\r?(?:\n|$)', re.IGNORECASE)
 
 
@@ -172,27 +176,35 @@ def _head(lines: Sequence[tuple[int, list[str]]]) -> Head:
 def _titles_end(lines: Sequence[tuple[int, list[str]]]) -> int:
     """Number of the last line of titles above a table; 0 if there are none.
 
-    A title is a line of one cell above lines of several, or has fewer than the table from which an
-    empty line parts it. One of one cell that is parted as all others are may name the first column:
-    it does unless names of columns follow, and then numbers.
+    Titles are up to ``MOST_TITLES`` lines without a number, above names of columns, of which there
+    are more than any title has cells, and then numbers. They have one cell each, or an empty line
+    parts them from the table. All else is of the table, and refused or named there.
     """
-    filled = [sum(map(bool, row)) for _, row in lines]
-    there = [k for k, count in enumerate(filled) if count]
-    wide = next((k for k in there if filled[k] > 1), 0)
-    empty = next(
-        (k for k, count in enumerate(filled) if not count and k > min(there, default=k)), 0
-    )
-    below = next((k for k in there if k > empty), 0) if empty else 0
-    if below and max(filled[:empty]) < filled[below]:
-        return lines[below][0] - 1
-    if not wide or wide == there[0]:
-        return 0
-    above, after = [lines[k][1] for k in there if k < wide], there[there.index(wide) + 1 :][:1]
-    # Names that another sign parts are none.
-    is_plain = all(len(row) == 1 and not any(mark in row[0] for mark in NAMES) for row in above)
-    has_names = not any(map(is_number_like, lines[wide][1]))
-    has_numbers = any(is_number_like(cell) for k in after for cell in lines[k][1])
-    return lines[wide][0] - 1 if is_plain or (has_names and has_numbers) else 0
+    filled = [[cell for cell in row if cell] for _, row in lines]
+    there = [k for k, row in enumerate(filled) if row]
+    for at, k in enumerate(there[1 : MOST_TITLES + 1], start=1):
+        above = [filled[title] for title in there[:at]]
+        widest = max(map(len, above))
+        if any(map(is_number_like, (cell for row in above for cell in row))):
+            return 0
+        is_parted = widest == 1 or k - there[at - 1] > 1
+        below = (cell for other in there[at + 1 : at + 3] for cell in filled[other])
+        if is_parted and len(filled[k]) > widest and _are_names(filled[k]):
+            return lines[k][0] - 1 if any(map(is_number_like, below)) else 0
+    return 0
+
+
+def _are_names(cells: Sequence[str]) -> bool:
+    """Whether cells may name columns: none is a number, or several are years, but not the first.
+
+    Examples
+    --------
+    >>> [_are_names(row.split()) for row in ("Land kg", "Land 2023 2024", "Bear 2000", "Fox 2 3")]
+    [True, True, False, False]
+    """
+    numbers = [cell for cell in cells if is_number_like(cell)]
+    are_years = all(_YEAR.fullmatch(cell) for cell in numbers)
+    return not numbers or (are_years and len(set(numbers)) > 1 and cells[0] not in numbers)
 
 
 def _joined(rows: Sequence[Sequence[str]]) -> tuple[str, ...]:
