@@ -9,8 +9,10 @@ import shapely
 import shapely.affinity
 
 import packwork as pw
-from packwork.uses.nest_request import read_parts
+from packwork.separation.strip import WorkBound
+from packwork.uses.nest_request import read_parts, read_sheets
 from packwork.uses.nest_work import work_of
+from packwork.uses.nesting import nest
 
 TILE = shapely.box(0, 0, 40, 30)
 PLATE = shapely.box(0, 0, 60, 60).difference(shapely.box(5, 5, 55, 55))
@@ -123,3 +125,11 @@ def test_there_is_one_table_and_one_pdf_for_all_sheets(tmp_path: Path) -> None:
     for ending, start in ((".csv", b"\xef\xbb\xbfsheet,number,part,x_mm"), (".pdf", b"%PDF-")):
         (path,) = found.save(tmp_path / f"a{ending}")
         assert path.read_bytes().startswith(start)
+
+
+def test_progress_tells_the_length_that_is_reported() -> None:
+    work = WorkBound(passes=3)
+    (sheet,) = read_sheets("40mm")
+    found = nest(list(read_parts("square@10mm*3", "mm", "none")), [sheet], gap=2.0, work=work)
+    assert work.best_so_far == f"length {found.length:.5g}"
+    assert found.length > 12.0

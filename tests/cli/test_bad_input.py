@@ -103,7 +103,11 @@ OPTIONS = [
     ("--smallest 0", "--smallest: must be more than nothing, not 0"),
     ("--smallest wide", "--smallest: "),
     ("--max-items 9 --finish none", "--finish: none leaves overlaps; voids are filled after"),
-    ("--max-items 9 --sizes shared", "--filler: must be given where sizes are shared"),
+    ("--max-items 9 --sizes shared", "--max-items: adds smaller copies"),
+    (
+        "--target-coverage 0.85 --sizes shared",
+        "--target-coverage: adds smaller copies, though sizes are shared",
+    ),
     ("--filler no_such_thing", "no_such_thing"),
     ("--background puce", "background: 'puce' is no colour"),
     ("--pixels 0", "pixels: a picture's longer side must be"),

@@ -71,7 +71,9 @@ def test_sizes_that_are_data_stay(sizes: str) -> None:
     np.testing.assert_array_equal(full.layout.poses.x[:6], plain.layout.poses.x)
     assert {item.name for item in full.layout.items[6:]} == {"circle"}
     assert full.layout.weights[6:].tolist() == [0.0] * (len(full.layout.items) - 6)
-    with pytest.raises(RecipeError, match="filler: must be given where sizes are"):
+    with pytest.raises(
+        RecipeError, match=f"max_items: adds smaller copies, though sizes are {sizes}; name "
+    ):
         run(**options, max_items=40)
 
 

@@ -331,10 +331,10 @@ class Recipe(
         if self.fills_gaps and self.finish == "none":
             raise RecipeError("finish", "none leaves overlaps; voids are filled after an exact one")
         if self.fills_gaps and self.sizes != "free" and not (self.filler or self.words):
+            asked = ("target_coverage", "max_items", "smallest", "filler")
             raise RecipeError(
-                "filler",
-                f"must be given where sizes are {self.sizes}: "
-                "smaller copies of the items would not be of their size",
+                next(key for key in asked if getattr(self, key) is not None),
+                f"adds smaller copies, though sizes are {self.sizes}; name other items as --filler",
             )
         return self
 

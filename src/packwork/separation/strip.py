@@ -75,6 +75,8 @@ class WorkBound:
     priced: int = 0
     best_so_far: str = "searching"
     """For people who wait."""
+    margins: float = 0.0
+    """What the sheet has beyond the length that is searched, told with it."""
 
     def start(self) -> None:
         """Count from now on."""
@@ -231,7 +233,7 @@ class StripSearch:
         self.best = Strip(self.extent(boxes), poses, boxes[X0].copy())
         self.shortest = min(self.shortest, self.best, key=Strip.rank)
         left = self.shortest.left
-        told = f"{self.ground.measure} {self.shortest.length:.5g}"
+        told = f"{self.ground.measure} {self.shortest.length + self.work.margins:.5g}"
         self.work.best_so_far = f"{left} parts left" if left else told
         return self.best
 

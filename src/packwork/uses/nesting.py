@@ -96,7 +96,7 @@ def nest(
     inset = edge - least / 2.0
     kept = [_part(one, least) for one in parts]
     if sheets[0].is_strip:
-        height = sheets[0].height - 2.0 * inset
+        height, work.margins = sheets[0].height - 2.0 * inset, 2.0 * inset
         _check_fit(parts, kept, [(math.inf, height)], sheets, 2.0 * inset)
         lay = lay_on_strip
         if sheets[0].is_square or sum(part.count for part in kept) <= FEW:

@@ -452,6 +452,14 @@ def test_numbers_for_words_and_what_is_idle_for_a_table_are_told(tmp_path: Path)
     said = told({"bear": 2}, min_count=3, language="de", case="upper")
     assert "no running text, of which --language, --min-count would tell" in said
     assert told({"bear": 2}, stopwords=("fox",)) == ""
+    assert told("A bear and a bee", stopwords="Bear,fox", keep_words=["a", "Owl"]) == (
+        "A bear and a bee: does not hold fox, which --stopwords names; "
+        "A bear and a bee: does not hold owl, which --keep-words names"
+    )
+    (tmp_path / "a.csv").write_text("bear,2\nbee,1\n", encoding="utf-8")
+    assert told(str(tmp_path / "a.csv"), stopwords="bee") == ""
+    few = told(str(tmp_path / "a.csv"), stopwords="a,b,c,d,e")
+    assert few.endswith("does not hold a, b, c and 2 more, which --stopwords names")
 
 
 @pytest.mark.parametrize("weight", [0, -1, float("nan"), float("inf"), "many", None])

@@ -6,7 +6,7 @@ import contextlib
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -197,13 +197,17 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
         text = _text(source, asked)
         read = _counted(text.text, options, stops)
         said = (text.notice, _LIKE_A_TABLE if _ROWS.fullmatch(text.text) else "")
-        return replace(read, told=tuple(ReadError(_name(options), one) for one in said if one))
+        told = (*read.told, *(ReadError(_name(options), one) for one in said if one))
+        return replace(read, told=told)
     fields = WordOptions.model_fields
     idle = [key for key in _OF_TEXTS if getattr(options, key) != fields[key].default]
     if idle:
         flags = enumerated([f"--{key.replace('_', '-')}" for key in idle])
         notice = ReadError(_name(options), f"is no running text, of which {flags} would tell")
         read = replace(read, told=(*read.told, notice))
+    if not isinstance(source, dict):
+        there = {word.text.casefold() for word in read.words}
+        read = replace(read, told=(*read.told, *_unmet(options, there)))
     kept = tuple(word for word in read.words if word.text.casefold() not in stops)
     return replace(read, words=kept, order=tuple(word.text for word in read.words))
 
@@ -259,7 +263,20 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
     if not words:
         raise ReadError(_name(options), _why_none(counts, kept, options))
     said = tuple(written[word] for word in stopped)
-    return Ranked(tuple(words), stopped=said, sentences=found)
+    told = _unmet(options, written)
+    return Ranked(tuple(words), told, said, found)
+
+
+def _unmet(options: WordOptions, there: Container[str]) -> tuple[ReadError, ...]:
+    """Sentences about words to leave out, or to keep, that a source does not hold at all."""
+    told = []
+    for flag, texts in (("stopwords", options.stopwords), ("keep-words", options.keep_words)):
+        # A word with a comma may be several.
+        away = [word for word in sorted(own_words(texts)) if word not in there and "," not in word]
+        if away:
+            text = f"does not hold {enumerated(away)}, which --{flag} names"
+            told.append(ReadError(_name(options), text))
+    return tuple(told)
 
 
 def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:
