@@ -7,10 +7,12 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.live.commands.command import named_container
 from packwork.live.document import Document
 from packwork.live.face.lines import put_anew, words_in
 from packwork.live.kinds import LineKind
 from packwork.live.relayout import poured_again
+from packwork.scene.container import tiled
 from packwork.scene.recolour import one_colour
 
 TABLE = {"apple": 9, "cider": 7, "press": 5, "barrel": 4, "bloom": 3, "pear": 3, "oak": 2, "bee": 2}
@@ -74,3 +76,68 @@ def test_what_lines_have_not_is_said(badge: pw.Layout) -> None:
     session = pw.fill("circle", "star", count=3, effort="draft").edit()
     with pytest.raises(RecipeError, match="along: is for words, and there are none"):
         put_anew(session.document, 0, lambda _: None, along="edge")
+
+
+def test_a_cloud_that_keeps_shares_is_certified_on_lines_and_back() -> None:
+    session = pw.words("circle", TABLE, effort="draft").edit()
+    assert session.layout.manifest["promised"]["areas_in_shares"]
+    for along, ring in (("edge", ()), (None, ("OLD ORCHARD",))):
+        put(session, along=along, ring=ring)
+        assert session.settle().certified
+        assert not session.layout.manifest["promised"]["areas_in_shares"]
+    put(session, along=None, ring=())
+    assert session.settle().certified
+    assert session.layout.manifest["promised"]["areas_in_shares"]
+
+
+def test_what_would_be_lost_on_lines_is_named(badge: pw.Layout) -> None:
+    session = pw.words("circle", TABLE, effort="draft").edit()
+    session.hold("apple")
+    with pytest.raises(RecipeError, match=r"along: sets all words anew; release first .*: apple"):
+        put_anew(session.document, 0, lambda _: None, along="edge")
+    session.release("apple")
+    session.add("star")
+    with pytest.raises(RecipeError, match=r"along: is for words alone; .* none: star"):
+        put_anew(session.document, 0, lambda _: None, along="edge")
+    with pytest.raises(RecipeError, match="ring: has no room for 'WWWW"):
+        put_anew(badge.edit().document, 0, lambda _: None, ring=("W" * 190,))
+
+
+def test_a_word_spelled_like_a_text_round_it_is_a_word(badge: pw.Layout) -> None:
+    session = badge.edit()
+    put(session, ring=("cider", "HEREFORD"))
+    assert words_in(session.document) == TABLE
+    put(session, ring=())
+    assert words_in(session.document) == TABLE
+    assert names(session.document) == set(TABLE)
+
+
+@pytest.mark.parametrize(
+    ("kind", "values"),
+    [
+        ("remove", {"items": (0,)}),
+        ("hold", {"items": (0,)}),
+        ("move", {"item": 0, "x": 1.0, "y": 1.0}),
+        ("grab", {"items": (0,)}),
+        ("duplicate", {"item": 0}),
+    ],
+)
+def test_no_hand_pushes_words_off_their_lines(
+    badge: pw.Layout, kind: str, values: dict[str, object]
+) -> None:
+    session = badge.edit()
+    before = session.document
+    with pytest.raises(RecipeError, match=f"{kind}: words on lines lie where these have room"):
+        session.do(kind, **values)
+    assert session.document is before
+
+
+def test_lines_need_an_edge(badge: pw.Layout) -> None:
+    session = badge.edit()
+    sheet = pw.fill("page", "star", count=1, effort="draft").container
+    asset = named_container(session.library, tiled(sheet, "square"))
+    with pytest.raises(RecipeError, match="tile: has no edge, which words on lines would need"):
+        session.do("set_container", asset=asset)
+    for given in ({"along": "edge"}, {"ring": "CIDER"}):
+        with pytest.raises(RecipeError, match=f"{next(iter(given))}: needs a container's edge"):
+            pw.words("page", TABLE, tile="square", **given)

@@ -122,5 +122,5 @@ def test_a_collage_becomes_a_tile_and_what_a_tile_has_not_is_said() -> None:
         session.set(force=("down",))
     piled = pw.pile("square", ["star"], count=5, size="14%", effort="draft").edit()
     tile = named_container(piled.library, tiled(sheet, "square"))
-    with pytest.raises(RecipeError, match="tile: a pile needs its edge, and a tile has none"):
+    with pytest.raises(RecipeError, match="tile: has no edge, which a pile would need"):
         piled.do("set_container", asset=tile)

@@ -51,5 +51,14 @@ def test_a_badge_is_set_anew_after_each_change_and_no_word_is_dragged(
     page.get_by_label("Words lie").select_option("edge")
     desk.until("studio.collage.scene.along === 'edge'")
     desk.settled()
+    desk.look("studio.connection.leap('undo')")
+    desk.until("studio.collage.scene.along === null")
+    desk.settled()
+    # What is taken away is left out as by the table, and a text of the edge is taken off it.
+    chosen = "studio.collage.items.filter(one => ['SINCE 1890', 'pear'].includes(one.name))"
+    desk.look(f"studio.choice.set({chosen}.map(one => one.id)) ?? studio.remove()")
+    desk.until(f"studio.collage.scene.ring.length === 1 && !{chosen}.length")
+    desk.settled()
+    assert desk.look("Object.keys(studio.collage.scene.left_out)") == ["pear"]
     desk.undo_all()
     assert desk.rested() == before

@@ -42,6 +42,7 @@ def test_what_goes_over_the_edge_comes_in_again_is_undone_and_exported(
     desk = open_desk()
     desk.settled()
     desk.picture("tile")
+    assert desk.look("studio.words.lines.refresh() ?? studio.words.lines.element.hidden")
     desk.rested()
     before = np.array(desk.look(ON_TORUS))
     number = desk.look(RIGHTMOST)

@@ -14,11 +14,12 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray, IntArray, frozen
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.live.ground import covering, sheet_box
-from packwork.live.kinds import Kind, kind_of
+from packwork.live.kinds import Kind, LineKind, kind_of
 from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.forces import forces_of
+from packwork.readers.words.options import as_one_line
 from packwork.recipe.pictures import Shades
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -374,6 +375,12 @@ def counted_weight(item: Item) -> float | None:
     except ValueError:
         return None
     return found if 0 < found < math.inf else None
+
+
+def is_ring_text(item: Item, kind: Kind) -> bool:
+    """Whether an item is a text round the edge: none of its words, which may be spelled alike."""
+    rings = kind.ring if isinstance(kind, LineKind) else ()
+    return counted_weight(item) is None and item.name in map(as_one_line, rings)
 
 
 def halos_of(items: Sequence[Item]) -> HaloChoice | Literal[""]:

@@ -33,10 +33,14 @@ class Kind:
     """
 
     name: ClassVar[KindName] = "collage"
+    called: ClassVar[str] = "a collage"
+    """The same in a sentence."""
     sizes: ClassVar[SizeMode | None] = None
     """The only way in which sizes vary; None for any."""
     refusal: ClassVar[str] = ""
     """Sentence about sizes that are not for the hand; empty where they are."""
+    stays: ClassVar[str] = ""
+    """Sentence about places that are not for the hand; empty where they are."""
     shows_shape: ClassVar[bool] = True
     """Whether items are to tell the container's shape."""
     keeps_all: ClassVar[bool] = False
@@ -83,6 +87,7 @@ class NestKind(Kind):
     """
 
     name = "nest"
+    called = "a nest"
     sizes = "fixed"
     refusal = "parts of a nest keep their true size"
     shows_shape = False
@@ -153,6 +158,7 @@ class ChartKind(Kind):
     """Marks that are as large as their numbers say, with keys beside them."""
 
     name = "chart"
+    called = "a chart"
     sizes = "shared"
     refusal = "marks of a chart are as large as their numbers say; change those"
     shows_shape = False
@@ -168,6 +174,7 @@ class PileKind(Kind):
     """
 
     name = "pile"
+    called = "a pile"
     shows_shape = False
     keeps_all = True
 
@@ -203,7 +210,9 @@ class LineKind(Kind):
     """
 
     name = "lines"
+    called = "words on lines"
     refusal = "words on lines are as large as these have room for; change how often they are there"
+    stays = "words on lines lie where these have room for them; change the words, or the lines"
     shows_shape = False
 
     along: Along | None = None
@@ -234,6 +243,7 @@ class TileKind(Kind):
     """Items on a canvas that repeats without a seam."""
 
     name = "tile"
+    called = "a tile"
     shows_shape = False
 
 

@@ -16,6 +16,7 @@ from packwork.live.document import Document
 from packwork.live.kinds import LineKind, kind_of
 from packwork.live.options import LiveOptions
 from packwork.live.relayout import Shown, ground_of, run_shown
+from packwork.metrics.certificate import Promise
 from packwork.progress import Stop, never
 from packwork.recipe import make_recipe
 from packwork.scene.layout import Layout
@@ -78,7 +79,12 @@ def in_place(document: Document, library: Library, layout: Layout) -> list[Comma
         if container is document.container
         else [made(SetContainer, asset=named_container(library, container))]
     )
-    lined = [made(SetLines)] if isinstance(document.kind, LineKind) else []
-    if isinstance(kind := kind_of(layout.manifest), LineKind):
-        lined = [made(SetLines, along=kind.along, ring=kind.ring, palette=kind.palette)]
+    before, now = (Promise.of(one.manifest) or Promise() for one in (document, layout))
+    kind, in_shares = kind_of(layout.manifest), now.areas_in_shares
+    lined: list[Command] = []
+    if isinstance(kind, LineKind):
+        lines = {"along": kind.along, "ring": kind.ring, "palette": kind.palette}
+        lined = [made(SetLines, areas_in_shares=in_shares, **lines)]
+    elif isinstance(document.kind, LineKind) or in_shares != before.areas_in_shares:
+        lined = [made(SetLines, areas_in_shares=in_shares)]
     return [*other, *brought, made(Remove, items=tuple(document.ids.tolist())), *asked, *lined]

@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, replace
 from itertools import groupby
 from numbers import Integral
-from typing import Any, Self
+from typing import Any, Self, cast
 
 from packwork.errors import RecipeError
 from packwork.live.certificate import Requests, Settlement, promise_of
 from packwork.live.commands.command import Command, Library, made
 from packwork.live.commands.gestures import Cancel, Drop, Grab
 from packwork.live.commands.look import with_halos
-from packwork.live.commands.together import KINDS, Together
+from packwork.live.commands.together import KINDS, Together, check_places
 from packwork.live.document import Change, Document, Invalidation
 from packwork.live.history import Marks, SessionState, UndoHistory
 from packwork.live.local_solver import LocalSolver
@@ -193,6 +193,10 @@ class Session:
         RecipeError
             If it has no meaning here; nothing is changed then.
         """
+        check_places(command, self.document.kind)
+        return self._apply(command)
+
+    def _apply(self, command: Command) -> Change:
         if isinstance(command, Grab) and self.is_grabbed:
             raise RecipeError("grab", "something is held already; drop it first")
         before = self.document
@@ -265,10 +269,7 @@ class Session:
         RecipeError
             If something is grabbed.
         """
-        self._check_dropped("settle")
-        before, found = self._solver.base, self._solver.finish(never)
-        self._settled(before)
-        return found
+        return cast(Settlement, self.settle_unless(never))
 
     def settle_unless(self, stop: Stop) -> Settlement | None:
         """Settle, or, where ``stop`` comes true meanwhile, leave all as it was: None then.
@@ -337,11 +338,10 @@ class Session:
         gestures = 0
         for kind, value in entries:
             if kind in {"item", "container"}:
-                name, found = value
-                getattr(self.library, f"{kind}s")[name] = found
+                getattr(self.library, f"{kind}s")[value[0]] = value[1]
             elif kind == "do":
                 gestures += not self.is_grabbed
-                self.apply(value)
+                self._apply(value)
             elif kind == "flow":
                 self._run(value[1], value[0])
             elif kind == "polish":

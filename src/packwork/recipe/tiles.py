@@ -26,6 +26,9 @@ NOT_OF_TILES = {
 }  # fmt: skip
 """Options that have no meaning in a tile, and why."""
 
+NOT_OF_WORDS = {"repeat": _VOIDS, "largest": _VOIDS, "along": _WALLS, "ring": _WALLS}
+"""The same of words."""
+
 
 class TileOptions(Options):
     """Options of a tile."""
@@ -46,9 +49,9 @@ class TileOptions(Options):
             if getattr(self, key) != type(self).model_fields[key].default:
                 raise RecipeError(key, f"{why}; leave it out, or --tile")
         words = self.words  # type: ignore[attr-defined]
-        for key in ("repeat", "largest"):
-            if words is not None and getattr(words, key) not in {None, "none"}:
-                raise RecipeError(key, f"{_VOIDS}; leave it out, or --tile")
+        for key, why in NOT_OF_WORDS.items():
+            if words is not None and getattr(words, key) not in {None, "none", ()}:
+                raise RecipeError(key, f"{why}; leave it out, or --tile")
         if any(rule.pin or rule.region for rule in self.rules):  # type: ignore[attr-defined]
             raise RecipeError("rules", f"pin and region: {_PLACES}; leave them out, or tile")
         return self

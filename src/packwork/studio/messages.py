@@ -16,7 +16,7 @@ from packwork.live import edits
 from packwork.live.commands.command import Command, ItemIds, made, named_container, named_item
 from packwork.live.commands.container import DrawContainer, SetContainer
 from packwork.live.commands.items import Replace
-from packwork.live.commands.together import AnyCommand
+from packwork.live.commands.together import AnyCommand, of_the_hand
 from packwork.live.face.offers import TileWay, container_of, items_of, labels_of
 from packwork.live.face.opening import opening_sent
 from packwork.live.macros import brought, labelled, labels_in
@@ -52,14 +52,6 @@ Count32: TypeAlias = Annotated[int, Field(ge=0, lt=2**32)]
 Place: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 
 
-OF_THE_HAND = frozenset(
-    {"grab", "move", "turn", "scale", "exchange", "align", "distribute", "duplicate", "flip"}
-)
-"""Commands that put items somewhere."""
-
-STAYS = "words on lines lie where these have room for them; change the words, or the lines"
-
-
 class Do(PageRequest):
     """Do a command."""
 
@@ -71,9 +63,8 @@ class Do(PageRequest):
     def act(self, tab: Tab) -> None:
         """Post it; what would move words that lines place is refused."""
         shown = tab.workspace.shown
-        is_on_lines = shown is not None and shown.view.kind.name == "lines"
-        if is_on_lines and any(step.kind in OF_THE_HAND for step in self.command.steps):
-            raise PackworkError(STAYS)
+        if shown is not None and of_the_hand(self.command, shown.view.kind):
+            raise PackworkError(shown.view.kind.stays)
         tab.post(self.command, self.n)
 
 

@@ -16,6 +16,7 @@ from packwork.live.document import (
     Document,
     counted_weight,
     halos_of,
+    is_ring_text,
     is_straight_word,
 )
 from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, font_told, path_of
@@ -151,8 +152,8 @@ class View:
 
     def is_on_line(self, item: Item) -> bool:
         """Whether an item is a word that follows a line, and no text of a ring."""
-        is_text = item.text is not None and item.name not in self.rings
-        return is_text and isinstance(self.kind, LineKind)
+        is_word = item.text is not None and not is_ring_text(item, self.kind)
+        return is_word and isinstance(self.kind, LineKind)
 
     @property
     def numbers(self) -> FloatArray:

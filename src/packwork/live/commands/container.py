@@ -193,7 +193,7 @@ def _check_outline(document: Document) -> None:
 def _check_repeats(document: Document) -> None:
     """Refuse a tile of what needs an edge, or places."""
     if document.kind.name not in {"collage", "tile"}:
-        raise RecipeError("tile", f"a {document.kind.name} needs its edge, and a tile has none")
+        raise RecipeError("tile", f"has no edge, which {document.kind.called} would need")
     if document.options.force or document.mosaic is not None:
         what = "forces" if document.options.force else "a picture to be shown from afar"
         raise RecipeError("tile", f"has no places, which {what} would need; take that away first")

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias, get_args
 
 from pydantic import Field, TypeAdapter
 
+from packwork.errors import RecipeError
 from packwork.live.commands.aligning import Align, Distribute
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.container import (
@@ -34,6 +35,7 @@ from packwork.live.commands.lines import SetLines
 from packwork.live.commands.look import Background, CropPhoto, Paint, SetHalos, SetMosaic
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document
+from packwork.live.kinds import Kind
 
 SingleCommand: TypeAlias = Annotated[
     Move | Turn | Scale | Exchange | Cover | Arrange | Align | Distribute
@@ -68,6 +70,26 @@ class Together(Command):
     def assets(self) -> tuple[str, ...]:
         """Of all of them."""
         return tuple(name for command in self.commands for name in command.assets)
+
+
+OF_THE_HAND = (
+    Move, Turn, Scale, Exchange, Cover, Arrange, Align, Distribute, Hold, Add, Duplicate, Remove,
+    Replace, Flip, Group, Ungroup, Grab,
+)  # fmt: skip
+"""Commands that put items somewhere, bring them or take them away."""
+
+
+def of_the_hand(command: Command, kind: Kind) -> str | None:
+    """Kind of the first step that would move words on lines; None where all are set anew."""
+    if not kind.stays or any(isinstance(step, SetLines) for step in command.steps):
+        return None
+    return next((one.kind for one in command.steps if isinstance(one, OF_THE_HAND)), None)
+
+
+def check_places(command: Command, kind: Kind) -> None:
+    """Refuse what would move words on lines, or others beside them."""
+    if (refused := of_the_hand(command, kind)) is not None:
+        raise RecipeError(refused, kind.stays)
 
 
 AnyCommand: TypeAlias = Annotated[

@@ -11,18 +11,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from packwork import uses
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, Library, made
-from packwork.live.commands.container import LeaveOut
+from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut
 from packwork.live.commands.lines import SetLines
-from packwork.live.document import Document, counted_weight
+from packwork.live.document import Document, counted_weight, is_ring_text
 from packwork.live.face.offers import font_told, offered_fonts
-from packwork.live.kinds import LineKind
+from packwork.live.kinds import Kind, LineKind, kind_of
 from packwork.live.macros import left_out_of
 from packwork.live.other_items import in_place
 from packwork.live.relayout import Moment, Shown, ground_of, poured_again, run_shown
+from packwork.phrasing import enumerated
 from packwork.progress import Stop, never
+from packwork.readers.words.options import as_one_line
 from packwork.scene.colour import hex_colour
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
@@ -38,6 +42,12 @@ def put_anew(document: Document, seed: int, shown: Shown, stop: Stop = never, **
 
     ``asked``: as for :func:`packwork.live.relayout.poured_again`; of words on lines ``words``, by
     how often they are there, ``font``, and ``along`` and ``ring`` as options of words have them.
+
+    Raises
+    ------
+    RecipeError
+        If lines are asked for and something is there that is no word or is held, or a text round
+        the edge has no room.
     """
     if "along" not in asked and not isinstance(document.kind, LineKind):
         arranged = poured_again(document, seed, shown, stop, **asked)
@@ -47,14 +57,38 @@ def put_anew(document: Document, seed: int, shown: Shown, stop: Stop = never, **
 
 def words_in(document: Document) -> dict[str, float]:
     """Words of a document, each once, and how often it is there; without texts of rings."""
-    kind, found = document.kind, dict[str, float]()
-    rings = kind.ring if isinstance(kind, LineKind) else ()
-    pairs = list(zip(document.items, document.weights.tolist(), strict=True))
-    words = [(item, weight) for item, weight in pairs if item.text and item.name not in rings]
-    counts = [counted_weight(item) for item, _ in words]
-    for (item, weight), count in zip(words, counts, strict=True):
-        found.setdefault(item.name, weight if None in counts else float(count or 1.0))
+    found = dict[str, float]()
+    rows = _word_rows(document)
+    counts = [counted_weight(document.items[k]) for k in rows]
+    for k, count in zip(rows, counts, strict=True):
+        weight = float(document.weights[k])
+        found.setdefault(document.items[k].name, weight if None in counts else float(count or 1.0))
     return found
+
+
+def _word_rows(document: Document) -> list[int]:
+    return [
+        k
+        for k, item in enumerate(document.items)
+        if _is_word(item) and not is_ring_text(item, document.kind)
+    ]
+
+
+def _is_word(item: Item) -> bool:
+    """Whether an item is a word: emoji are drawn, and have the tooltip of one."""
+    return item.text is not None or item.label.title.startswith(f"{item.name}: ")
+
+
+def _check_words_alone(document: Document) -> None:
+    """Refuse what would be lost where all words are set anew."""
+    others = dict.fromkeys(item.name for item in document.items if not _is_word(item))
+    if others:
+        names = enumerated(list(others))
+        raise RecipeError("along", f"is for words alone; take away first what is none: {names}")
+    rows = np.flatnonzero(document.held.any(axis=1)).tolist()
+    if rows:
+        names = enumerated(list(dict.fromkeys(document.items[k].name for k in rows)))
+        raise RecipeError("along", f"sets all words anew; release first what is held: {names}")
 
 
 def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: Stop) -> Put:
@@ -64,23 +98,31 @@ def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: 
     words = asked.get("words") or before
     if not words:
         raise RecipeError("along", "is for words, and there are none; fill with some first")
+    _check_words_alone(document)
     given: dict[str, Any] = {**ground_of(document), "effort": "draft", "along": along}
     given["padding"] = f"{document.options.padding:.17g}{document.container.unit}"
     given |= {"palette": known.palette} if known.palette else {}
     with TemporaryFolder("font") as folder:
         font = asked.get("font") or _font_of(document, folder.path)
         given |= {"font": font} if font else {}
-        recipe = uses.words_recipe("page", words, ring=ring, **given)
+        recipe = uses.words_recipe("page", words, ring=ring, count=len(words), **given)
         job = uses.read(recipe, None, document.container.sheet)
 
         def show(moment: Moment) -> None:
             # Other letters have no place among those that are there.
             shown(replace(moment, items=document.items, poses=None))
 
-        layout = _in_their_colours(run_shown(job, show, stop)[0], document.items)
+        layout = _in_their_colours(run_shown(job, show, stop)[0], document)
+    now = kind_of(layout.manifest)
+    rings = {item.name for item in layout.items if is_ring_text(item, now)}
+    there = {item.name for item in layout.items if not is_ring_text(item, now)}
+    if lost := [text for text in ring if as_one_line(text) not in rings]:
+        raise RecipeError("ring", f"has no room for {lost[0][:40]!r}; give a shorter text")
     stated = made(SetLines, along=along, ring=ring, palette=known.palette)
-    gone = [k for k, item in enumerate(document.items) if item.name in before.keys() - words]
-    left_out = made(LeaveOut, words=left_out_of(document, gone, set(words)))
+    gone = [k for k in _word_rows(document) if document.items[k].name not in there]
+    no_room = {text: n for text, n in words.items() if as_one_line(text) not in there}
+    kept = {**left_out_of(document, gone, there), **no_room}
+    left_out = made(LeaveOut, words=dict(list(kept.items())[-MOST_LEFT_OUT:]))
     return lambda library: [left_out, *in_place(document, library, layout), stated]
 
 
@@ -94,12 +136,17 @@ def _font_of(document: Document, folder: Path) -> str | None:
     return str(file)
 
 
-def _in_their_colours(layout: Layout, before: Sequence[Item]) -> Layout:
-    """A layout whose words have the colours that they had before."""
-    colours = {item.name: one_colour(item.art) for item in before}
+def _in_their_colours(layout: Layout, before: Document) -> Layout:
+    """A layout whose words and texts have the colours that they had before."""
+
+    def key(item: Item, kind: Kind) -> tuple[str, bool]:
+        return item.name, is_ring_text(item, kind)
+
+    kind = kind_of(layout.manifest)
+    colours = {key(item, before.kind): one_colour(item.art) for item in before.items}
     items = [
         item
-        if (known := colours.get(item.name)) in {None, one_colour(item.art)}
+        if (known := colours.get(key(item, kind))) in {None, one_colour(item.art)}
         else recoloured(item, hex_colour(known))
         for item in layout.items
     ]

@@ -47,6 +47,17 @@ def lines_of(text: str) -> list[str]:
     return [line for line in lines if line]
 
 
+def as_one_line(text: str) -> str:
+    """A word's text as items are named after it.
+
+    Examples
+    --------
+    >>> as_one_line(" polar |bear")
+    'polar bear'
+    """
+    return " ".join(lines_of(sound(text)))
+
+
 def sound(text: str) -> str:
     r"""Text without control characters, lone surrogates and idle spaces, composed.
 

@@ -70,7 +70,7 @@ function items(studio) {
   const sizes = () => (when() && kindOf(studio.collage).sizes) || studio.room.isOn;
   return [
     { id: "edit-room", group: "Items", label: "Edit the container, or leave off", keys: ["C"], icon: "shape", when: edge, run: () => studio.editRoom() },
-    { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
+    { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && moves() && !studio.areHeld, run: () => studio.hold(true) },
     { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
     { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when: grows, run: () => studio.duplicate() },
     { id: "copy", group: "Items", label: "Copy", keys: ["Mod+C"], isNative: true, when, run: () => studio.clipboard.ask("copy") },
@@ -81,7 +81,7 @@ function items(studio) {
     { id: "flip", group: "Items", label: "Flip left and right", keys: ["Shift+F"], icon: "flip", when: () => when() && moves(), run: () => studio.flip("horizontal") },
     { id: "flip-down", group: "Items", label: "Flip top and bottom", keys: ["Shift+V"], icon: "flipDown", when: () => when() && moves(), run: () => studio.flip("vertical") },
     { id: "crop", group: "Items", label: "Move the photograph in its frame, or keep it", keys: ["Enter"], icon: "crop", when: () => studio.crops, run: () => studio.crop() },
-    { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
+    { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when: () => when() && moves(), run: () => studio.replacing.open() },
     { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: orders, run: () => studio.dropping.choosePicture() },
     { id: "order", group: "Items", label: "Put them in an order …", keys: ["O"], when: orders, run: () => studio.ordering.open() },
     { id: "like", group: "Items", label: "Like beside like, by a table of vectors …", keys: ["L"], when: orders, run: () => studio.ordering.chooseVectors() },

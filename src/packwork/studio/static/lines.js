@@ -2,6 +2,7 @@
 /** Lines that words follow: limbs or the edge of the container, texts round it as on a badge. */
 
 import { h } from "./dom.js";
+import { kindOf } from "./kinds.js";
 
 /** @typedef {"limbs" | "edge"} Along */
 
@@ -21,7 +22,15 @@ export class Lines {
 
   /** @returns {{along: Along | null, ring: string[]}} */
   get asked() {
+    if (this.element.hidden) return { along: null, ring: [] };
     return { along: /** @type {Along} */ (this.along.value) || null, ring: this.ring.map((one) => one.value.trim()).filter(Boolean) };
+  }
+
+  /** Have no such texts round the edge. @param {Set<string>} texts */
+  leaveOut(texts) {
+    this.refresh();
+    for (const one of this.ring) if (texts.has(one.value.trim())) one.value = "";
+    this.change();
   }
 
   /** Have the words that are there set so; others come so. */
@@ -32,6 +41,7 @@ export class Lines {
 
   /** Show what there is, unless something is asked for. */
   refresh() {
+    this.element.hidden = !kindOf(this.words.studio.collage).edge;
     const { along = null, ring = [] } = this.words.studio.collage.scene ?? {};
     const now = JSON.stringify([this.words.studio.document, along, ring]);
     if (now === this.shown || this.element.contains(document.activeElement?.closest("input:focus") ?? null)) return;

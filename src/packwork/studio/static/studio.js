@@ -460,6 +460,7 @@ export class Studio {
   }
 
   remove() {
+    if (!kindOf(this.collage).moves) return this.words.leaveOut([...this.choice.ids]);
     this.connection.do({ kind: "remove", items: [...this.choice.ids] });
     this.choice.set([]);
   }

@@ -60,7 +60,7 @@
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "halos", choice: ("none" | "faint" | "all")}} SetHalos
- * @typedef {{kind: "lines", along?: (("limbs" | "edge") | null), ring?: string[], palette?: (string | null)}} SetLines
+ * @typedef {{kind: "lines", along?: (("limbs" | "edge") | null), ring?: string[], palette?: (string | null), areas_in_shares?: (boolean | null)}} SetLines
  * @typedef {{kind: "mosaic", asset?: (string | null), tint?: (number | null)}} SetMosaic
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, size: [number, number], box: [number, number, number, number], fill: string, ink: string, svg: string, whole: string}} Shape

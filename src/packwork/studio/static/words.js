@@ -81,6 +81,14 @@ export class Words {
     return found.map((row) => [/** @type {RegExpExecArray} */ (row)[1], Number(/** @type {RegExpExecArray} */ (row)[2])]);
   }
 
+  /** Leave items out, words and texts round the edge. @param {number[]} ids */
+  leaveOut(ids) {
+    const chosen = this.studio.collage.items.filter(({ id }) => ids.includes(id));
+    const texts = new Set(chosen.filter((one) => !one.is_word).map(({ name }) => name));
+    if (texts.size) this.lines.leaveOut(texts);
+    this.list.leaveOut(...new Set(chosen.filter((one) => one.is_word).map(({ name }) => name)));
+  }
+
   change() {
     const words = this.rows();
     if (!words) return tell("each line needs a word and a weight above 0, as hope, 12", { isError: true });

@@ -4,6 +4,7 @@
 import { button, colourField, h } from "./dom.js";
 import { together } from "./hand.js";
 import { kindOf } from "./kinds.js";
+import { tell } from "./toasts.js";
 
 /** @typedef {import("./wire.js").Thing} Thing */
 
@@ -79,13 +80,15 @@ export class WordTable {
       h("button", { type: "button", class: "name", dir: "auto", onclick: () => choice.set([id]) }, name), count, colour, upright);
   }
 
-  /** @param {string} name */
-  leaveOut(name) {
+  /** Leave words out, unless no other would be left. @param {string[]} names */
+  leaveOut(...names) {
     this.word.value = "";
     const { things } = this;
-    if (!name || (things.length === 1 && things[0].name === name)) return;
-    this.without.set(name, { count: this.countOf(name, things), isGone: false });
-    if (things.some((one) => one.name === name)) this.tell(new Map([[name, 0]]));
+    const gone = names.filter(Boolean);
+    if (!gone.length) return;
+    if (things.length && things.every((one) => gone.includes(one.name))) return tell("nothing would be left; keep one word at least", { isError: true });
+    for (const name of gone) this.without.set(name, { count: this.countOf(name, things), isGone: false });
+    if (things.some((one) => gone.includes(one.name))) this.tell(new Map(gone.map((name) => [name, 0])));
     else this.refresh();
   }
 

@@ -173,7 +173,7 @@ class RoundTheEdge(RunStep):
         whole = replace(
             found.job,
             container=job.container,
-            items=(*found.job.items, *bent.items),
+            items=(*found.job.items, *map(_untold, bent.items)),
             asked=(*found.job.asked, *[ItemRules()] * len(bent.items)),
             weights=np.append(found.job.weights, [item.outline.area for item in bent.items]),
         )
@@ -214,6 +214,11 @@ class RoundTheEdge(RunStep):
             half = shape.length_round(band.axis.length, size) / 2
             found.append(WordOnLine(k, curve, float(along) - half, float(along) + half, size))
         return found
+
+
+def _untold(item: Item) -> Item:
+    """A text of a ring, whose tooltip tells no weight as a word's does."""
+    return replace(item, label=replace(item.label, title=item.name))
 
 
 def _check(job: Job, key: str) -> None:
