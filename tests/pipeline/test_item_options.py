@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from PIL import Image
 
 import packwork as pw
 from packwork import pipeline, uses
@@ -254,6 +255,22 @@ def test_a_palette_recolours_what_has_one_colour_evenly_and_unlike_its_neighbour
     pairs = [(a, b) for a, b in beside(met.layout).tolist() if a in colours and b in colours]
     # In no order it would be one in three.
     assert sum(colours[a] == colours[b] for a, b in pairs) < len(pairs) / 4
+
+
+def test_pictures_that_a_palette_tints_are_named(tmp_path: Path) -> None:
+    pixels = np.zeros((20, 20, 3), np.uint8)
+    pixels[:, 10:], pixels[:, :10] = (200, 30, 30), (30, 200, 90)
+    file, flat = tmp_path / "oma.png", tmp_path / "flat.png"
+    Image.fromarray(pixels).save(file)
+    grey = np.full((20, 20, 4), (90, 90, 90, 255), np.uint8)
+    grey[:9, :9] = 0
+    Image.fromarray(grey).save(flat)
+    asked = {"items": [str(file), str(flat), "star"], "count": 4, "palette": "red,gold"}
+    (said,) = run(**asked).remarks
+    assert "tints of one of the palette's: oma; shades = " in said
+    for other in ({"shades": "keep"}, {"shades": "nearest"}, {"palette": None}):
+        assert not run(**asked | other).remarks
+    assert not run({"items": "oma", "color": "teal"}, **asked).remarks
 
 
 def test_a_colour_makes_a_silhouette_of_a_drawing_of_many() -> None:

@@ -96,6 +96,11 @@ class Sentence(Enum):
     FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
     COUNT = Told.REMARK, "auto chose {many}"
+    TINTED = (
+        Told.REMARK,
+        "pictures of several colours are in the tints of one of the palette's: {names}; "
+        'shades = "keep" in a recipe, or in Python, leaves them theirs',
+    )
     ROWS = (
         Told.REMARK,
         "{many}, not {asked}: rows of equal squares fill this container with so many",

@@ -14,6 +14,8 @@ from packwork.assignment.graph import clusters
 from packwork.assignment.orders import min_conflicts_order
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.phrasing import enumerated
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules, kinds
 from packwork.pipeline.plan.own_losses import sees_colours
@@ -24,7 +26,7 @@ from packwork.raster.drawing import drawn_png
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.contrast import channels_of, contrast_over, luminances, readable, readable_over
-from packwork.scene.item import Art, Item, Label, PhotoArt
+from packwork.scene.item import Art, Item, Label, PhotoArt, PictureArt
 from packwork.scene.layout import Layout
 from packwork.scene.neighbours import side_by_side
 from packwork.scene.notation import matrix_text
@@ -278,7 +280,18 @@ class Dress(RunStep):
         """State whose layout is dressed."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
-            return replace(state, layout=as_asked(state.job, layout))
+            dressed = as_asked(state.job, layout)
+        state = replace(state, layout=dressed)
+        if state.job.plan.shades != "tint":
+            return state
+        pairs = zip(layout.items, dressed.items, strict=True)
+        changed = {
+            before.art: before.name
+            for before, now in pairs
+            if now.art is not before.art and isinstance(now.art, PictureArt)
+        }
+        tinted = [name for art, name in changed.items() if not has_one_colour(art)]
+        return state.with_finding(Sentence.TINTED, names=enumerated(tinted)) if tinted else state
 
 
 @final
