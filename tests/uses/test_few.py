@@ -46,12 +46,12 @@ def test_what_is_asked_of_places_stays_as_it_is(options: dict[str, Any], starts:
     assert len(alike_upright(read(make_recipe(container="heart", **options)))) == starts
 
 
-@pytest.mark.parametrize("rotate", ["none", "180", "90"])
-def test_angles_that_are_asked_for_are_kept(rotate: str) -> None:
-    job = read(make_recipe(container="heart", count=3, rotate=rotate, size_ratio=3.0))
+@pytest.mark.parametrize(("rotate", "ratio"), [("none", 3.0), ("180", 2.0), ("90", 3.0)])
+def test_angles_and_ratios_that_are_asked_for_are_kept(rotate: str, ratio: float) -> None:
+    job = read(make_recipe(container="heart", count=3, rotate=rotate, size_ratio=ratio))
     tried = alike_upright(job)
     assert tried
     for first, *_ in tried:
         plan = first.run(RunState.of(job), RunContext()).job.plan
         assert plan.rotation == job.plan.rotation
-        assert plan.size_ratio == 3.0
+        assert plan.size_ratio == ratio

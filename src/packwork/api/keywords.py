@@ -104,9 +104,9 @@ class _FillWordsPhotos(TypedDict, total=False):
     the container is thin or branched, or many words in proportion would leave it bare, else shared.
     Default: 'free' (fill, photos), 'auto' (words)."""
 
-    size_ratio: float
-    """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:
-    2.0."""
+    size_ratio: float | None
+    """With free sizes: 2 lets an item be half to twice as large as the typical one. Default: 2; of
+    2 to 6 icons, and with a picture, 1.5."""
 
     hero: str | Hero | None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
@@ -331,8 +331,7 @@ class _FillWordsPhotosChart(TypedDict, total=False):
     """Iterations in all, instead of an effort."""
 
     time: float | None
-    """Seconds for the whole run, instead of a number of iterations: results then depend on the
-    machine."""
+    """Seconds for the whole run, in place of iterations: results then depend on the machine."""
 
     levels: str | int | Sequence[int] | None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of the

@@ -60,7 +60,8 @@ class LiveOptions(Options):
         recipe = manifest.get("recipe")
         options = recipe if isinstance(recipe, Mapping) else {}
         promise = Promise.of(manifest) or Promise()
-        found = {name: options[name] for name in ("size_ratio", "rotate") if name in options}
+        asked = {name: options.get(name) for name in ("size_ratio", "rotate")}
+        found = {name: value for name, value in asked.items() if value is not None}
         found["force"] = _without_files(options.get("force"))
         sizes = MODES.get(str(options.get("sizes")), "free")
         found["sizes"] = "shared" if promise.areas_in_shares else sizes

@@ -145,8 +145,9 @@ class Recipe(
     graded where the container is thin or branched, or many words in proportion would leave it bare,
     else shared."""
 
-    size_ratio: Annotated[float, Field(ge=1, le=100), _COLLAGES] = 2.0
-    """With free sizes: 2 lets an item be half to twice as large as the typical one."""
+    size_ratio: Annotated[Annotated[float, Field(ge=1, le=100)] | None, _COLLAGES] = None
+    """With free sizes: 2 lets an item be half to twice as large as the typical one. Default: 2; of
+    2 to 6 icons, and with a picture, 1.5."""
 
     stretch: Annotated[
         float, Field(ge=1, le=MAX_STRETCH, allow_inf_nan=False), Offer(verbs=Verbs.FILL)
@@ -241,8 +242,7 @@ class Recipe(
     """Iterations in all, instead of an effort."""
 
     time: Annotated[Seconds | None, _LEVELS] = None
-    """Seconds for the whole run, instead of a number of iterations: results then depend on
-    the machine."""
+    """Seconds for the whole run, in place of iterations: results then depend on the machine."""
 
     threads: Annotated[
         Annotated[int, Field(ge=1, le=MAX_THREADS)] | None,

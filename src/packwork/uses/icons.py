@@ -13,7 +13,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.quadratic import cheapest
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
-from packwork.pipeline.plan.counts import items_needed, no_container
+from packwork.pipeline.plan.counts import TYPICAL_RATIO, items_needed, no_container
 from packwork.pipeline.read import AUTO, Material, drawn_first, read_named
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
@@ -46,8 +46,6 @@ NEAR_UPRIGHT, ALIKE = 15.0, 1.5
 """Degrees that each of few items may turn, and how many times their sizes may differ from the
 nominal ones. Larger look thrown down, smaller cover less. By eye."""
 
-USUAL_RATIO = Recipe.model_fields["size_ratio"].default
-
 STARTS = {"draft": 0, "normal": 5, "best": 24}
 """Such starts by effort, each about 0.3 s. More cover a little more. Tried."""
 
@@ -79,7 +77,7 @@ class KnownContainer:
 
     def needed(self, recipe: Recipe, items: Sequence[Item]) -> int:
         """Number of items at which the container's shape shows."""
-        needed = items_needed(self.known, recipe.sizes, recipe.size_ratio).count
+        needed = items_needed(self.known, recipe.sizes, recipe.size_ratio or TYPICAL_RATIO).count
         return max(needed, len(items))
 
 
@@ -167,7 +165,7 @@ def alike_upright(job: Job) -> list[list[RunStep]]:
         return []
     near = Rotation(limit=math.radians(NEAR_UPRIGHT))
     rotation = near if plan.rotation.is_free else plan.rotation
-    ratio = plan.size_ratio if plan.size_ratio != USUAL_RATIO else ALIKE
+    ratio = plan.size_ratio if plan.has_own_ratio else ALIKE
     found = list[list[RunStep]]()
     for k in range(1, STARTS[plan.effort] + 1):
         tried = {"rotation": rotation, "size_ratio": ratio, "seed": plan.seed + k * STRIDE}

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.counts import widest_cu
+from packwork.pipeline.plan.counts import TYPICAL_RATIO, widest_cu
 from packwork.readers.regions import Holes
 from packwork.recipe import APART, EPOCHS, Effort, Recipe
 from packwork.recipe.pictures import Shades
@@ -38,7 +38,7 @@ USUAL_DETAIL = 0.5
 shows soft shades by few large items. Chosen by eye; colour distances of 0 and 0.5 are equal."""
 
 SHOWING_RATIO = 1.5
-"""Largest usual ``size_ratio`` of a layout that shows a picture. Larger shows less of it where
+"""Usual ``size_ratio`` of a layout that shows a picture. Larger shows less of it where
 items are large, smaller fills less. Chosen by eye."""
 
 Losses = Mapping[str | ImageLossFunction, float]
@@ -87,8 +87,9 @@ class Plan:
     ----------
     gap
         Between items, and from them to the container's edge, canvas units.
-    sizes, size_ratio, stretch
-        How sizes are found, how far free ones go, how much items may be stretched.
+    sizes, size_ratio, has_own_ratio, stretch
+        How sizes are found, how far free ones go, whether that was asked, how much items may be
+        stretched.
     rotation
         How far items may turn unless a rule says otherwise.
     keeps_apart, keeps_order
@@ -133,6 +134,7 @@ class Plan:
     gap: float
     sizes: FoundSizes
     size_ratio: float
+    has_own_ratio: bool
     stretch: float
     rotation: Rotation
     has_own_turns: bool
@@ -170,7 +172,8 @@ class Plan:
         plan = cls(
             gap=recipe.padding_cu(container),
             sizes=sizes,
-            size_ratio=_size_ratio(recipe) if recipe.picture else recipe.size_ratio,
+            size_ratio=recipe.size_ratio or (SHOWING_RATIO if recipe.picture else TYPICAL_RATIO),
+            has_own_ratio=recipe.size_ratio is not None,
             stretch=recipe.stretch,
             rotation=recipe.rotation,
             has_own_turns=any(rule.rotate for rule in recipe.rules),
@@ -267,12 +270,6 @@ def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
     return VoidPlan(
         recipe.target_coverage, recipe.max_items, recipe.smallest_cu(container), bool(recipe.filler)
     )
-
-
-def _size_ratio(recipe: Recipe) -> float:
-    """Ratio of free sizes: less where a picture is to be shown, unless it was asked."""
-    is_asked = "size_ratio" in recipe.model_fields_set
-    return recipe.size_ratio if is_asked else min(recipe.size_ratio, SHOWING_RATIO)
 
 
 def _detail(recipe: Recipe, sizes: str) -> float:
