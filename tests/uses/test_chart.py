@@ -107,6 +107,12 @@ def test_title_and_legend_have_room_of_their_own_on_the_canvas() -> None:
     assert right < 210
 
 
+def test_ends_of_sizes_have_as_many_decimals_as_their_column() -> None:
+    rows = [{"kg": cell} for cell in ("12,50", "9,25", "8")]
+    layout = pw.chart("square", rows, size_by="kg", decimal=",", **QUICK)
+    assert "kg: 8 – 12,50" in [note.says for note in layout.notes]
+
+
 def test_without_legend_and_title_the_canvas_is_the_containers() -> None:
     layout = pw.chart("square", ROWS, size_by="number", legend=False, **QUICK)
     assert layout.notes == ()

@@ -262,9 +262,9 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     heading = options.size_by or "rows"
     if not chosen:
         # Marks are larger than a key may be, or specks.
-        is_told = _places(read) is not None
+        places = _places(read)
         heading += ": " + " – ".join(
-            spoken(end, read.decimal, places_of([end]) if is_told else None)
+            spoken(end, read.decimal, 0 if places and float(end).is_integer() else places)
             for end in dict.fromkeys(read.ends)
         )
     pen.write(heading, frame.left, y + 1.2 * em, em)
