@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -12,6 +15,7 @@ from packwork.live.document import Document
 from packwork.live.face.lines import put_anew, words_in
 from packwork.live.kinds import LineKind
 from packwork.live.relayout import poured_again
+from packwork.readers.fonts.face import bundled_typeface
 from packwork.scene.container import tiled
 from packwork.scene.recolour import one_colour
 
@@ -141,3 +145,26 @@ def test_lines_need_an_edge(badge: pw.Layout) -> None:
     for given in ({"along": "edge"}, {"ring": "CIDER"}):
         with pytest.raises(RecipeError, match=f"{next(iter(given))}: needs a container's edge"):
             pw.words("page", TABLE, tile="square", **given)
+
+
+HEBREW = Path(__file__).parents[1] / "readers" / "fonts" / "NotoSansHebrew.ttf"
+
+
+def test_fonts_of_words_are_kept_or_it_is_said(badge: pw.Layout, tmp_path: Path) -> None:
+    own = tmp_path / "own.otf"
+    own.write_bytes(bundled_typeface().file.data)
+    words, fonts = {**TABLE, "שלום": 8}, [str(own), str(HEBREW)]
+    session = pw.words("circle", words, fonts=fonts, effort="draft").edit()
+    put(session, along="edge", ring=("TOP",))
+    assert words_in(session.document) == words
+    found = {
+        item.name: {run.font.name for run in item.text.runs} for item in session.document.items
+    }
+    assert {Path(name).name for name in found.pop("שלום")} == {HEBREW.name}
+    assert {Path(name).name for one in found.values() for name in one} == {own.name}
+    session = badge.edit()
+    [apple] = pw.words("circle", {"apple": 1}, fonts=[str(own)], effort="draft").items
+    document = session.document
+    items = tuple(apple if one.name == "apple" else one for one in document.items)
+    with pytest.raises(RecipeError, match=r"font: is one for all words on lines, not .*own\.otf"):
+        put_anew(replace(document, items=items), 0, lambda _: None, along="edge", ring=())

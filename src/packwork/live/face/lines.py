@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +27,16 @@ from packwork.live.other_items import in_place
 from packwork.live.relayout import Moment, Shown, ground_of, poured_again, run_shown
 from packwork.phrasing import enumerated
 from packwork.progress import Stop, never
+from packwork.readers.fonts.face import bundled_typeface
 from packwork.readers.words.options import as_one_line
 from packwork.scene.colour import hex_colour
-from packwork.scene.item import Item
+from packwork.scene.item import FontFile, Item
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import one_colour, recoloured
 from packwork.temporary import TemporaryFolder
+
+MOST_FONTS = 16
+"""Fonts whose families are remembered. Chosen."""
 
 Put = Callable[[Library], Sequence[Command]]
 """Commands that put something onto a desk, once there is a library for what they bring."""
@@ -47,7 +52,7 @@ def put_anew(document: Document, seed: int, shown: Shown, stop: Stop = never, **
     ------
     RecipeError
         If lines are asked for and something is there that is no word or is held, or a text round
-        the edge has no room.
+        the edge has no room; if words have fonts of their own and none is asked for.
     """
     if "along" not in asked and not isinstance(document.kind, LineKind):
         arranged = poured_again(document, seed, shown, stop, **asked)
@@ -103,8 +108,8 @@ def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: 
     given["padding"] = f"{document.options.padding:.17g}{document.container.unit}"
     given |= {"palette": known.palette} if known.palette else {}
     with TemporaryFolder("font") as folder:
-        font = asked.get("font") or _font_of(document, folder.path)
-        given |= {"font": font} if font else {}
+        asked_font = asked.get("font")
+        given["fonts"] = [asked_font] if asked_font else _fonts_of(document, folder.path)
         recipe = uses.words_recipe("page", words, ring=ring, count=len(words), **given)
         job = uses.read(recipe, None, document.container.sheet)
 
@@ -113,6 +118,8 @@ def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: 
             shown(replace(moment, items=document.items, poses=None))
 
         layout = _in_their_colours(run_shown(job, show, stop)[0], document)
+    if not asked_font:
+        _check_fonts(document, layout)
     now = kind_of(layout.manifest)
     rings = {item.name for item in layout.items if is_ring_text(item, now)}
     there = {item.name for item in layout.items if not is_ring_text(item, now)}
@@ -126,27 +133,54 @@ def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: 
     return lambda library: [left_out, *in_place(document, library, layout), stated]
 
 
-def _font_of(document: Document, folder: Path) -> str | None:
-    """Font of the words that are there: a family of this machine, else a file of what they have."""
-    font = next((one.text.runs[0].font for one in document.items if one.text), None)
-    if font is None or (told := font_told(font)) in offered_fonts():
-        return None if font is None else told
-    file = folder / (Path(font.name).name or "font.ttf")
-    file.write_bytes(font.data)
-    return str(file)
+def _fonts_of(document: Document, folder: Path) -> list[str]:
+    """Fonts that are there, each for what those before it lack; none where the bundled one does.
+
+    Families of this machine by name, others as files.
+    """
+    runs = [run for item in document.items if item.text for run in item.text.runs]
+    found, offered = list[str](), offered_fonts()
+    for told, font in {_told(run.font): run.font for run in runs}.items():
+        if told in offered:
+            found.append(told)
+        else:
+            file = folder / (Path(font.name).name or "font.ttf")
+            file.write_bytes(font.data)
+            found.append(str(file))
+    # With none named, what is installed draws what the bundled one lacks.
+    return [] if found == [_told(bundled_typeface().file)] else found
+
+
+def _check_fonts(document: Document, layout: Layout) -> None:
+    """Refuse where words or texts would lose a font of their own to that of others."""
+    before, now = document.kind, kind_of(layout.manifest)
+    own = {_key(item, before): _families(item) for item in document.items}
+    for item in layout.items:
+        if (known := own.get(_key(item, now))) and known != _families(item):
+            names = enumerated(sorted({name for one in own.values() for name in one}))
+            raise RecipeError("font", f"is one for all words on lines, not {names}; choose one")
+
+
+def _families(item: Item) -> frozenset[str]:
+    return frozenset(_told(run.font) for run in item.text.runs) if item.text else frozenset()
+
+
+@lru_cache(MOST_FONTS)
+def _told(font: FontFile) -> str:
+    return font_told(font)
+
+
+def _key(item: Item, kind: Kind) -> tuple[str, bool]:
+    return item.name, is_ring_text(item, kind)
 
 
 def _in_their_colours(layout: Layout, before: Document) -> Layout:
     """A layout whose words and texts have the colours that they had before."""
-
-    def key(item: Item, kind: Kind) -> tuple[str, bool]:
-        return item.name, is_ring_text(item, kind)
-
     kind = kind_of(layout.manifest)
-    colours = {key(item, before.kind): one_colour(item.art) for item in before.items}
+    colours = {_key(item, before.kind): one_colour(item.art) for item in before.items}
     items = [
         item
-        if (known := colours.get(key(item, kind))) in {None, one_colour(item.art)}
+        if (known := colours.get(_key(item, kind))) in {None, one_colour(item.art)}
         else recoloured(item, hex_colour(known))
         for item in layout.items
     ]
