@@ -133,3 +133,10 @@ def test_progress_tells_the_length_that_is_reported() -> None:
     found = nest(list(read_parts("square@10mm*3", "mm", "none")), [sheet], gap=2.0, work=work)
     assert work.best_so_far == f"length {found.length:.5g}"
     assert found.length > 12.0
+
+
+def test_parts_that_leave_room_for_no_other_have_a_sheet_each() -> None:
+    # A quarter of a sheet each, but longer and wider than half of it.
+    found = pw.nest("400x400mm", [(shapely.box(0, 0, 202, 202), 30)], passes=1)
+    assert not found.unplaced
+    assert [len(layout.outlines) for layout in found] == [1] * 30

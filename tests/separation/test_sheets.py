@@ -127,6 +127,58 @@ def test_all_parts_are_laid_however_little_work_is_allowed() -> None:
     assert len(laid) <= 21
 
 
+@pytest.mark.parametrize("passes", [1, 60])
+def test_sheets_of_more_parts_than_a_window_takes_are_filled_however_little_work_is_allowed(
+    passes: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.separation.windows.MOST_IN_WINDOW", 40)
+    parts = [Part(region=SQUARE, count=150), Part(region=TRIANGLE, count=150, turns=(0.0, 3.0))]
+    laid, left = lay(parts, [FreeSheet(shapely.box(0, 0, 30, 24)) for _ in range(9)], passes)
+    assert not left
+    assert Counter(kind for one in laid for kind in one.kinds) == {0: 150, 1: 150}
+    assert max(overlap(regions(parts, one)) for one in laid) < 1e-9
+    # 1,275 square units of parts on sheets of 720.
+    assert len(laid) <= 5
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("size", "many", "sheets"), [((29, 19), 4, 1), ((29, 19), 12, 3), ((19, 19), 6, 1)]
+)
+def test_parts_that_only_just_have_room_on_all_sheets_that_there_are_find_it(
+    size: tuple[int, int], many: int, sheets: int, seed: int
+) -> None:
+    parts = [Part(region=shapely.box(0, 0, *size), count=many, turns=(0.0, math.pi / 2))]
+    free = [FreeSheet(shapely.box(0, 0, 60, 40)) for _ in range(sheets)]
+    laid, left = lay(parts, free, 2_000, seed)
+    assert not left
+    assert len(laid) == sheets
+    assert max(overlap(regions(parts, one)) for one in laid) < 1e-9
+
+
+@given(
+    wide=st.floats(5, 30), tall=st.floats(5, 19), many=st.integers(1, 12), few=st.integers(0, 6),
+    passes=st.sampled_from([1, 40]), seed=st.integers(0, 99),
+)  # fmt: skip
+@settings(max_examples=12, deadline=None)
+def test_all_parts_are_laid_where_each_may_have_a_sheet(
+    wide: float, tall: float, many: int, few: int, passes: int, seed: int
+) -> None:
+    parts = [
+        Part(region=shapely.box(0, 0, wide, tall), count=many, turns=(0.0, math.pi / 2)),
+        Part(region=shapely.affinity.scale(TRIANGLE, 9, 9), count=few, turns=(0.0, math.pi)),
+    ]
+    parts = [part for part in parts if part.count]
+    small, large = FreeSheet(shapely.box(0, 0, 9, 4)), FreeSheet(shapely.box(0, 0, 60, 40))
+    sheets = [small] * 50 + [large] * (many + few)
+    laid, left = lay(parts, sheets, passes, seed)
+    assert not left
+    assert Counter(kind for one in laid for kind in one.kinds) == Counter(
+        {kind: part.count for kind, part in enumerate(parts)}
+    )
+    assert max(overlap(regions(parts, one)) for one in laid) < 1e-9
+
+
 def filling(passes: int, seed: int) -> SheetSearch:
     parts = [Part(region=SQUARE, count=60), Part(region=TRIANGLE, count=60, turns=(0.0, 3.0))]
     ground = ground_of([shapely.box(0, 0, 20.5, 12.7)])

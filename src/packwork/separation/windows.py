@@ -16,14 +16,19 @@ from packwork.separation.sheets import SheetSearch
 from packwork.separation.strip import StripSearch, WorkBound
 
 FILLED = 0.75
-"""Share of the last sheets that parts may cover to be laid on all of them together."""
+"""Share of sheets that the parts of a window may cover: less takes more windows, more leaves some
+out, which then come again."""
+
+AMPLE = 0.4
+"""Share of the sheets that are left which parts may cover so that these are filled by first fit.
+Where sheets are scarcer, parts that have room must move for others. Chosen."""
 
 SUPPLY = 1.7
 """Area of the parts that a sheet may choose from, over its own; what has no room waits. More takes
 longer, and leaves fewer small ones for others. Tried."""
 
 WINDOW = 3
-"""Sheets that are searched together at the end, and where optional parts fill what is left."""
+"""Sheets of a window. All but the last stay; its parts come again in the next one."""
 
 MOST_IN_WINDOW = 300
 """Parts of a window: prices of pairs grow with its square."""
@@ -144,38 +149,93 @@ class _Laying:
         self.random = np.random.default_rng(seed)
         self.areas = np.array([part.region.area for part in parts])
         self.priorities = np.array([part.priority for part in self.parts])
+        self.room = np.array([sheet.area for sheet in sheets])
         self.laid = dict[int, LaidSheet]()
 
     def lay(self, queue: list[int], work: WorkBound) -> Counter[int]:
-        """Lay all of a queue, a sheet after the other; returns what found no room.
+        """Lay all of a queue, on sheets in their order; returns what found no room.
 
-        What is left for the last few sheets is laid on all of these together. Where the work is
-        done, the rest is laid by first fit alone.
+        Where sheets are ample and have room for few parts each, one after the other is filled by
+        first fit; else those of a window are searched together. Where the work is done, or all
+        sheets had their turn, all that is left is laid by first fit, beside what lies there first.
         """
-        at = 0
-        while queue and at < len(self.sheets) and not self.stop():
-            whole, room = self.area(queue), sum(one.area for one in self.sheets[at : at + WINDOW])
-            is_end = whole <= FILLED * room and len(queue) <= MOST_IN_WINDOW
-            if is_end:
-                # As many as parts of that area do not fill.
-                sums = np.cumsum([EMPTIEST * sheet.area for sheet in self.sheets[at:]])
-                chosen = range(at, at + min(int(np.searchsorted(sums, whole)) + 2, len(sums)))
-                window, queue, share = queue, [], 1.0
+        at, width, searched = 0, WINDOW, list[int]()
+        while queue and (searched or at < len(self.sheets)) and not self.stop():
+            is_over = work.share >= 1.0 or at >= len(self.sheets)
+            if is_over and searched:
+                queue, _ = self._fill_sheet(queue, searched.pop(0), work)
+            elif is_over or self._is_ample(queue, at):
+                queue, at = self._fill_sheet(queue, at, work)
             else:
-                chosen = range(at, at + 1)
-                window, queue = self._supply(queue, self.sheets[at].area)
-                share = min(FILLED * self.sheets[at].area, self.area(window)) / whole
-            bound = work.part(share) if queue or self.laid else work
-            found, left = self._search(window, chosen, bound, shrinks=is_end, fills=not is_end)
-            if bound is not work:
-                work.add(bound)
-            for one in found:
-                self._keep(one)
-            # Where all have room there may be some for more.
-            at = chosen.stop if left else at
-            queue += left.elements()
+                first = at
+                queue, at, width = self._search_window(queue, at, width, work)
+                searched += range(first, at)
             work.best_so_far = f"{len(queue)} parts left"
         return Counter(queue)
+
+    def _is_ample(self, queue: Sequence[int], at: int) -> bool:
+        """Whether there is room and to spare on the sheets from one on, each for not too many."""
+        whole, room = self.area(queue), self.room[at:]
+        if whole <= FILLED * room[:WINDOW].sum() and len(queue) <= MOST_IN_WINDOW:
+            return False
+        most = MOST_IN_WINDOW * whole / len(queue)
+        return bool(SUPPLY * room[0] <= most and whole <= AMPLE * room.sum())
+
+    def _fill_sheet(self, queue: list[int], at: int, work: WorkBound) -> tuple[list[int], int]:
+        """Fill a sheet by first fit until no kind of part has room; what is left, and the next."""
+        empty, full, waiting = self.sheets[at], set[int](), list[int]()
+        while queue and not self.stop():
+            window, others = self._supply(queue, self.room[at])
+            share = min(FILLED * self.room[at], self.area(window)) / self.area(queue + waiting)
+            bound = work.part(min(share, 1.0))
+            found, left = self._search(window, [at], bound, fills=True)
+            work.add(bound)
+            for one in found:
+                self._keep(one)
+            if not found:
+                full.update(window)
+            rest = [*left.elements(), *others]
+            waiting += [kind for kind in rest if kind in full]
+            queue = [kind for kind in rest if kind not in full]
+        is_too_small = self.sheets[at] is empty
+        at += 1
+        while is_too_small and at < len(self.sheets) and self.sheets[at] == empty:
+            at += 1
+        return waiting + queue, at
+
+    def _search_window(
+        self, queue: list[int], at: int, width: int, work: WorkBound
+    ) -> tuple[list[int], int, int]:
+        """Search some sheets together; what is left, the next sheet and how many to take."""
+        whole, is_end = self.area(queue), at + width >= len(self.sheets)
+        # On the last sheets more is tried than has room.
+        taken = self._taken(queue, (1.0 if is_end else FILLED) * self.room[at : at + width].sum())
+        window, queue = queue[:taken], queue[taken:]
+        area = self.area(window)
+        # As many as parts of that area do not fill.
+        sums = np.cumsum(EMPTIEST * self.room[at:])
+        chosen = range(at, at + min(int(np.searchsorted(sums, area)) + 2, len(sums)))
+        is_all = not queue and not self.laid
+        bound = work if is_all else work.part(1.0 if not queue else min(area / whole, 1.0))
+        found, left = self._search(window, chosen, bound)
+        if not is_all:
+            work.add(bound)
+        if not found:
+            # Too large for these sheets.
+            return window + queue, chosen.stop, width
+        if len(found) == 1 and queue and not is_end and len(window) < MOST_IN_WINDOW:
+            # Less than a sheet: with more of them.
+            return window + queue, at, 2 * width
+        if queue and len(found) > 1 and not is_end:
+            # The last one is not full: its parts come again.
+            again = found.pop()
+            left += Counter(again.kinds)
+            at = again.sheet
+        elif not queue:
+            at = chosen.stop
+        for one in found:
+            self._keep(one)
+        return [*left.elements(), *queue], at, width
 
     def _supply(self, queue: Sequence[int], area: float) -> tuple[list[int], list[int]]:
         """Parts of the highest priority that a sheet may choose from, by chance, and all others."""
@@ -299,6 +359,7 @@ class _Laying:
             for kind, pose in zip(one.kinds, one.poses, strict=True)
         )
         self.sheets[one.sheet] = FreeSheet(sheet.region, (*sheet.held, *regions))
+        self.room[one.sheet] = self.sheets[one.sheet].area
         if before is not None:
             one = LaidSheet(
                 one.sheet, before.kinds + one.kinds, np.vstack([before.poses, one.poses])

@@ -224,11 +224,16 @@ def _usable(sheet: Sheet, inset: float) -> Region:
 
 
 def _kinds(sheets: Sequence[Sheet], areas: Sequence[float], parts: Sequence[Part]) -> list[int]:
-    """Numbers of the kinds of sheets, as often as there are some or as they may be needed."""
+    """Numbers of the kinds of sheets, as often as there are some or as they may be needed.
+
+    That is one for each part at most: two that are longer and wider than half a sheet cover a
+    quarter of it.
+    """
     needed = sum(part.count * part.region.area for part in parts) / EMPTIEST
+    count = sum(part.count for part in parts)
     taken = list[int]()
     for k, (sheet, area) in enumerate(zip(sheets, areas, strict=True)):
-        enough = min(math.ceil(needed / area) + 2, MOST_SHEETS)
+        enough = min(max(math.ceil(needed / area) + 2, count), MOST_SHEETS)
         taken += [k] * (enough if sheet.count is None else sheet.count)
     return taken
 
