@@ -79,6 +79,7 @@ def test_titles_above_a_table_are_left_out_and_named(
     ("text", "columns"),
     [
         ("Report;Sales\nDate;2024-01-01\n\nLand;2023;2024\nPeru;1;2\n", ("Land", "2023", "2024")),
+        ("Sales 2024\nAs of May; draft\n\nLand;t;EUR\nPeru;1;2\n", ("Land", "t", "EUR")),
         ("land;kg\nPeru, south;1,5\nMali, north;2,5\n", ("land", "kg")),
         ("a;b\n1;2\n\n3;4\n", ("a", "b")),
         (

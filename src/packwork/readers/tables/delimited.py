@@ -188,9 +188,12 @@ def _titles_end(lines: Sequence[tuple[int, list[str]]]) -> int:
         if any(map(is_number_like, (cell for row in above for cell in row))):
             return 0
         is_parted = widest == 1 or k - there[at - 1] > 1
-        below = (cell for other in there[at + 1 : at + 3] for cell in filled[other])
-        if is_parted and len(filled[k]) > widest and _are_names(filled[k]):
-            return lines[k][0] - 1 if any(map(is_number_like, below)) else 0
+        # Names in two rows have no empty line between them.
+        rows = 2 if k + 1 in there else 1
+        below = (cell for other in there[at + 1 :][:rows] for cell in filled[other])
+        is_wider = len(filled[k]) > widest and _are_names(filled[k])
+        if is_parted and is_wider and any(map(is_number_like, below)):
+            return lines[k][0] - 1
     return 0
 
 
