@@ -16,11 +16,11 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.live.document import Document
 
-BESIDE = math.log(1.3) / 2
-"""Logarithm of size by which what lies beside an edit may become smaller or larger: by .3 of its
+BESIDE = math.log(1.5) / 2
+"""Logarithm of size by which what lies beside an edit may become smaller or larger: by half of its
 area. Larger covers more and leaves less as it was. Tried, decision 0055."""
 
-FALL = 0.5
+FALL = 0.6
 """Factor on that with each ring farther away. Larger changes more items, smaller covers less.
 Tried."""
 
@@ -35,7 +35,7 @@ def ranges(scale: FloatArray, rings: IntArray) -> tuple[FloatArray, FloatArray]:
     --------
     >>> least, most = ranges(np.ones(4), np.array([1, 2, 3, -1]))
     >>> np.square(least).round(2).tolist(), np.square(most).round(2).tolist()
-    ([0.77, 0.88, 0.94, 1.0], [1.3, 1.14, 1.07, 1.0])
+    ([0.67, 0.78, 0.86, 1.0], [1.5, 1.28, 1.16, 1.0])
     """
     allowed = np.exp(np.where(rings < 0, 0.0, BESIDE * FALL ** np.maximum(rings - 1.0, 0.0)))
     return scale / allowed, scale * allowed
