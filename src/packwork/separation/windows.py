@@ -164,12 +164,13 @@ class _Laying:
             is_over = work.share >= 1.0 or at >= len(self.sheets)
             if is_over and searched:
                 queue, _ = self._fill_sheet(queue, searched.pop(0), work)
-            elif is_over or self._is_ample(queue, at):
+                continue
+            first = at
+            if is_over or self._is_ample(queue, at):
                 queue, at = self._fill_sheet(queue, at, work)
             else:
-                first = at
                 queue, at, width = self._search_window(queue, at, width, work)
-                searched += range(first, at)
+            searched += [] if is_over else range(first, at)
             work.best_so_far = f"{len(queue)} parts left"
         return Counter(queue)
 
@@ -182,8 +183,13 @@ class _Laying:
         return bool(SUPPLY * room[0] <= most and whole <= AMPLE * room.sum())
 
     def _fill_sheet(self, queue: list[int], at: int, work: WorkBound) -> tuple[list[int], int]:
-        """Fill a sheet by first fit until no kind of part has room; what is left, and the next."""
+        """Fill a sheet by first fit; returns what is left, and the next sheet.
+
+        One draw of parts is enough for an empty one where there is work to close them up; else
+        others follow, until no kind has room.
+        """
         empty, full, waiting = self.sheets[at], set[int](), list[int]()
+        is_enough = at not in self.laid
         while queue and not self.stop():
             window, others = self._supply(queue, self.room[at])
             share = min(FILLED * self.room[at], self.area(window)) / self.area(queue + waiting)
@@ -197,6 +203,9 @@ class _Laying:
             rest = [*left.elements(), *others]
             waiting += [kind for kind in rest if kind in full]
             queue = [kind for kind in rest if kind not in full]
+            is_enough &= len(window) < MOST_IN_WINDOW and work.share < 1.0
+            if is_enough and found and left:
+                break
         is_too_small = self.sheets[at] is empty
         at += 1
         while is_too_small and at < len(self.sheets) and self.sheets[at] == empty:
