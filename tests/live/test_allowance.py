@@ -163,6 +163,21 @@ def test_what_is_undone_or_removed_leaves_no_trials_and_no_ranges(session: pw.Se
     assert 0 not in session.marks.ranges
 
 
+def test_only_the_last_stage_lets_items_shrink_beyond_their_ranges() -> None:
+    document = Document.from_layout(thirty(0))
+    s = float(document.poses.scale[1])
+    found = [within(document, {1: (0.9 * s, 1.1 * s)}, stage=k) for k in range(4)]
+    assert [one.smallest[1] for one in found[:3]] == pytest.approx([0.9 * s] * 3)
+    assert 0.8 * s < found[3].smallest[1] < 0.82 * s
+    assert found[0].largest[1] < found[1].largest[1] < found[2].largest[1]
+
+
+def test_finish_leaves_nothing_rough(session: pw.Session) -> None:
+    session.move(0, "50%", "50%")
+    assert session.finish().certified
+    assert not session.is_rough
+
+
 def test_many_gestures_do_not_empty_a_layout() -> None:
     session = thirty(1).edit()
     first = session.document.covered

@@ -30,8 +30,8 @@ from packwork.scene.layout import Layout
 AT_ONCE = 2
 """Epochs between two looks at the clock. Chosen."""
 
-TRIALS = 4
-"""Turns tried for each item that was touched, when a block ends. Chosen."""
+TRIALS, MOST_TURNS = 96, 2_000
+"""Turns tried at once when a block ends, and in all, unless more items have moved. Chosen."""
 
 OF_PLACES = ("metrics", "certified", "changed", "filling", "beside", "pile")
 """What a manifest says of poses that are no more."""
@@ -140,8 +140,7 @@ class Session:
     @property
     def canvas(self) -> str:
         """Longer side of the canvas as options say it."""
-        container = self.document.container
-        return f"{container.side:.17g}{container.unit}"
+        return f"{self.document.container.side:.17g}{self.document.container.unit}"
 
     @property
     def layout(self) -> Layout:
@@ -300,8 +299,9 @@ class Session:
 
     def finish(self) -> Settlement:
         """Settle, and win back coverage where something was touched; what it came to."""
-        found = self.settle()
-        self.polish(TRIALS * max(found.moved, 1))
+        turns = max(TRIALS, (found := self.settle()).moved)
+        for _ in range(0, max(MOST_TURNS, 4 * turns), turns):
+            self.polish(turns)
         return Settlement(self.is_certified, self.in_the_way, found.moved)
 
     def undo(self) -> bool:

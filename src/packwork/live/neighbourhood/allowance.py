@@ -24,6 +24,10 @@ FALL = 0.6
 """Factor on that with each ring farther away. Larger changes more items, smaller covers less.
 Tried."""
 
+SHRINKING = 3
+"""Stage from which items may become smaller beyond their ranges too, by half of these: without
+that each edit of many covers less. More changes sizes that are to stay. Tried."""
+
 Ranges: TypeAlias = dict[int, tuple[float, float]]
 """Smallest and largest scales of items, by their numbers."""
 
@@ -67,11 +71,14 @@ def within(
     """A document whose sizes vary within ranges only, and not at all where there is none.
 
     ``free``: numbers of items whose sizes vary as they did; with each ``stage`` an item may grow
-    beyond its range, by half of it at first, then twice as much as before.
+    beyond its range, by half of it at first, then twice as much as before, and shrink
+    by half of it in the last.
     """
     scales = zip(document.ids.tolist(), document.poses.scale.tolist(), strict=True)
     low, high = np.array([known.get(n, (s, s)) for n, s in scales]).reshape(-1, 2).T
-    high = high * (high / low) ** ((2**stage - 1) / 2)
+    wide = high / low
+    low = low / np.sqrt(wide) if stage >= SHRINKING else low
+    high = high * wide ** ((2**stage - 1) / 2)
     is_free = np.isin(document.ids, list(free))
     smallest, largest = document.smallest, document.largest
     return replace(
