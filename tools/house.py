@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 71_000,
-    "lines of docstrings": 20_000,
-    "files": 620,
+    "lines of code": 70_711,
+    "lines of docstrings": 19_495,
+    "files": 605,
     "functions of the road in one plain fill": 89,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 800,
+    "constants chosen by hand": 780,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 
