@@ -141,6 +141,22 @@ def test_sheets_of_more_parts_than_a_window_takes_are_filled_however_little_work
     assert len(laid) <= 5
 
 
+def test_sheets_are_left_no_sparser_than_one_search_of_some_parts_leaves_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("packwork.separation.windows.MOST_IN_WINDOW", 60)
+    angle = shapely.Polygon([(0, 0), (1, 0), (1, 3), (3, 3), (3, 4), (0, 4)])
+    tee = shapely.box(0, 0, 3, 0.8) | shapely.box(1.1, 0.8, 1.9, 3)
+    parts = [
+        Part(region=region, count=100, turns=(0.0, math.pi / 2, math.pi, 1.5 * math.pi))
+        for region in (angle, tee, shapely.box(0, 0, 2, 1.3))
+    ]
+    laid, left = lay(parts, [FreeSheet(shapely.box(0, 0, 40, 30)) for _ in range(6)], 300)
+    assert not left
+    # 1,276 square units of parts on sheets of 1,200.
+    assert len(laid) <= 2
+
+
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(
     ("size", "many", "sheets"), [((29, 19), 4, 1), ((29, 19), 12, 3), ((19, 19), 6, 1)]
