@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 70_711,
-    "lines of docstrings": 19_495,
+    "lines of code": 70_719,
+    "lines of docstrings": 19_497,
     "files": 605,
     "functions of the road in one plain fill": 89,
     "files of the road in one plain fill": 19,

@@ -87,6 +87,18 @@ def test_a_heavy_word_that_is_held_down_leaves_no_gap_after_lighter_ones() -> No
     assert np.ptp(rooms) < 0.2 * sizes[0]
 
 
+def test_words_set_again_go_round_a_bend_in_thinner_lanes() -> None:
+    turn = np.linspace(np.pi / 2, -np.pi / 2, 400)
+    bend = np.column_stack([300 + 30 * np.cos(turn), 30 * np.sin(turn)])
+    points = np.concatenate([[[0.0, 30.0]], bend, [[0.0, -30.0]]])
+    lanes = Lanes(SHAPES[:6], np.geomspace(24.0, 8.0, 6), 2.0, 0.5)
+    lanes.fill(Limb(Curve(points), np.full(len(points), 20.0)))
+    assert lanes.left == []
+    strips = shapely.union_all(boxes(lanes.found))
+    room = shapely.LineString(bend).buffer(19, cap_style="flat")
+    assert shapely.area(shapely.intersection(strips, room)) > 0.65 * room.area
+
+
 def test_a_word_that_fits_nowhere_is_left() -> None:
     short = Limb(Curve(np.array([[0.0, 0.0], [20.0, 0.0]])), np.array([10.0, 10.0]))
     lanes = filled(np.full(60, 20.0), short, 10.0)

@@ -136,6 +136,8 @@ class _Lane:
         The lane that it was split from.
     parts
         Number of lanes that it is split into; ``waiting`` are those of them to be joined again.
+    is_bent
+        Whether it is as thin as it is since no word went round a bend in a wider one.
     """
 
     limb: Limb
@@ -146,6 +148,7 @@ class _Lane:
     parts: int = 0
     put: list[_Put] = field(default_factory=list)
     waiting: list[_Lane] = field(default_factory=list)
+    is_bent: bool = False
 
     def __post_init__(self) -> None:
         self.began = self.front
@@ -168,11 +171,12 @@ class _Lane:
         halves = self.limb.half[max(first - 1, 0) : last + 1]
         return float((self.high - self.low) * halves.min())
 
-    def split(self, count: int) -> list[_Lane]:
+    def split(self, count: int, *, is_bent: bool = False) -> list[_Lane]:
         """Lanes side by side in place of this one."""
         ends = np.linspace(self.low, self.high, count + 1).tolist()
         self.parts = count
-        return [_Lane(self.limb, *pair, self.front, self) for pair in pairwise(ends)]
+        lanes = [_Lane(self.limb, *pair, self.front, self) for pair in pairwise(ends)]
+        return [replace(lane, is_bent=is_bent) for lane in lanes]
 
 
 class Lanes:
@@ -237,17 +241,21 @@ class Lanes:
         """Lanes to go on with once a word was put at a lane's front, or it was split or joined."""
         start = lane.own(lane.front)
         room, width = lane.line.length - start, lane.width(start, start)
-        again = self._again(width)
+        again = self._again(math.inf if lane.is_bent else width)
         first = self.left[0] if self.left else self._next_again(room)
         wanted = min(
             float(self._wanted[first]), math.inf if self.left else float(self._most[first])
         )
         fitting = self._size(width, first)
-        is_thin = lane.parent is not None and fitting < max(WAITING * wanted, self._least)
+        thin = max(WAITING * wanted, self._least)
+        # Words that are set again may be as small as the lightest is.
+        thinnest = thin if self.left else max(float(self._most.min()), self._least)
+        thin = thinnest if lane.is_bent else thin
+        is_thin = lane.parent is not None and fitting < thin
         if is_thin or room < max(SHORTEST * width, self._least):
             return self._joined(lane)
         count = min(round(fitting / wanted), MOST_LANES)
-        is_wide = self._size(width / 2, first) >= max(WAITING * wanted, self._least)
+        is_wide = self._size(width / 2, first) >= thinnest
         if count > 1 and self._size(width / count, first) >= max(WAITING * wanted, self._least):
             return lane.split(count)
         if not self.left and room < self._longest * fitting:
@@ -255,13 +263,17 @@ class Lanes:
             again.sort(key=lambda k: -self._shapes[k].length / self._shapes[k].height)
         for word in (*self.left[:TRIED], *again):
             put = self._put(lane, start, width, word)
-            if put is not None:
+            # One far smaller than its lane leaves that bare; thinner lanes have room for several.
+            is_lost = not self.left and is_wide
+            if put is not None and not (is_lost and put.size < WAITING * self._size(width, word)):
                 self._take(word, put.size)
                 lane.put.append(put)
+                lane.is_bent = False
                 lane.go_to(put.end + SPACE * put.size)
                 return [lane]
         if is_wide:
-            return lane.split(2)
+            return lane.split(2, is_bent=not self.left)
+        lane.is_bent = False
         lane.go_to(start + max(STEP * width, self._least))
         return [lane]
 
@@ -275,7 +287,7 @@ class Lanes:
         return int([*after, *having_room, len(self._lengths) - 1][0])
 
     def _again(self, width: float) -> list[int]:
-        """Words that may be set again, in turn; those too large for a lane are not."""
+        """Words that may be set again, in turn; those too large for a lane so wide are not."""
         sizes = FILLED * (width - self._gap) / self._heights
         small = np.flatnonzero(WAITING * self._wanted <= sizes)
         first = int(np.searchsorted(small, self._turn))
