@@ -17,7 +17,7 @@ def test_rows_with_data_that_are_left_out_end_in_exit_code_1(
     packwork: Command, tmp_path: Path
 ) -> None:
     table, report = tmp_path / "t.csv", tmp_path / "r.json"
-    table.write_text("Land;Menge\nA;1,5\nB;2\nC;\nD;k.A.\n", encoding="utf-8")
+    table.write_text("Land;Menge\nA;1,5\nB;2\nC;\nD;viele\n", encoding="utf-8")
     run = f"chart circle {table} --size-by Menge --label-by Land {QUICK} -o {tmp_path}/a.svg"
     assert packwork(f"{run} --report {report}").exit_code == 1
     found = json.loads(report.read_text(encoding="utf-8"))

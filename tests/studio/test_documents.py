@@ -17,7 +17,7 @@ from packwork.live.session import Session
 from packwork.studio import kept_workspaces
 from packwork.studio.workspace import Workspace
 
-NAMES = ["icons", "letters", "words", "names", "jar", "photos", "mosaic", "nest"]
+NAMES = ["icons", "letters", "words", "names", "badge", "jar", "photos", "mosaic", "paper", "nest"]
 
 
 @pytest.fixture
