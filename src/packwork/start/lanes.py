@@ -261,11 +261,11 @@ class Lanes:
         if not self.left and room < self._longest * fitting:
             # Of all that could end the lane, what leaves least of it bare.
             again.sort(key=lambda k: -self._shapes[k].length / self._shapes[k].height)
+        # A word far smaller than its lane leaves that bare; thinner lanes have room for several.
+        filled = WAITING if is_wide and not self.left else 0.0
         for word in (*self.left[:TRIED], *again):
             put = self._put(lane, start, width, word)
-            # One far smaller than its lane leaves that bare; thinner lanes have room for several.
-            is_lost = not self.left and is_wide
-            if put is not None and not (is_lost and put.size < WAITING * self._size(width, word)):
+            if put is not None and put.size >= filled * self._size(width, word):
                 self._take(word, put.size)
                 lane.put.append(put)
                 lane.is_bent = False
