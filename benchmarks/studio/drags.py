@@ -110,7 +110,7 @@ def dragging(browser: Any, count: int, drags: int) -> tuple[list[Row], dict[str,
         frames += desk.look("seen.frames.length")
         desk.page.mouse.up()
         began = time.perf_counter()
-        desk.settled()
+        desk.certified()
         settled.append(time.perf_counter() - began)
     rows = _rows(count, drawn / seconds, frames / seconds, desk.look("seen.late"), settled)
     if count == 1_000:

@@ -202,10 +202,11 @@ class Desk:
         )
 
     def settled(self) -> None:
-        """Wait until all lies, certified."""
+        """Wait until all lies, certified, and nothing is won back any more."""
         self.until(
             "Boolean(globalThis.studio?.collage.state?.certified && !studio.collage.state.busy "
-            "&& studio.collage.hasPoses && studio.collage.hand.size === 0 && !studio.isEasing)"
+            "&& !studio.collage.state.polishing && studio.collage.hasPoses "
+            "&& studio.collage.hand.size === 0 && !studio.isEasing)"
         )
 
     def answered(self) -> None:
@@ -213,8 +214,15 @@ class Desk:
         self.until("studio.collage.done >= studio.connection.count")
         self.settled()
 
+    def certified(self) -> None:
+        """Wait until the badge says that all that was asked is done, certified."""
+        self.until(
+            "studio.collage.done >= studio.connection.count && !studio.isEasing "
+            "&& document.getElementById('badge').dataset.is === 'certified'"
+        )
+
     def rested(self) -> str:
-        """Wait until nothing is won back any more; where all lies then."""
+        """Wait until all lies; where that is."""
         self.settled()
         return self.look("JSON.stringify([...studio.collage.poses])")
 

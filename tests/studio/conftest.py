@@ -58,9 +58,10 @@ class Page:
 
     @property
     def is_certified(self) -> bool:
-        """Whether the newest state says so."""
-        states = self.said("state")
-        return bool(states) and states[-1]["certified"] and not states[-1]["busy"]
+        """Whether the newest state says so, and nothing is won back any more."""
+        if not (states := self.said("state")):
+            return False
+        return states[-1]["certified"] and not (states[-1]["busy"] or states[-1]["polishing"])
 
     @property
     def done(self) -> int:

@@ -75,7 +75,8 @@ class Firefox:
         """Wait until all lies, certified."""
         self.until(
             "Boolean(globalThis.studio?.collage.state?.certified && !studio.collage.state.busy "
-            "&& studio.collage.hasPoses && studio.collage.hand.size === 0 && !studio.isEasing)"
+            "&& !studio.collage.state.polishing && studio.collage.hasPoses "
+            "&& studio.collage.hand.size === 0 && !studio.isEasing)"
         )
 
     def _act(self, kind: str, actions: list[dict[str, Any]]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import importlib.util
+import threading
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -94,12 +95,51 @@ def test_work_is_told_at_once_until_it_is_done(play) -> None:
         await page.until(lambda: page.said("state"))
         assert len(desk.shown.view.items) == 12
         assert page.last("state")["busy"] == "Changing the count"
-        await page.until(lambda: page.is_certified)
+        await page.until(lambda: not page.last("state")["busy"])
         works = [state["busy"] for state in page.said("state")]
-        assert works[-1] == ""
-        assert all(works[:-1])
+        assert all(works[: works.index("")])
+        assert not any(works[works.index("") :])
         assert not any(state["can_stop"] for state in page.said("state"))
         assert len(page.last("scene")["items"]) == 14
+
+    play(scenario)
+
+
+def test_a_drop_is_certified_exported_and_undone_before_gaps_are_closed(
+    play, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    polish, may_end, turns = Session.polish, threading.Event(), list[int]()
+
+    def polished(session: Session, trials: int, stop: Callable[[], bool]) -> int:
+        turns.append(trials)
+        return polish(session, trials, stop) if may_end.wait(0.01) else 0
+
+    monkeypatch.setattr(Session, "polish", polished)
+
+    async def scenario(desk: Workspace, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        before = poses_of(page.frames[-1])
+        for n in (1, 5):
+            page.tell(type="do", n=n, command={"kind": "grab", "items": [0]})
+            page.tell(type="do", n=n + 1, command={"kind": "move", "item": 0, "x": 300, "y": 300})
+            page.tell(type="do", n=n + 2, command={"kind": "drop"})
+            await page.until(lambda n=n: page.done == n + 2 and page.last("state")["certified"])
+            assert page.last("state")["polishing"]
+            assert not page.last("state")["busy"]
+            assert page.last("state")["can_undo"]
+            assert (await Exporter(desk, Path).file({"format": "svg"}))[0].startswith(b"<")
+            if n == 1:
+                page.tell(type="leap", n=4, to="undo")
+                await page.until(lambda: page.done == 4)
+                assert np.array_equal(poses_of(page.frames[-1]), before)
+        assert page.last("state")["polishing"]
+        page.messages[:-1] = []
+        may_end.set()
+        await page.until(lambda: page.is_certified)
+        # All the while nothing is called work, or not certified.
+        assert all(one["certified"] and not one["busy"] for one in page.said("state"))
+        assert turns
 
     play(scenario)
 

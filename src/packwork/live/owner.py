@@ -54,9 +54,6 @@ MOST_TRIES = 3
 is told. Chosen."""
 
 
-WINNING_BACK = "Closing gaps"
-"""Work of winning back coverage, during which the layout is certified."""
-
 MAKING_ROOM = "Making room"
 """Work of commands and leaps, and of what follows them."""
 

@@ -90,8 +90,10 @@ class Tab:
                 return
             self._seen = None
         is_late = await self._send_frame(view, shown.done, scene.version, state.moving)
-        # What is said of a layout waits until that layout is what the page shows.
-        await self._send_state(_unsettled(state) if is_late else state)
+        # What is said of a layout waits until that layout is what the page shows. Where coverage is
+        # won back, what was said of the one before it still holds.
+        if not (is_late and state.polishing):
+            await self._send_state(_unsettled(state) if is_late else state)
 
     async def _send_frame(self, view: View, done: int, version: int, moving: bool) -> bool:
         """Send where items are, if the page does not know; whether that has to wait."""
@@ -184,6 +186,7 @@ def _unsettled(state: State) -> State:
         "certified": False,
         "entangled": (),
         "busy": state.busy or MAKING_ROOM,
+        "polishing": False,
     }
     return state.model_copy(update=unlike)
 

@@ -171,6 +171,8 @@ class State(Message):
     can_redo: bool
     busy: str
     """What is being worked on; empty if nothing is."""
+    polishing: bool
+    """Whether coverage is won back while nobody touches anything, certified all the while."""
     progress: float
     """Share of that, 0 where nobody knows."""
     can_stop: bool

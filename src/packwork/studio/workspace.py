@@ -28,7 +28,7 @@ from packwork.live.face.lines import put_anew
 from packwork.live.face.opening import Keeper, Opening, begun_with, kept_in
 from packwork.live.macros import prepared
 from packwork.live.other_items import in_place, poured_into
-from packwork.live.owner import WINNING_BACK, Frame, Leap, Owner
+from packwork.live.owner import Frame, Leap, Owner
 from packwork.live.relayout import Moment, poured_again
 from packwork.live.session import Session
 from packwork.studio.clipboard import Clipboard
@@ -158,7 +158,6 @@ class Workspace:
 
     def _state(self, view: View, frame: Frame | None, work: str, *, is_run: bool) -> State:
         is_moving = is_run or frame is None or bool(work)
-        calm = WINNING_BACK if not is_moving and frame is not None and frame.is_rough else ""
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
         unmet = {} if frame is None or is_moving else frame.unmet
         return State(
@@ -172,7 +171,8 @@ class Workspace:
             unmet={k: for_page(line) for k, line in unmet.items()},
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
-            busy=self._busy or work or calm,
+            busy=self._busy or work,
+            polishing=not is_moving and frame is not None and frame.is_rough,
             progress=self._progress if self._busy else 0.0,
             can_stop=bool(self._busy),
             saved=self._desk is not None and self._desk[1] is not None,

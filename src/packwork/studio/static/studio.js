@@ -218,7 +218,7 @@ export class Studio {
     const state = this.collage.state;
     this.collage.setFrame(frame);
     // What is said of the last layout is not true of this one.
-    if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, busy: "Making room", certified: false, entangled: [] });
+    if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, busy: "Making room", polishing: false, certified: false, entangled: [] });
     this.isEasing = true;
     this.unacked = frame.number;
     // The next one may come while this one is drawn: of several the newest is shown.
