@@ -14,7 +14,7 @@ from packwork.pipeline.run import RunContext
 from packwork.pipeline.state import RunState
 from packwork.recipe import make_recipe
 from packwork.uses import read
-from packwork.uses.icons import ALIKE, NEAR_UPRIGHT, STARTS, alike_upright
+from packwork.uses.icons import ALIKE, FEW, MANY, NEAR_UPRIGHT, STARTS, alike_upright
 
 
 def few(count: int, **options: Any) -> pipeline.Run:
@@ -31,12 +31,37 @@ def test_few_icons_are_near_upright_and_alike(count: int) -> None:
     assert seen.max() <= 1.1 * ALIKE**2 * seen.min()
 
 
+def test_turns_and_sizes_are_let_go_ever_more_from_few_to_many() -> None:
+    plans = []
+    for count in (FEW, FEW + 1, 12, 25, 40, MANY - 1):
+        job = read(make_recipe(container="heart", count=count))
+        plans.append(alike_upright(job)[0][0].run(RunState.of(job), RunContext()).job.plan)
+    turns = [math.degrees(plan.rotation.limit or 0) for plan in plans]
+    ratios = [plan.size_ratio for plan in plans]
+    assert turns == sorted(turns)
+    assert ratios == sorted(ratios)
+    assert turns[0] == pytest.approx(NEAR_UPRIGHT)
+    assert turns[4] < 45 < 160 < turns[5] < 180
+    assert ratios[0] == ALIKE < ratios[5] < 2
+
+
+def test_forty_icons_lie_nearly_upright_and_keep_what_was_asked_in_their_plan() -> None:
+    done = few(40, effort="draft")
+    turned = np.abs(np.remainder(done.layout.poses.angle + math.pi, 2 * math.pi) - math.pi)
+    assert np.degrees(turned).max() < 45
+    assert done.layout.manifest["certified"]
+    assert done.layout.manifest["recipe"]["rotate"] == "free"
+
+
 @pytest.mark.parametrize(
     ("options", "starts"),
     [
         ({"count": 3}, STARTS["normal"]),
-        ({"count": 3, "effort": "draft"}, 0),
-        ({"count": 3, "time": 2.0}, 0),
+        ({"count": FEW + 1}, STARTS["normal"] - 1),
+        ({"count": MANY - 1}, 1),
+        ({"count": MANY}, 0),
+        ({"count": 3, "effort": "draft"}, 1),
+        ({"count": 3, "time": 2.0}, 1),
         ({"count": 3, "target_coverage": 0.9}, 0),
         ({"count": 3, "force": "down"}, 0),
         ({"count": 3, "epochs": 20}, 0),

@@ -106,7 +106,7 @@ class _FillWordsPhotos(TypedDict, total=False):
 
     size_ratio: float | None
     """With free sizes: 2 lets an item be half to twice as large as the typical one. Default: 2; of
-    2 to 6 icons, and with a picture, 1.5."""
+    6 icons at most 1.5, of 7 to 59 in between, and with a picture 1.5."""
 
     hero: str | Hero | None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
@@ -200,10 +200,10 @@ class _Every(TypedDict, total=False):
     SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""
 
     rotate: str | float | Sequence[float]
-    """free (words: within 90 degrees, never upside down; 2 to 6 icons: near upright, unless 180 is
-    asked), none, 30 (within 30 degrees of upright; upright is the same) or 0,90 (only these
-    angles); also horizontal, vertical (read upwards), mixed (one in four vertical). Default: 'free'
-    (fill, pile), 'horizontal' (words), '15' (photos), 'none' (chart)."""
+    """free (words: within 90 degrees, never upside down; fewer than 60 icons: the nearer to upright
+    the fewer, unless 180 is asked), none, 30 (within 30 degrees of upright, as upright) or 0,90
+    (only these angles); also horizontal, vertical (read upwards), mixed (one in four vertical).
+    Default: 'free' (fill, pile), 'horizontal' (words), '15' (photos), 'none' (chart)."""
 
     padding: str | float
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt, 0.5cm,

@@ -147,7 +147,7 @@ class Recipe(
 
     size_ratio: Annotated[Annotated[float, Field(ge=1, le=100)] | None, _COLLAGES] = None
     """With free sizes: 2 lets an item be half to twice as large as the typical one. Default: 2; of
-    2 to 6 icons, and with a picture, 1.5."""
+    6 icons at most 1.5, of 7 to 59 in between, and with a picture 1.5."""
 
     stretch: Annotated[
         float, Field(ge=1, le=MAX_STRETCH, allow_inf_nan=False), Offer(verbs=Verbs.FILL)
@@ -156,9 +156,9 @@ class Recipe(
     as high for its width, at the same area. 1 keeps all proportions."""
 
     rotate: Annotated[str, BeforeValidator(known_rotation), Offer(takes=Turns)] = "free"
-    """free (words: within 90 degrees, never upside down; 2 to 6 icons: near upright, unless 180
-    is asked), none, 30 (within 30 degrees of upright; upright is the same) or 0,90 (only these
-    angles); also horizontal, vertical (read upwards), mixed (one in four vertical)."""
+    """free (words: within 90 degrees, never upside down; fewer than 60 icons: the nearer to upright
+    the fewer, unless 180 is asked), none, 30 (within 30 degrees of upright, as upright) or 0,90
+    (only these angles); also horizontal, vertical (read upwards), mixed (one in four vertical)."""
 
     padding: Annotated[str | float, length_of("padding", may_be_zero=True)] = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,

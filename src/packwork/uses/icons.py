@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import final
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture, blurred
-from packwork.steps.control import BestOf, Replan
+from packwork.steps.control import BestOf, Replan, Retry
 from packwork.steps.starts import fits_first, may_rearrange
 from packwork.uses.collage import filling, jamming, placing, reporting
 
@@ -38,16 +38,22 @@ MOST_SEPARATED = 40
 decision 0045. Measured."""
 
 
-MOST_ALIKE = 6
-"""Items of free sizes up to which each is looked at by itself. Larger keeps items near upright
-that fill better by turning. By eye."""
+FEW, MANY = 6, 60
+"""Items of free sizes up to which each is looked at by itself, and from which a crowd is: between
+them they turn and vary ever more. Larger keep items near upright that fill better by turning. By
+eye, of 7 to 70 icons of three sets in five containers."""
+
+BEND = 4
+"""Power of the way from few to many by which turns and sizes are let go. Larger keeps 40 more alike
+and changes more towards the end. By eye: 40 may turn by 41 degrees."""
 
 NEAR_UPRIGHT, ALIKE = 15.0, 1.5
 """Degrees that each of few items may turn, and how many times their sizes may differ from the
 nominal ones. Larger look thrown down, smaller cover less. By eye."""
 
 STARTS = {"draft": 0, "normal": 5, "best": 24}
-"""Such starts by effort, each about 0.3 s. More cover a little more. Tried."""
+"""Such starts of few items by effort, each about 0.3 s; of more, as many as take that time. More
+cover a little more. Tried."""
 
 STRIDE = 1_000_003
 """Between the seeds of starts, so that those of neighbouring seeds differ. Chosen."""
@@ -55,6 +61,10 @@ STRIDE = 1_000_003
 AS_FULL = 0.75
 """Share of a plain layout's cover from which one of items alike and upright is better. Larger
 leaves more of them on their heads, smaller leaves room bare. By eye."""
+
+FULL = 0.6
+"""Share of the container that is covered well enough not to ask what a plain layout covers, which
+is 0.8 at most. Larger takes longer. Derived from ``AS_FULL``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,8 +155,9 @@ class IconsUse(Use):
         else:
             # First fit is not tried.
             placed = placing(job, suits_first_fit=False)
-            others = alike_upright(job) if 1 < len(job.items) <= MOST_ALIKE else []
-            placed = [BestOf([placed, *others], best_balanced)] if others else placed
+            if tried := alike_upright(job):
+                placed = [Retry([BestOf(tried, best_balanced)], placed, is_full, fuller)]
+                placed.append(Replan(**_asked(job)))
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
@@ -155,43 +166,63 @@ class IconsUse(Use):
 
 
 def alike_upright(job: Job) -> list[list[RunStep]]:
-    """Several starts of few items, near upright and of about one size, unless asked otherwise.
+    """Starts of few items, near upright and of about one size, unless asked otherwise.
 
-    Each of few is looked at: one that lies on its side beside a giant looks thrown down. None where
-    something is asked of where they lie.
+    Each of few is looked at: one that lies on its side beside a giant looks thrown down. The more
+    there are, the more they may turn and vary. None where something is asked of where they lie.
     """
-    plan = job.plan
-    if plan.seconds is not None or plan.voids.fills or not may_rearrange(job):
+    plan, count = job.plan, len(job.items)
+    if not 1 < count < MANY or plan.voids.fills or not may_rearrange(job):
         return []
-    near = Rotation(limit=math.radians(NEAR_UPRIGHT))
+    away = (max(count - FEW, 0) / (MANY - FEW)) ** BEND
+    near = Rotation(limit=math.radians(NEAR_UPRIGHT + away * (180 - NEAR_UPRIGHT)))
     rotation = near if plan.rotation.is_free else plan.rotation
-    ratio = plan.size_ratio if plan.has_own_ratio else ALIKE
+    usual = round(ALIKE + away * (plan.size_ratio - ALIKE), 2)
+    ratio = plan.size_ratio if plan.has_own_ratio else usual
+    starts = 1 if plan.seconds is not None else STARTS[plan.effort] * FEW // max(count, FEW)
+    if starts <= 1 and (rotation, ratio) == (plan.rotation, plan.size_ratio):
+        return []
     found = list[list[RunStep]]()
-    for k in range(1, STARTS[plan.effort] + 1):
+    for k in range(max(starts, 1)):
         tried = {"rotation": rotation, "size_ratio": ratio, "seed": plan.seed + k * STRIDE}
         steps = placing(job.replanned(**tried), suits_first_fit=False)
         found.append([Replan(**tried), *steps])
     return found
 
 
-def best_balanced(tried: Sequence[RunState], context: RunContext) -> RunState:
-    """Of layouts after a plain one, the fullest and most balanced; plain if that is by far fuller.
+def _asked(job: Job) -> dict[str, Any]:
+    """What :func:`alike_upright` changes, as it was asked for."""
+    return {name: getattr(job.plan, name) for name in ("rotation", "size_ratio", "seed")}
 
-    Balance is how near to each item's mirror image another one lies, or it itself. Copies of one
-    drawing may lie as in the plain one.
+
+def best_balanced(tried: Sequence[RunState], context: RunContext) -> RunState:
+    """Of layouts, the fullest and most balanced of those that are clean, if any is.
+
+    Balance is how near to each item's mirror image another one lies, or it itself.
     """
     del context
-    plain, *others = tried
+    return max(tried, key=lambda one: (not one.conflicts, _covered(one) * (1.0 - _imbalance(one))))
+
+
+def is_full(state: RunState) -> bool:
+    """Whether a layout will do without a look at a plain one.
+
+    Copies of one drawing may lie as there.
+    """
+    is_one_kind = len({item.source for item in state.job.items}) == 1
+    enough = FULL * state.job.container.outline.area
+    return not (is_one_kind or state.conflicts) and _covered(state) >= enough
+
+
+def fuller(tried: Sequence[RunState], context: RunContext) -> RunState:
+    """Of an upright layout and a plain one the plain one, if that is by far fuller."""
+    upright, plain = tried
+    if plain.conflicts:
+        return upright
+    if upright.conflicts or _covered(upright) < AS_FULL * _covered(plain):
+        return plain
     is_one_kind = len({item.source for item in plain.job.items}) == 1
-    rivals = [*others, *([plain] if is_one_kind else [])]
-    clean = [state for state in rivals if not state.conflicts]
-    if not clean:
-        return plain
-    best = max(clean, key=lambda state: _covered(state) * (1.0 - _imbalance(state)))
-    if not plain.conflicts and _covered(best) < AS_FULL * _covered(plain):
-        return plain
-    job = replace(best.job, plan=plain.job.plan)
-    return replace(best, job=job, asked_for=job)
+    return best_balanced(tried, context) if is_one_kind else upright
 
 
 def _covered(state: RunState) -> float:
