@@ -136,7 +136,7 @@ def test_marks_that_no_session_has_are_refused(good: bytes, marks: dict[str, obj
 
 
 def test_polish_after_as_many_trials_as_a_file_may_say(good: bytes) -> None:
-    marks = {"touched": [], "rough": [1], "ranges": {"1": [0.1, 1.0]}, "tried": MOST_TRIED}
+    marks = {"touched": [], "unpolished": [1], "ranges": {"1": [0.1, 1.0]}, "tried": MOST_TRIED}
     state, _ = read_session(
         changed(good, "session.json", lambda found: found["marks"].update(marks)), "a.packwork"
     )

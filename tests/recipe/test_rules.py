@@ -80,11 +80,6 @@ def test_numbers_and_single_names_are_taken_as_they_are_meant() -> None:
     assert rule.color == ("red", "blue")
 
 
-def test_a_pinned_angle_of_older_recipes_is_read() -> None:
-    rule = Rule.model_validate({"items": "star", "pin": {"angle": 30, "x": 1}})
-    assert rule == Rule(items="star", pin={"angle_deg": 30, "x": 1})
-
-
 @pytest.mark.parametrize(
     ("pin", "is_for_one"),
     [

@@ -35,25 +35,6 @@ NONE = np.empty(0, np.int64)
 """No items."""
 
 
-def compact(
-    arrangement: Arrangement,
-    objective: Objective,
-    items: IntArray,
-    trust: float,
-    gap: float,
-    hair: float,
-) -> bool:
-    """Move some items by the best step for them all, as far as it goes; False if nowhere.
-
-    The arrangement, changed in place, has no conflicts and gets none. ``items``: ``(m,)``,
-    neighbours near each other in the list; ``trust``: bound of each move, and of turns and growths
-    at an item's farthest vertex; ``gap``: least distance that the check asks for, ``hair`` the part
-    of it that was not asked for.
-    """
-    near = broad_phase.nearby(arrangement.board.boxes, items, gap + TRAVEL * trust)
-    return _compact_block(arrangement, objective, items, near, trust, gap, hair)
-
-
 def compact_all(
     arrangement: Arrangement,
     objective: Objective,
@@ -65,8 +46,10 @@ def compact_all(
 ) -> None:
     """Move all items by blocks of neighbours, those at once that do not touch.
 
-    Blocks are cut elsewhere in each ``turn``. ``stop`` is asked before each group of blocks that
-    are moved at once.
+    The arrangement, changed in place, has no conflicts and gets none. Blocks are cut elsewhere in
+    each ``turn``. ``trust``: bound of each move, and of turns and growths at an item's farthest
+    vertex; ``gap``: least distance that the check asks for, ``hair`` the part of it that was not
+    asked for. ``stop`` is asked before each group of blocks that are moved at once.
     """
     boxes = arrangement.board.boxes
     # What stands still is looked at from as far as two items come nearer; what moves, farther.
@@ -91,12 +74,12 @@ def _compact_block(
     trust: float,
     gap: float,
     hair: float,
-) -> bool:
-    """Move some items, of which no others than ``near`` ones are near; False if nowhere."""
+) -> None:
+    """Move some items, of which no others than ``near`` ones are near, as far as it goes."""
     board = arrangement.board
     plain = Trial(NONE, np.empty((0, 0, 4)), items, near, np.empty((0, 4)))
     rounds = Rounds(trust, np.full(1, trust), np.full(1, np.inf))
-    return bool(attempt(board, objective, plain, rounds, np.inf, -np.inf, gap, hair) > -np.inf)
+    attempt(board, objective, plain, rounds, np.inf, -np.inf, gap, hair)
 
 
 MOST_IN_BLOCK = 128

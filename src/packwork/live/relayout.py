@@ -113,7 +113,7 @@ def _nested(
     def show(share: float) -> None:
         shown(Moment(
             container=document.container, items=document.items, poses=document.poses,
-            progress=min(share, 1.0), stage="nest",
+            progress=min(share, 1.0),
         ))  # fmt: skip
 
     return nested_again(document, seed, show, stop)
@@ -270,8 +270,6 @@ class Moment:
         As many as items; None before they have a place.
     progress
         From 0 to 1.
-    stage
-        Which part of the run this is, as steps name it.
     rows
         ``(m,)`` items that are there by then, of those of the run.
     """
@@ -280,7 +278,6 @@ class Moment:
     items: tuple[Item, ...]
     poses: Poses | None
     progress: float
-    stage: str
     rows: IntArray = field(default_factory=lambda: np.arange(0))
 
 
@@ -289,7 +286,7 @@ Shown = Callable[[Moment], object]
 
 def run_shown(job: Job, shown: Shown, stop: Stop = never) -> tuple[Layout, IntArray]:
     """Layout of a run, every moment of it shown, and which of its items are in it."""
-    shown(_moment(job, None, 0.0, "read"))
+    shown(_moment(job, None, 0.0))
     with threads.using(job.recipe.threads):
         warm_up_once()
         done = run(job, _Watcher(job, shown), stop)
@@ -308,14 +305,12 @@ class _Watcher:
         """Show it, unless other items are there by now than were read."""
         rows = np.arange(len(self._job.items)) if step.ids is None else step.ids
         if len(step.poses) == len(rows):
-            moment = _moment(self._job, step.poses, step.progress, step.stage)
+            moment = _moment(self._job, step.poses, step.progress)
             self._shown(replace(moment, rows=rows))
 
 
-def _moment(job: Job, poses: Poses | None, progress: float, stage: str) -> Moment:
-    return Moment(
-        container=job.container, items=job.items, poses=poses, progress=progress, stage=stage
-    )
+def _moment(job: Job, poses: Poses | None, progress: float) -> Moment:
+    return Moment(container=job.container, items=job.items, poses=poses, progress=progress)
 
 
 def pin_of(document: Document, k: int) -> dict[str, str | float]:

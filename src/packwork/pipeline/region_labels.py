@@ -167,7 +167,6 @@ def _without_room(names: Sequence[str]) -> list[ReadError]:
 class _Plate:
     """A name in lines on its plate, in ems, the middle of the plate at the origin."""
 
-    lines: tuple[str, ...]
     drawn: Lettering
     wide: float
     high: float
@@ -209,10 +208,9 @@ def _plates(names: Iterable[str]) -> tuple[dict[str, _Plate], list[ReadError]]:
 
 
 def _plate(name: str, fonts: Fonts) -> _Plate:
-    lines = _lines(name.split())
-    drawn = fonts.lettering(lines)
+    drawn = fonts.lettering(_lines(name.split()))
     left, top, right, bottom = drawn.region.bounds
-    return _Plate(lines, drawn, right - left + 2 * ACROSS, bottom - top + 2 * ALONG)
+    return _Plate(drawn, right - left + 2 * ACROSS, bottom - top + 2 * ALONG)
 
 
 def _lines(words: Sequence[str]) -> tuple[str, ...]:

@@ -12,7 +12,6 @@ from pydantic import (
     BeforeValidator,
     Field,
     field_validator,
-    model_validator,
 )
 
 from packwork.errors import RecipeError
@@ -197,13 +196,6 @@ class Pin(Options):
 
     size: Length | None = None
     """Longer side of the item as drawn; % are of the canvas' longer side."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _angle_of_older_files(cls, pin: Any) -> Any:
-        if isinstance(pin, Mapping) and "angle" in pin and "angle_deg" not in pin:
-            return {"angle_deg" if key == "angle" else key: pin[key] for key in pin}
-        return pin
 
     @field_validator("size")
     @classmethod

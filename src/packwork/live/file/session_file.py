@@ -53,23 +53,17 @@ _Range = Annotated[tuple[_Scale, _Scale], AfterValidator(_ascending)]
 MOST_TRIED = ENOUGH * STAGES * MAX_COUNT
 """Turns that polish tries at most before it has done with all. Derived."""
 
-_IN_FILE = {
-    "placed_by_user": "given", "vacated": "left", "turned_by_hand": "by_hand",
-    "recent": "lately", "unpolished": "rough",
-}  # fmt: skip
-"""Names of marks that files have others for."""
-
 
 class MarksRecord(Options):
     """Marks of items that were changed, as :class:`Marks`."""
 
     touched: _Ids = ()
-    given: _Ids = ()
+    placed_by_user: _Ids = ()
     turned: _Ids = ()
-    left: _Ids = ()
-    by_hand: _Ids = ()
-    lately: _Ids = ()
-    rough: _Ids = ()
+    vacated: _Ids = ()
+    turned_by_hand: _Ids = ()
+    recent: _Ids = ()
+    unpolished: _Ids = ()
     edited: _Ids = ()
     ranges: dict[Annotated[int, Field(ge=0)], _Range] = Field(default_factory=dict)
     full: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
@@ -171,15 +165,14 @@ def _read(parts: Mapping[str, bytes]) -> tuple[SessionState, str]:
 
 
 def _marks_record(marks: Marks) -> MarksRecord:
-    columns = {_IN_FILE.get(name, name): value for name, value in asdict(marks).items()}
-    plain = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in columns.items()}
+    columns = asdict(marks).items()
+    plain = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in columns}
     return MarksRecord.model_validate(plain)
 
 
 def _marks_of(record: MarksRecord) -> Marks:
-    names = {in_file: name for name, in_file in _IN_FILE.items()}
     columns: dict[str, Any] = {k: set(v) if isinstance(v, tuple) else v for k, v in record}
-    return Marks(**{names.get(k, k): v for k, v in columns.items()})
+    return Marks(**columns)
 
 
 def _part(parts: Mapping[str, bytes], path: str) -> bytes:

@@ -113,7 +113,6 @@ _DAY = re.compile(r"\d{4}(-\d\d){1,2}([T ][0-9:.]+)?")
 class WordSteps:
     """Weights of words by step, in the order of steps, then by word."""
 
-    column: str
     weights: Mapping[str, Mapping[str, float]]
     notices: tuple[str, ...] = ()
 
@@ -166,7 +165,7 @@ def _steps(table: TableRead, file: str, column: str) -> WordSteps:
             "series", f"column {column[:40]!r} says {len(found):,} steps; 2 to {MOST_STEPS:,} go"
         )
     weights = {label: found[label] for label in in_order(list(found))}
-    return WordSteps(column, weights, (*table.notices, *table.lost))
+    return WordSteps(weights, (*table.notices, *table.lost))
 
 
 def _by_step(words: Sequence[Word], column: str) -> dict[str, dict[str, float]]:
