@@ -19,7 +19,7 @@ from packwork.live.neighbourhood.caches import LevelCache
 from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.live.session import Session
 
-SEEDS = range(3)
+SEEDS = range(2)
 SHAPES = ["star", "heart", "hexagon", "moon"]
 
 

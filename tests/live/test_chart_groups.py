@@ -69,12 +69,12 @@ def test_a_mark_that_is_dragged_into_another_group_goes_back(chart: pw.Layout) -
     session = chart.edit()
     there = session.document.poses
     session.do("move", item=6, x=float(there.x[4]), y=float(there.y[4]) + 40)
-    session.finish()
+    session.settle()
     assert session.is_certified
     assert any("taken back, for Vietnam belongs to Asia" in one for one in session.advice)
     assert np.array_equal(session.document.poses.x, there.x)
     session.do("move", item=6, x=float(there.x[6]) + 5, y=float(there.y[6]))
-    session.finish()
+    session.settle()
     assert session.document.poses.x[6] != there.x[6]
 
 
@@ -101,12 +101,12 @@ def test_a_mark_goes_back_though_others_come_or_go(
     commands = [{"kind": "together", "commands": [move, more]}] if is_together else [move, more]
     for command in commands:
         session.do(**command)
-    session.finish()
+    session.settle()
     assert any("taken back, for Vietnam belongs to Asia" in one for one in session.advice)
     assert lies_at_home(session)
     home = float(there.x[6]), float(there.y[6])
     session.do("move", item=6, x=home[0] + 3, y=home[1])
-    session.finish()
+    session.settle()
     assert not any("taken back" in one and "belongs" in one for one in session.advice)
     assert lies_at_home(session)
 
@@ -116,7 +116,7 @@ def test_a_copy_that_is_taken_to_another_group_goes_to_its_own(chart: pw.Layout)
     there = session.document.poses
     session.do("duplicate", item=6)
     session.do("move", item=7, x=float(there.x[4]), y=float(there.y[4]) + 60)
-    session.finish()
+    session.settle()
     assert any("Vietnam belongs to Asia" in one for one in session.advice)
     assert lies_at_home(session)
 
@@ -127,7 +127,7 @@ def test_copies_for_which_their_group_has_no_room_go_nowhere_else(chart: pw.Layo
     for _ in range(3):
         session.do("duplicate", item=0)
     session.do("move", item=6, x=float(there.x[4]), y=float(there.y[4]) + 60)
-    session.finish()
+    session.settle()
     assert session.is_certified
     assert lies_at_home(session)
     assert any("taken back, for Finland belongs to Europe" in one for one in session.advice)
@@ -149,14 +149,14 @@ def test_groups_keep_all_islands_of_their_containers(tmp_path: Path) -> None:
     assert lies_at_home(session)
     for seed in (1, 2):
         session.apply(poured_again(session.document, seed, lambda _: None))
-        session.finish()
+        session.settle()
         assert session.is_certified
         assert lies_at_home(session)
     # Either island of its own is a mark's home, though no mark lies there.
     islands = list(layout.container.outline.region.geoms)[-2:]
     for island in islands:
         session.do("move", item=6, x=island.centroid.x, y=island.centroid.y)
-        session.finish()
+        session.settle()
         assert not any("belongs" in one for one in session.advice)
         x, y = (float(value[6]) for value in (session.document.poses.x, session.document.poses.y))
         assert island.contains(shapely.Point(x, y))

@@ -68,7 +68,7 @@ def test_groups_in_a_group_are_taken_apart_by_one_step(session: pw.Session) -> N
     assert parts is not None
     assert [item.name for item in parts.items].count("star") == 4
     assert len(session.ungroup(both)) == 8
-    assert session.finish().certified
+    assert session.settle().certified
 
 
 def test_colours_and_flips_of_a_group_are_those_of_its_parts(session: pw.Session) -> None:
@@ -89,12 +89,12 @@ def test_colours_and_flips_of_a_group_are_those_of_its_parts(session: pw.Session
 
 def test_a_session_file_keeps_groups(session: pw.Session, tmp_path: Path) -> None:
     number = session.group("heart")
-    session.finish()
+    session.settle()
     session.save(tmp_path / "a.packwork")
     again = pw.Session.open(tmp_path / "a.packwork")
     assert distances(again, number) == pytest.approx(distances(session, number))
     assert len(again.ungroup(number)) == 4
-    assert again.finish().certified
+    assert again.settle().certified
 
 
 def test_a_replay_groups_alike(dozen: pw.Layout) -> None:

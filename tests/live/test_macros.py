@@ -47,7 +47,7 @@ def covered(session: pw.Session) -> float:
 def test_another_number_of_items_is_one_entry(icons: pw.Layout, count: int) -> None:
     session = icons.edit()
     session.count(count)
-    assert session.finish().certified
+    assert session.settle().certified
     names = [item.name for item in session.document.items]
     assert len(names) == count
     shares = [names.count(name) for name in set(names)]
@@ -72,7 +72,7 @@ def test_what_is_held_is_not_what_goes(icons: pw.Layout) -> None:
 def test_so_much_is_covered_and_no_more(icons: pw.Layout, share: str | float) -> None:
     session = icons.edit()
     session.cover(share)
-    assert session.finish().certified
+    assert session.settle().certified
     asked = 0.4 if share == "40%" else 0.3
     assert covered(session) == pytest.approx(asked, rel=1e-6)
 
@@ -194,7 +194,7 @@ def test_what_forces_pull_at_falls_to_rest_at_its_size(icons: pw.Layout) -> None
     assert session.settle().certified
     before = session.document
     session.set(force="down")
-    assert session.finish().certified
+    assert session.settle().certified
     after = session.document.poses
     assert np.array_equal(after.scale, before.poses.scale)
     assert after.y.mean() > before.poses.y.mean() + 5
@@ -202,23 +202,23 @@ def test_what_forces_pull_at_falls_to_rest_at_its_size(icons: pw.Layout) -> None
     assert after.y[held] == before.poses.y[held]
     # At rest: a gesture elsewhere finds it there.
     session.rename("star#1", "still")
-    session.finish()
+    session.settle()
     assert np.abs(session.document.poses.y - after.y).max() < 1
     lifted = session.find("heart#1")[0]
     session.move(lifted, "50%", "25%")
-    assert session.finish().certified
+    assert session.settle().certified
     assert session.unmet == ()
     assert session.document.poses.scale.max() <= before.poses.scale.max()
     session.undo()
     session.set(force=())
     session.cover(0.5)
-    assert session.finish().certified
+    assert session.settle().certified
 
 
 def test_a_force_leaves_a_full_container_as_it_is(icons: pw.Layout) -> None:
     session = icons.edit()
     session.set(force="down")
-    assert session.finish().certified
+    assert session.settle().certified
     assert np.array_equal(session.document.poses.scale, icons.poses.scale)
 
 
@@ -234,7 +234,7 @@ def test_a_narrower_turn_turns_what_is_beyond_it(icons: pw.Layout) -> None:
     (held,) = session.find("star#1")
     kept = session.document.poses.angle[held]
     session.set(rotate="20")
-    assert session.finish().certified
+    assert session.settle().certified
     angles = np.delete(session.document.poses.angle, held)
     assert np.abs(np.remainder(angles + np.pi, 2 * np.pi) - np.pi).max() <= np.radians(20) + 1e-9
     assert session.document.poses.angle[held] == kept
@@ -257,7 +257,7 @@ def test_copies_and_guests_of_words_can_be_seen(spoken: pw.Layout) -> None:
     session = spoken.edit()
     session.count(6)
     session.add("star")
-    session.finish()
+    session.settle()
     areas = areas_by_name(session)
     assert min(areas["alpha"]) == pytest.approx(max(areas["alpha"]), rel=0.01)
     assert areas["star"][0] > 0.1 * max(areas["alpha"])
@@ -268,7 +268,7 @@ def test_other_words_weigh_what_they_are_asked_to_and_no_copy_is_left(cloud: pw.
     session = cloud.edit()
     session.count(8)
     session.words({"bear": 1, "omega": 4})
-    session.finish()
+    session.settle()
     areas = areas_by_name(session)
     assert {name: len(found) for name, found in areas.items()} == {"bear": 1, "omega": 1}
     # Letters four times as high.
@@ -289,7 +289,7 @@ def test_words_of_a_file_of_shapes_are_replaced(spoken: pw.Layout, tmp_path: Pat
     spoken.save(tmp_path / "cloud.geojson")
     session = pw.Layout.load(tmp_path / "cloud.geojson").edit()
     session.words({"alpha": 2, "omega": 1})
-    session.finish()
+    session.settle()
     assert sorted(areas_by_name(session)) == ["alpha", "omega"]
 
 
@@ -297,10 +297,12 @@ def test_words_of_a_file_of_shapes_are_replaced(spoken: pw.Layout, tmp_path: Pat
 def test_a_cloud_fills_as_before_when_a_word_weighs_otherwise(seed: int) -> None:
     names = ["bear", "fox", "owl", "snail", "ant", "tiger", "panther", "crow", "elk", "bee"]
     weights = {f"{name}{end}": 1 / (k + 2) for k, name in enumerate(names) for end in ("", "s")}
-    session = pw.words("heart", weights, sizes="shared", padding=0, seed=seed).edit()
+    session = pw.words(
+        "heart", weights, sizes="shared", padding=0, seed=seed, effort="draft"
+    ).edit()
     before = covered(session)
     session.weigh("bees", 2 * float(session.document.weights.max()))
-    assert session.finish().certified
+    assert session.settle().certified
     assert covered(session) > before - 0.05
     said = " ".join(session.advice)
     where = session.document.poses.x
@@ -313,7 +315,7 @@ def test_other_letters_are_set_at_once_and_kept_for_the_next_words() -> None:
     weights = {"bear": 4, "fox": 3, "owl": 2, "snail": 1, "ant": 1}
     session = pw.words("heart", weights, sizes="shared", padding=0).edit()
     session.words(weights, font="DejaVu Serif")
-    assert session.finish().certified
+    assert session.settle().certified
     session.words({**weights, "elk": 2})
     names = {run.font.name for item in session.document.items for run in item.text.runs}
     assert len(names) == 1
@@ -324,14 +326,14 @@ def test_other_letters_are_set_at_once_and_kept_for_the_next_words() -> None:
 def test_recoloured_words_stay_where_they_are(cloud: pw.Layout) -> None:
     session = cloud.edit()
     session.recolor("*", "teal")
-    assert session.finish().moved == 0
+    assert session.settle().moved == 0
     assert not any("poured" in line for line in session.advice)
 
 
 def test_what_is_poor_is_told_as_of_a_run() -> None:
     session = pw.fill("heart", "star", count=6, sizes="free", **QUICK).edit()
     session.cover("10%")
-    session.finish()
+    session.settle()
     assert any("would show it" in line for line in session.advice)
 
 
@@ -342,7 +344,7 @@ def test_words_come_among_icons_with_their_share_of_what_is_covered(
     session = icons.edit()
     session.mix({"bear": 4, "fox": 3, "owl": 2}, "40%", seed=seed)
     for share in (0.4, 0.7):
-        assert session.finish().certified
+        assert session.settle().certified
         document = session.document
         is_word = np.array([item.text is not None for item in document.items])
         assert (len(document), int(is_word.sum())) == (12, 3)
@@ -353,7 +355,7 @@ def test_words_come_among_icons_with_their_share_of_what_is_covered(
             # What a hand has put somewhere stays there, once all is poured anew.
             poses, side = document.poses, document.container.side
             session.move(0, x=float(poses.x[0]) + 0.03 * side, y=float(poses.y[0]))
-            session.finish()
+            session.settle()
             # What is moved and put back is not put there, and undo and redo keep what was.
             session.move(1, x=float(poses.x[1]) + 0.03 * side, y=float(poses.y[1]))
             session.undo()

@@ -41,7 +41,7 @@ def layout() -> pw.Layout:
 def ramp(tmp_path_factory: pytest.TempPathFactory) -> str:
     """A photograph, dark on the left and light on the right."""
     path = tmp_path_factory.mktemp("pictures") / "ramp.jpg"
-    light = np.broadcast_to(np.linspace(20, 235, 1_200)[None, :, None], (900, 1_200, 3))
+    light = np.broadcast_to(np.linspace(20, 235, 400)[None, :, None], (300, 400, 3))
     Image.fromarray(light.astype(np.uint8)).save(path)
     return str(path)
 
@@ -68,7 +68,7 @@ def test_an_item_shows_the_picture_where_it_comes_to_lie(
     others = session.document.items
     aim = layout.container.width * (0.85 if x[number] < layout.container.width / 2 else 0.15)
     session.move(number, aim, session.document.poses.y[number])
-    session.finish()
+    session.settle()
     after = session.document
     x = after.poses.x
     assert np.corrcoef(x, lights(session))[0, 1] > 0.8
@@ -93,16 +93,12 @@ def test_a_tint_leaves_as_much_of_the_own_colours(layout: pw.Layout, ramp: str) 
         session.picture(tint=0.5)
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_a_file_and_a_log_give_the_same_bytes(
-    layout: pw.Layout, ramp: str, tmp_path: Path, seed: int
-) -> None:
+def test_a_file_and_a_log_give_the_same_bytes(layout: pw.Layout, ramp: str, tmp_path: Path) -> None:
     stream, begun = io.StringIO(), layout.edit().document
     session = pw.Session(begun, log=Log(stream))
     session.picture(ramp, tint=0.7)
     session.background("linear-gradient(45deg, #102040, rgb(200, 120, 10) )")
-    number = int(np.random.default_rng(seed).integers(24))
-    session.move(number, "50%", "50%")
+    session.move(20, "50%", "50%")
     session.finish()
     session.backdrop(ramp)
     session.save(tmp_path / "a.packwork")
@@ -182,7 +178,7 @@ def test_a_gradient_covers_the_frame_of_a_film(layout: pw.Layout) -> None:
     session = Session(layout.edit().document, record=True)
     session.do("background", colour="linear-gradient(90deg, red, blue)")
     session.do("move", item=0, x=300, y=300)
-    session.finish()
+    session.settle()
     options = {"seconds": 1, "film_pixels": 160, "film_ratio": "16:9"}
     data = film_of(session.layout, "film.gif", options, session.document.behind)
     with Image.open(io.BytesIO(data)) as film:
@@ -229,7 +225,7 @@ def test_held_items_take_on_the_colours_of_a_container_that_is_moved(
     session.hold(number)
     before = lights(session)[number]
     session.do("place_container", x=layout.container.width * 0.3, factor=1.6)
-    session.finish()
+    session.settle()
     assert session.document.poses.x[number] == layout.poses.x[number]
     assert lights(session)[number] < before - 0.1
 
@@ -240,7 +236,7 @@ def test_words_that_come_into_a_mosaic_keep_none_of_its_colours(ramp: str) -> No
     own = {one_colour(item.art) for item in session.document.items}
     session.picture(ramp)
     session.words({"hope": 5, "joy": 3, "sea": 2, "moon": 4}, font_weight=300)
-    session.finish()
+    session.settle()
     assert len(session.find("moon")) == 1
     assert {one_colour(item.art) for item in session.document.items} != own
     session.palette(None)

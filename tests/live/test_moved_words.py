@@ -11,7 +11,7 @@ import packwork as pw
 from packwork.live.face.templates import WORDS
 from packwork.live.relayout import poured_again
 
-NAMES = ["bear", "fox", "owl", "snail", "ant", "tiger", "panther", "crow", "elk", "bee"]
+NAMES = ["bear", "fox", "owl", "snail", "ant", "tiger"]
 WEIGHTS = {f"{name}{end}": 1 / (k + 2) for k, name in enumerate(NAMES) for end in ("", "s", "y")}
 
 

@@ -40,7 +40,7 @@ def covered(layout: pw.Layout) -> float:
 def test_items_are_put_in_an_order_and_undo_brings_the_old_one_back(layout: pw.Layout) -> None:
     session = layout.edit()
     session.arrange("right by=name")
-    session.finish()
+    session.settle()
     now = session.layout
     assert session.is_certified
     middles = [
@@ -58,7 +58,7 @@ def test_the_others_lie_about_what_is_held(layout: pw.Layout) -> None:
     free = layout.edit()
     for session in (held, free):
         session.arrange("outwards by=name")
-        session.finish()
+        session.settle()
         assert session.is_certified
     (row,) = held.find("heart#2")
     for name in ("x", "y", "angle", "scale"):
@@ -81,7 +81,7 @@ def test_like_things_come_together(layout: pw.Layout) -> None:
     vectors = {"star": [1.0, 0.0], "heart": [0.98, 0.1], "circle": [0.0, 1.0]}
     session = layout.edit()
     session.embeddings(vectors, anchors="right=circle")
-    session.finish()
+    session.settle()
     assert session.is_certified
     poses, is_disc = session.layout.poses, [i.name == "circle" for i in session.layout.items]
     assert poses.x[is_disc].mean() > poses.x[~np.array(is_disc)].mean() + 50
@@ -103,10 +103,10 @@ def test_words_come_together_by_their_text(tmp_path: Path) -> None:
         rng = np.random.default_rng(seed)
         told = [rng.choice(group, 200) for group in (SEA, KITCHEN)]
         text.write_text(" ".join(np.concatenate(told)), encoding="utf-8")
-        session = pw.words("circle", text, seed=seed, effort="draft").edit()
+        session = pw.words("circle", text, seed=seed, effort="draft", levels="60").edit()
         plain.append(apartness(session.layout))
         session.embeddings("auto")
-        session.finish()
+        session.settle()
         assert session.is_certified
         together.append(apartness(session.layout))
     # By chance they come nearer, too, but not by that.

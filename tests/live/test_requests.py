@@ -21,7 +21,7 @@ from packwork.live.relayout import poured_again
 def test_what_is_scaled_keeps_its_angle(session: pw.Session, dozen: pw.Layout, which: str) -> None:
     (k,) = session.positions(which)
     session.scale(which, 1.6)
-    session.finish()
+    session.settle()
     assert session.layout.poses.angle[k] == dozen.poses.angle[k]
 
 
@@ -30,7 +30,7 @@ def test_a_size_for_which_there_is_no_room_is_said(session: pw.Session, dozen: p
     session.hold([n for n in session.find("*") if n != session.one("star#1")])
     session.scale("star#1", 2.5)
     assert session.unmet == ()
-    assert session.finish().certified
+    assert session.settle().certified
     (said,) = session.unmet
     factor = session.layout.poses.scale[k] / dozen.poses.scale[k]
     assert said == (
@@ -43,14 +43,14 @@ def test_a_size_for_which_there_is_no_room_is_said(session: pw.Session, dozen: p
 def test_a_size_that_is_had_is_not_spoken_of(session: pw.Session) -> None:
     session.scale("star#1", 0.7)
     session.scale("star#1", 1.1)
-    session.finish()
+    session.settle()
     assert session.unmet == ()
 
 
 def test_a_place_outside_is_said(session: pw.Session) -> None:
     session.move("heart#1", 0, 0)
     session.move("star#1", "50%", "50%")
-    session.finish()
+    session.settle()
     (said,) = session.unmet
     assert said.startswith("heart#1 is at ")
     assert "not at 0, 0: there is no room for it" in said
@@ -58,26 +58,26 @@ def test_a_place_outside_is_said(session: pw.Session) -> None:
 
 def test_what_was_not_had_is_said_until_it_is_had_or_asked_otherwise(session: pw.Session) -> None:
     session.move("heart#1", 0, 0)
-    session.finish()
+    session.settle()
     session.move("star#1", "50%", "50%")
-    session.finish()
+    session.settle()
     session.apply(Grab(items=(session.one("heart#1"),)))
     session.move("heart#1", 300, 300)
     session.apply(Cancel())
-    session.finish()
+    session.settle()
     (said,) = session.unmet
     assert said.startswith("heart#1 is at ")
     session.move("heart#1", "40%", "50%")
-    session.finish()
+    session.settle()
     assert not any(line.startswith("heart#1") for line in session.unmet)
 
 
 def test_undo_takes_back_what_was_asked_last_and_redo_asks_it_again(session: pw.Session) -> None:
     session.move("heart#1", 0, 0)
-    session.finish()
+    session.settle()
     (first,) = session.unmet
     session.move("star#1", 600, 0)
-    session.finish()
+    session.settle()
     both = session.unmet
     assert len(both) == 2
     session.undo()
@@ -117,7 +117,7 @@ def test_undo_and_redo_say_whether_they_did_anything(session: pw.Session) -> Non
 def test_the_place_of_what_is_added_is_said_where_it_is_not_had(session: pw.Session) -> None:
     session.add("star", 0, 0)
     session.add("star")
-    session.finish()
+    session.settle()
     (said,) = session.unmet
     assert said.startswith("star#5 is at ")
     assert said.endswith("not at 0, 0: there is no room for it")
@@ -140,7 +140,7 @@ def test_what_was_put_by_hand_and_made_way_is_said_until_the_next_gesture(
     session.settle()
     assert session.unmet == (said,)
     session.turn(second, 20)
-    session.finish()
+    session.settle()
     assert not any("made way" in line and "not at 300, 300" in line for line in session.unmet)
     session.undo()
     session.undo()
@@ -179,7 +179,7 @@ def test_on_a_tile_the_nearest_image_of_the_place_is_named() -> None:
 
 def test_what_is_put_elsewhere_by_a_run_has_not_made_way(session: pw.Session) -> None:
     session.move(0, "50%", "50%")
-    session.finish()
+    session.settle()
     session.apply(poured_again(session.document, 3))
-    session.finish()
+    session.settle()
     assert session.unmet == ()

@@ -25,7 +25,13 @@ KINDS = ["square", "half-drop", "hexagon"]
 @cache
 def made(kind: str) -> pw.Layout:
     return pw.fill(
-        "page", ["leaf", "flower", "bird"], count=14, tile=kind, effort="draft", padding="0.7%"
+        "page",
+        ["leaf", "flower", "bird"],
+        count=14,
+        tile=kind,
+        effort="draft",
+        levels="50,100",
+        padding="0.7%",
     )
 
 
