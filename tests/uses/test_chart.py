@@ -10,6 +10,7 @@ import pytest
 
 import packwork as pw
 from packwork.readers.layouts.read import read_written
+from packwork.uses.charts.framing import EM_SHARE
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
 NUMBERS = [3.7, 12.0, 0.9, 5.5, 1.3]
@@ -105,6 +106,41 @@ def test_title_and_legend_have_room_of_their_own_on_the_canvas() -> None:
     assert title.matrix[1, 2] < top < bottom < heading.matrix[1, 2]
     assert left > 0
     assert right < 210
+
+
+@pytest.mark.parametrize(
+    ("container", "rows", "options"),
+    [
+        ("square", ROWS, {}),
+        ("square", MANY, {}),
+        ("square", ROWS, {"by": "kind"}),
+        ("square", MANY, {"by": "kind"}),
+        ("none", MANY, {"canvas": "600x600", "by": "kind"}),
+    ],
+)
+def test_a_chart_ends_soon_below_its_legend(
+    container: str, rows: Any, options: dict[str, Any]
+) -> None:
+    if container == "none":
+        layout = pw.chart(container, rows, size_by="number", **options, effort="draft")
+    else:
+        layout = pw.chart(container, rows, size_by="number", color_by="kind", **options, **QUICK)
+    last = max(note.matrix[1, 2] for note in layout.notes)
+    assert layout.container.height - last < 3.5 * EM_SHARE * layout.container.width
+
+
+def test_paper_of_its_own_over_a_container_does_not_part_it_from_the_title(tmp_path: Path) -> None:
+    far = tmp_path / "far.svg"
+    far.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 300">'
+        '<rect x="5" y="120" width="90" height="90"/></svg>',
+        encoding="utf-8",
+    )
+    layout = pw.chart(far, ROWS, size_by="number", title="Far", **QUICK)
+    em = EM_SHARE * layout.container.width
+    _, top, _, bottom = layout.container.outline.bounds
+    assert top < 3.5 * em
+    assert layout.container.height - bottom < 6 * em
 
 
 def test_ends_of_sizes_have_as_many_decimals_as_their_column() -> None:

@@ -14,7 +14,7 @@ import packwork as pw
 from packwork.readers.layouts.read import read_written
 from packwork.scene.palette import PALETTES
 from packwork.scene.swatch import representative_colour
-from packwork.uses.charts.legend import round_numbers
+from packwork.uses.charts.framing import round_numbers
 
 QUICK: dict[str, Any] = {"epochs": 10, "levels": "32", "effort": "draft"}
 KINDS = {"pear": 2, "fig": 3, "apple": 1, "quince": 4}

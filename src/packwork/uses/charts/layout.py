@@ -161,16 +161,20 @@ def spread_out(
     if single is not None and not chart.groups:
         container, frame, _ = framed(single, chart, colours, size)
         return Chart(chart, colours, frame), container
-    aspect = _aspect(
-        size, chart, colours, ROWS_ASPECT if single is not None else _bars_aspect(chart)
-    )
-    if single is None:
+    usual = ROWS_ASPECT if single is not None else _bars_aspect(chart)
+
+    def in_room_of(whole: Container | None) -> tuple[Container, tuple[Cell, ...]]:
+        aspect = _aspect(size, chart, colours, usual, whole)
+        if single is not None:
+            return copies(single, chart.groups, aspect, EM_SHARE)
         unit: Unit = "px" if size is None else size.unit
-        whole, cells = bars(chart.groups, aspect, EM_SHARE, unit, turned_ems(chart))
-        size = size or CanvasSize(DEFAULT_SIDE, None, "px")
-    else:
-        whole, cells = copies(single, chart.groups, aspect, EM_SHARE)
-        size = size or CanvasSize(single.side, None, single.unit)
+        return bars(chart.groups, aspect, EM_SHARE, unit, turned_ems(chart))
+
+    # How high keys are is known from what marks have room in.
+    whole, cells = in_room_of(in_room_of(None)[0])
+    if size is None:
+        plain = CanvasSize(DEFAULT_SIDE, None, "px")
+        size = plain if single is None else CanvasSize(single.side, None, single.unit)
     container, frame, place = framed(whole, chart, colours, size)
     placed = tuple(cell.mapped(place) for cell in cells)
     return Chart(chart, colours, frame, placed, single), container
@@ -195,12 +199,19 @@ def turned_ems(chart: ChartRead) -> float:
 
 
 def _aspect(
-    size: CanvasSize | None, chart: ChartRead, colours: ChartColours, otherwise: float
+    size: CanvasSize | None,
+    chart: ChartRead,
+    colours: ChartColours,
+    otherwise: float,
+    room: Container | None,
 ) -> float:
-    """Height over width that lets a chart take all of its sheet, if it was asked for one."""
+    """Height over width that lets a chart take all of its sheet, if it was asked for one.
+
+    ``room`` is what marks have room in, as far as that is known.
+    """
     if size is None or size.height is None:
         return otherwise
-    above, below, margin = frame_ems(chart, colours)
+    above, below, margin = frame_ems(chart, colours, room)
     whole = size.height / size.width * (1 + 2 * margin * EM_SHARE)
     return max(whole - (above + below) * EM_SHARE, LEAST_ASPECT)
 

@@ -15,20 +15,18 @@ from packwork.scene.layout import Layout, Note
 from packwork.uses.charts.colours import UNKNOWN, ChartColours
 from packwork.uses.charts.framing import (
     EM_SHARE,
-    KEY_ROOM_EM,
     LEAD_EM,
     LINE_EM,
     RAMP_EM,
     TITLE_EM,
     TRAIL_EM,
-    UNIT_EM,
     LegendFrame,
     has_sizes,
     in_lines,
     key_names,
+    key_scale,
     key_text,
 )
-from packwork.uses.charts.groups import ROUNDING
 from packwork.uses.charts.layout import (
     FULL,
     MOST_TURNED_EM,
@@ -47,12 +45,6 @@ LEAST_CONTRAST = 7.0
 
 STRIPES = 48
 """Rectangles that a ramp is drawn with. Fewer show. Chosen by eye."""
-
-KEYS = 3
-"""Sizes that the size key shows."""
-
-SMALLEST_KEY_EM = 0.2
-"""Height of the smallest of them. Chosen by eye."""
 
 LARGEST_UNIT_EM = 1.3
 """Height of the mark that is the key to a unit, at most. Chosen by eye."""
@@ -91,7 +83,8 @@ def legend_notes(chart: Chart, layout: Layout) -> tuple[Note, ...]:
         return tuple(pen.notes)
     y = frame.below
     if has_sizes(options):
-        y += (_sizes if options.unit is None else _unit)(pen, chart, layout, y)
+        (_sizes if options.unit is None else _unit)(pen, chart, layout, y)
+        y += frame.keys_height
     if chart.colours.ramp and options.color_by:
         _ramp(pen, chart.colours, options.color_by, frame, y, read.decimal)
         y += RAMP_EM * frame.em
@@ -227,8 +220,8 @@ def _tops(layout: Layout) -> Mapping[str, float]:
     return found
 
 
-def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
-    """A mark and what it stands for; the height of that."""
+def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
+    """A mark and what it stands for."""
     read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
     mark = next(iter(read.marks.values())).outline
     left, top, right, bottom = mark.bounds
@@ -240,27 +233,15 @@ def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     pen.shape(mark, frame.left - left * scale, middle, scale, UNKNOWN)
     stands_for = f"= {spoken(options.unit or 1.0, read.decimal)} {options.size_by or 'rows'}"
     pen.write(stands_for, frame.left + (right - left) * scale + 0.5 * em, line, em)
-    return UNIT_EM * em
 
 
-def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
-    """Marks of round numbers, at the chart's own scale; the height of all."""
+def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
+    """Marks of round numbers, at the chart's own scale; where none fits, the ends of all."""
     read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
     mark = next(iter(read.marks.values())).outline
-    numbers = round_numbers(*read.ends)
-    height = mark.bounds[3] - mark.bounds[1]
-    scales = {number: _scale(options, layout, mark, number) for number in numbers}
-    fitting = [
-        number
-        for number, scale in scales.items()
-        if SMALLEST_KEY_EM * em <= height * scale <= KEY_ROOM_EM * em
-    ]
-    # Every second of 1, 2, 5, 10 ...: sizes that are told apart at a glance.
-    chosen = fitting if len(fitting) <= KEYS else fitting[::2][:KEYS]
-    tallest = max([height * scales[number] for number in chosen], default=0.0)
-    low = y + 1.9 * em + max(tallest, em)
+    scales = [_scale(options, layout, mark, number) for number in frame.keys]
     heading = options.size_by or "rows"
-    if not chosen:
+    if not frame.keys:
         # Marks are larger than a key may be, or specks.
         places = _places(read)
         heading += ": " + " – ".join(
@@ -268,52 +249,23 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
             for end in dict.fromkeys(read.ends)
         )
     pen.write(heading, frame.left, y + 1.2 * em, em)
-    x = frame.left
-    for number in chosen:
-        left, _, right, bottom = (v * scales[number] for v in mark.bounds)
-        pen.shape(mark, x - left, low - bottom, scales[number], UNKNOWN)
+    tallest = (mark.bounds[3] - mark.bounds[1]) * max(scales, default=0.0)
+    low, x = y + 1.9 * em + max(tallest, em), frame.left
+    for number, scale in zip(frame.keys, scales, strict=True):
+        left, _, right, bottom = (v * scale for v in mark.bounds)
+        pen.shape(mark, x - left, low - bottom, scale, UNKNOWN)
         x = (
             pen.write(spoken(number, read.decimal), x + right - left + 0.4 * em, low, 0.85 * em)
             + 1.6 * em
         )
-    return low - y + em
 
 
 def _scale(options: ChartOptions, layout: Layout, mark: Outline, number: float) -> float:
     """Canvas units per unit of a mark that stands for a number."""
-    values = np.array([0.0 if item.datum is None else item.datum.value for item in layout.items])
+    values = [0.0 if item.datum is None else item.datum.value for item in layout.items]
     k = int(np.argmax(values))
-    share = number / float(values[k])
     own = layout.items[k].outline
-    if options.size_is == "area" or options.unit is not None:
-        return float(np.sqrt(share * layout.areas[k] / mark.area))
-    side = 1 if options.size_is == "height" else 0
-    lengths = [o.bounds[2 + side] - o.bounds[side] for o in (own, mark)]
-    return share * float(layout.poses.scale[k]) * lengths[0] / lengths[1]
-
-
-def round_numbers(smallest: float, largest: float) -> list[float]:
-    """Numbers to show of a range, from the largest down: 1, 2 or 5 times powers of ten.
-
-    Where the range has fewer than two, multiples of the widest such step of which it has two; of
-    one number that alone.
-
-    Examples
-    --------
-    >>> round_numbers(3.0, 30.0), round_numbers(1773.0, 5140.0), round_numbers(61.0, 84.0)
-    ([20.0, 10.0, 5.0], [5000.0, 2000.0], [80.0, 70.0])
-    """
-    power = math.floor(math.log10(largest))
-    steps = [s * 10.0**p for p in range(power, power - 8, -1) for s in (5.0, 2.0, 1.0)]
-    there = [step for step in steps if smallest <= step <= largest]
-    if len(there) > 1:
-        return there
-    for step in steps:
-        least = math.ceil(smallest / step - ROUNDING)
-        several = range(math.floor(largest / step + ROUNDING), least - 1, -1)
-        if len(several) > 1:
-            return [float(f"{k * step:.12g}") for k in several]
-    return [largest]
+    return key_scale(options, mark, number / values[k], own, float(layout.poses.scale[k]))
 
 
 def _end(value: float, decimal: str) -> str:
