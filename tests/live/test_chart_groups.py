@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import shapely
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.live.chart_groups import region_of_one
 from packwork.live.relayout import poured_again
 from packwork.live.session import Session
 
@@ -132,6 +134,52 @@ def test_copies_for_which_their_group_has_no_room_go_nowhere_else(chart: pw.Layo
     assert lies_at_home(session)
     assert any("taken back, for Finland belongs to Europe" in one for one in session.advice)
     assert np.array_equal(session.document.poses.x, there.x)
+
+
+def test_marks_on_a_map_stay_in_their_regions(tmp_path: Path) -> None:
+    (tmp_path / "land.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 60">'
+        '<path id="Asia" d="M0 0H40V30H0ZM0 40H30V60H0Z"/><path id="Europe" d="M40 0H99V30H40Z"/>'
+        '<path id="America" d="M40 30H99V60H40Z"/></svg>',
+        encoding="utf-8",
+    )
+    layout = pw.chart(
+        str(tmp_path / "land.svg"), ROWS, size_by="cups", label_by="land", by="part",
+        in_regions=True, effort="draft", levels="50", seed=1,
+    )  # fmt: skip
+    assert layout.manifest["groups"] == ["Europe", "America", "Asia"]
+    assert layout.manifest["group_parts"] == [1, 1, 2]
+    kept = tmp_path / "map.packwork"
+    layout.edit().save(kept)
+    # The file of the map is not needed any more.
+    (tmp_path / "land.svg").unlink()
+    session = pw.Session.open(kept)
+    there = session.document.poses
+    session.do("move", item=6, x=float(there.x[4]), y=float(there.y[4]) + 30)
+    session.finish()
+    assert any("taken back, for Vietnam belongs to Asia" in one for one in session.advice)
+    assert np.array_equal(session.document.poses.x, there.x)
+    # The island of its region is its home as well.
+    island = list(layout.container.outline.region.geoms)[-1].centroid
+    session.do("move", item=6, x=island.x, y=island.y)
+    session.finish()
+    assert not any("taken back" in one for one in session.advice)
+    session.apply(poured_again(session.document, 2, lambda _: None))
+    session.finish()
+    assert session.is_certified
+    assert region_of_one(session.document).equals(session.document.container.outline.region)
+    assert session.layout.poses.scale == pytest.approx(layout.poses.scale)
+
+
+@pytest.mark.parametrize("parts", [[1, 1], [2, 2, 2], [3, 0, 1], ["1", 1, 2], "112"])
+def test_a_manifest_that_says_wrong_numbers_of_parts_is_not_heeded(
+    chart: pw.Layout, parts: object
+) -> None:
+    session = pw.Session(replace(chart, manifest={**chart.manifest, "group_parts": parts}))
+    there = session.document.poses
+    session.do("move", item=6, x=float(there.x[4]), y=float(there.y[4]) + 40)
+    session.finish()
+    assert any("belongs to Asia" in one for one in session.advice)
 
 
 def test_groups_keep_all_islands_of_their_containers(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -129,6 +130,61 @@ def test_each_group_of_a_chart_has_a_container_of_its_own(
     draw(desk, table)
     desk.until(f"{parts} === 1")
     desk.settled()
+
+
+LAND = {
+    "Nord": [[8, 52], [14, 52], [14, 54], [8, 54], [8, 52]],
+    "Sued": [[8, 48], [14, 48], [14, 52], [8, 52], [8, 48]],
+}
+FARMS = "hof,land,hektar\nA,Nord,30\nB,Nord,12\nC,Sued,40\nD,Sued,22\nE,sued,9\nF,Meer,7\n"
+
+
+def test_marks_lie_in_the_regions_of_a_map_that_was_dropped(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"name": name},
+            "geometry": {"type": "Polygon", "coordinates": [ring]},
+        }
+        for name, ring in LAND.items()
+    ]
+    land, farms = tmp_path / "land.geojson", tmp_path / "farms.csv"
+    land.write_text(
+        json.dumps({"type": "FeatureCollection", "features": features}), encoding="utf-8"
+    )
+    farms.write_text(FARMS, encoding="utf-8")
+    desk = open_desk()
+    give(desk, land)
+    desk.until("studio.collage.scene?.name === 'land'")
+    desk.settled()
+    give(desk, farms)
+    asked = desk.page.locator("dialog.asking[open]")
+    asked.get_by_role("button", name="A chart").click()
+    assert asked.get_by_label("Groups").input_value() == "land"
+    assert asked.get_by_label("Each in its region of the map").is_checked()
+    desk.picture("chart-map-asked")
+    asked.get_by_role("button", name="Draw the chart").click()
+    desk.page.get_by_text("is no part of the map: F", exact=False).wait_for()
+    desk.until("studio.collage.scene?.kind === 'chart'")
+    desk.settled()
+    assert names(desk) == list("ABCDE")
+    north, south = desk.place(0), desk.place(2)
+    assert north[1] < south[1]
+    before = desk.look("JSON.stringify([...studio.collage.poses])")
+    desk.drag(south, north)
+    desk.answered()
+    assert desk.rested() == before
+    desk.picture("chart-map")
+    with desk.page.expect_download() as waiting:
+        desk.page.keyboard.press("Control+s")
+    kept = tmp_path / "map.packwork"
+    waiting.value.save_as(kept)
+    layout = pw.Session.open(kept).layout
+    assert layout.certified
+    assert layout.manifest["group_parts"] == [1, 1]
+    assert {note.says for note in layout.notes} >= {"Nord", "Sued"}
 
 
 def test_a_table_without_numbers_is_a_chart_of_its_rows(

@@ -573,6 +573,11 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
     by_step: float | None
     """With --by and a column of numbers: groups of so many, as 10 for decades."""
 
+    in_regions: bool
+    """With --by: each group lies in the part of the container that has its name, such as a state of
+    a map: GeoJSON whose features have names, or an SVG whose shapes have titles or ids. Default:
+    False."""
+
     title: str | None
     """Line over the chart."""
 

@@ -64,9 +64,10 @@ def poured_by_group(
 
 
 def region_of_one(document: Document) -> Region:
-    """Region of the container, of a chart in groups that of one of them."""
-    return next((part.container.outline.region for _, part in _each(document)),
-                document.container.outline.region)  # fmt: skip
+    """Region of the container, of a chart whose groups have a copy of one each that of one."""
+    rooms = [part.container.outline.region for _, part in _each(document)]
+    are_alike = rooms and np.allclose([room.area for room in rooms], rooms[0].area)
+    return rooms[0] if are_alike else document.container.outline.region
 
 
 def _each(document: Document) -> Iterator[tuple[IntArray, Document]]:
@@ -82,20 +83,25 @@ def _each(document: Document) -> Iterator[tuple[IntArray, Document]]:
 def _rooms(document: Document) -> dict[str, IntArray]:
     """Numbers of those parts of the container that are each group's, by its name.
 
-    They follow each other as the manifest, which may hold anything, names the groups; of charts
-    whose manifest does not, they are those in which marks lie.
+    They follow each other as the manifest, which may hold anything, names the groups and how many
+    each has; of charts whose manifest does not, they are those in which marks lie.
     """
     count = len(polygon_parts(document.container.outline.region))
     said, lies = document.manifest.get("groups"), _parts_of(document)
     names = said if isinstance(said, list | tuple) and said else ()
-    each = 0 if not names or count % len(names) else count // len(names)
-    there = np.arange(each * len(names)).reshape(len(names), each)
-    stated = {name: there[k] for k, name in enumerate(names) if isinstance(name, str)}
-    groups = document.chart_groups.items()
-    return {
-        name: stated[name] if each and name in stated else np.unique(lies[rows])
-        for name, rows in groups
+    parts = document.manifest.get("group_parts")
+    if not isinstance(parts, list | tuple):
+        # As files of earlier versions have it: as many for each.
+        parts = [count // len(names)] * len(names) if names else ()
+    is_sound = len(parts) == len(names) and all(type(one) is int and one > 0 for one in parts)
+    ends = np.cumsum(parts) if is_sound and sum(parts) == count else ()
+    stated = {
+        name: np.arange(end - number, end)
+        for name, number, end in zip(names, parts, ends, strict=False)
+        if isinstance(name, str)
     }
+    groups = document.chart_groups.items()
+    return {name: stated.get(name, np.unique(lies[rows])) for name, rows in groups}
 
 
 def _strays(before: Document, now: Document) -> list[int]:

@@ -61,6 +61,10 @@ class ChartOptions(Options):
     by_step: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     """With --by and a column of numbers: groups of so many, as 10 for decades."""
 
+    in_regions: bool = False
+    """With --by: each group lies in the part of the container that has its name, such as a state
+    of a map: GeoJSON whose features have names, or an SVG whose shapes have titles or ids."""
+
     title: str | None = None
     """Line over the chart."""
 
@@ -76,6 +80,8 @@ class ChartOptions(Options):
             raise RecipeError(
                 "by_step", "parts the numbers of a column; say which: --by COL, or --series COL"
             )
+        if self.in_regions and self.by is None:
+            raise RecipeError("in_regions", "needs the column that names them; say which: --by COL")
         return self
 
     @field_validator("paper")

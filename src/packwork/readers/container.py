@@ -5,6 +5,7 @@ Slits between parts that belong together are closed: a morphological closing of 
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -18,8 +19,15 @@ from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.progress import Stop, never
 from packwork.readers.builtin import builtin_container, container_names
-from packwork.readers.files import exists, is_folder, read_bytes, stem
+from packwork.readers.files import exists, is_folder, read_bytes, read_text, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.maps import (
+    ENDINGS,
+    MAX_MAP_BYTES,
+    container_of_map,
+    names_on_map,
+    parts_of_map,
+)
 from packwork.readers.memory.items import container_in_memory
 from packwork.readers.options import AS_DRAWN, GAPS_AUTO, GAPS_NONE, TEXT_PREFIX, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
@@ -27,7 +35,7 @@ from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.reading import notice, reading_file
 from packwork.readers.regions import canvas_box
 from packwork.readers.saliency import QuietOptions, container_around
-from packwork.readers.svg.container import Tell, container_of_svg, parts_of_svg
+from packwork.readers.svg.container import Tell, container_of_svg, named_parts, parts_of_svg
 from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.container import Container, on_canvas, placed_container
 from packwork.scene.layout import sheet
@@ -35,8 +43,8 @@ from packwork.sources import stored
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side, parse_length
 
 _FORMS = (
-    "a PNG or JPEG mask, an SVG, a DXF, text:WORD, around:IMAGE or a built-in name such as circle, "
-    "heart or page"
+    "a PNG or JPEG mask, an SVG, a DXF, a map in GeoJSON, text:WORD, around:IMAGE or a built-in "
+    "name such as circle, heart or page"
 )
 
 SHEETS = ("page", "none")
@@ -50,7 +58,7 @@ def read_container(
     quiet: QuietOptions | None = None,
     reading: ReadOptions | None = None,
 ) -> Container:
-    """Container of a mask, an SVG, a DXF, ``text:WORD``, ``around:IMAGE`` or a built-in name.
+    """Container of a mask, SVG, DXF, map, ``text:WORD``, ``around:IMAGE`` or a built-in name.
 
     A path that exists wins over a name.
 
@@ -100,16 +108,30 @@ def read_container(
 
 
 def read_parts(
-    container: Container, tell: Tell = notice, stop: Stop = never
+    container: Container, tell: Tell = notice, stop: Stop = never, asked: Collection[str] = ()
 ) -> list[tuple[str, Region]]:
-    """Names and regions, canvas units, of the parts of a container that was read from an SVG.
+    """Names and regions, canvas units, of the parts of a container that was read from a map or SVG.
 
-    None of any other. ``tell``, ``stop``: as of :func:`parts_of_svg`.
+    None of any other. ``tell``, ``stop``: as of :func:`parts_of_svg`; ``asked`` as of
+    :func:`parts_of_map`.
     """
     path = Path(container.source)
+    if path.suffix.lower() in ENDINGS and exists(path):
+        return parts_of_map(read_text(path, MAX_MAP_BYTES), container, asked)
     if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):
         return []
     return parts_of_svg(read_bytes(path, MAX_BYTES), container, tell, stop)
+
+
+def part_names(source: str) -> list[set[str]]:
+    """Names that parts of a container's file have, in small letters, by what says them."""
+    path = Path(source)
+    if path.suffix.lower() in ENDINGS and exists(path):
+        return names_on_map(read_text(path, MAX_MAP_BYTES))
+    if path.suffix.lower() in {".svg", ".svgz"} and exists(path):
+        parts = named_parts(read_bytes(path, MAX_BYTES), lambda line: None)
+        return [{name.casefold() for name, _ in parts}]
+    return []
 
 
 def _container(
@@ -137,7 +159,8 @@ def _container(
     if text.startswith(AROUND):
         as_drawn = partial(read_container, reading=AS_DRAWN)
         return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), as_drawn)
-    if path.suffix.lower() in {".svg", ".svgz", ".dxf", *PICTURE_ENDINGS} or len(path.parts) > 1:
+    endings = {".svg", ".svgz", ".dxf", *ENDINGS, *PICTURE_ENDINGS}
+    if path.suffix.lower() in endings or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
         raise ReadError(text, f"there is no such file{hint}")
@@ -159,6 +182,9 @@ def _container_of_file(
         from packwork.readers.dxf.item import container_of_dxf
 
         return container_of_dxf(read_bytes(path, MAX_DXF_BYTES), stem(path), source, side)
+    if ending in ENDINGS:
+        text = read_text(path, MAX_MAP_BYTES)
+        return container_of_map(text, stem(path), source, side or DEFAULT_SIDE)
     if ending in PICTURE_ENDINGS:
         mask = trace_mask(path, reading.alpha_threshold)
         with reading_file(source):

@@ -96,8 +96,10 @@ class Studio:
 
     async def _table(self, request: Request) -> Response:
         try:
-            file = self._importer.file(request.path_params["batch"])
-            return JSONResponse(await asyncio.to_thread(columns_of, file))
+            file, shown = self._importer.file(request.path_params["batch"]), self._workspace.shown
+            source = "" if shown is None else shown.view.container.source
+            known = source if self._importer.is_sent(source) else ""
+            return JSONResponse(await asyncio.to_thread(columns_of, file, known))
         except PackworkError as error:
             return refused(PackworkError(self._importer.without_folder(str(error))))
 

@@ -11,12 +11,15 @@ from pydantic import Field
 
 from packwork.errors import ReadError
 from packwork.live.chart_groups import region_of_one
+from packwork.live.commands.command import made, named_container
+from packwork.live.commands.container import SetContainer
 from packwork.live.face.offers import container_of
 from packwork.live.face.opening import Opening, chart_opening, opening_sent
 from packwork.live.face.templates import template
 from packwork.live.kinds import ChartKind
-from packwork.scene.container import Container, placed_container
+from packwork.scene.container import Container, on_canvas, placed_container
 from packwork.studio.wire import Message
+from packwork.units import CanvasSize
 
 if TYPE_CHECKING:
     from packwork.studio.tab import Tab
@@ -39,7 +42,7 @@ class PageRequest(Message):
 
 
 class Open(PageRequest):
-    """Have another document on the desk: a session, a recipe or a layout that was sent before."""
+    """Have a session, a recipe or a layout that was sent before on the desk, or fill a map."""
 
     type: Literal["open"] = "open"
     source: Name
@@ -49,9 +52,14 @@ class Open(PageRequest):
         tab.importer.read(partial(self._open, tab), "Opening")
 
     def _open(self, tab: Tab) -> None:
-        if (opening := opening_sent(tab.importer.folder(self.source))) is None:
-            raise ReadError("open", "what was sent is neither a session, a recipe nor a layout")
-        tab.importer.begin(opening)
+        if (opening := opening_sent(tab.importer.folder(self.source))) is not None:
+            tab.importer.begin(opening)
+            return
+        # GeoJSON that is no layout is a map.
+        container = container_of(tab.importer.file(self.source), tab.workspace.canvas)
+        tab.workspace.pour(0, lambda session: [
+            made(SetContainer, asset=named_container(session.library, container))
+        ])  # fmt: skip
 
 
 class BeginChart(PageRequest):
@@ -65,6 +73,8 @@ class BeginChart(PageRequest):
     label_by: Name | None = None
     by: Name | None = None
     """Column whose values are groups, each in a container of its own; None for no groups."""
+    in_regions: bool = False
+    """Whether groups lie in those parts of the container that have their names."""
     by_step: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     """Numbers of that column in steps of so much."""
     mark: Annotated[str, Field(pattern="^builtin:[a-z0-9-]{1,60}$")] | None = None
@@ -77,7 +87,9 @@ class BeginChart(PageRequest):
 
     def _begin(self, tab: Tab) -> None:
         file, container = tab.importer.file(self.source), _room(tab)
-        columns = ("size_by", "color_by", "label_by", "by", "by_step")
+        if self.in_regions and not tab.importer.is_sent(container.source):
+            raise ReadError("in_regions", "needs the map's file; drop it once more")
+        columns = ("size_by", "color_by", "label_by", "by", "by_step", "in_regions")
         asked = {name: getattr(self, name) for name in columns}
         marks = () if self.mark is None else (self.mark,)
         opening = chart_opening(container, file, **asked, mark=marks, title=self.title or None)
@@ -92,6 +104,9 @@ def _room(tab: Tab) -> Container:
     container = shown.view.container
     if not isinstance(shown.view.kind, ChartKind):
         return container
+    if tab.importer.is_sent(container.source):
+        size = CanvasSize(container.side, None, container.unit)
+        return on_canvas(container_of(container.source, None), size)
     region = region_of_one(owner.frame.document)
     left, top, right, bottom = region.bounds
     box = (left, top, right - left, bottom - top)

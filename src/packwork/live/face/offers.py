@@ -27,7 +27,7 @@ from packwork.readers.builtin import (
     container_names,
     icon_names,
 )
-from packwork.readers.container import read_container, read_parts
+from packwork.readers.container import part_names, read_container, read_parts
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
@@ -142,19 +142,24 @@ MOST_COLUMNS = 60
 """Columns of a table that are offered; of tables with more, the first. Chosen."""
 
 
-def columns_of(path: str) -> dict[str, Any]:
+def columns_of(path: str, source: str = "") -> dict[str, Any]:
     """Columns of a table, as a chart may stand for them, and its first rows, as plain values.
 
-    ``numbers``: whether most cells that hold something are numbers; ``values``: how many differ.
+    ``numbers``: whether most cells that hold something are numbers; ``values``: how many differ;
+    ``regions``: whether most name parts of the container whose file is ``source``.
     """
-    table = read_table(path)
+    table, named = read_table(path), part_names(source) if source else []
     columns, rows = list[dict[str, Any]](), list[list[str]]()
     for name in table.columns[:MOST_COLUMNS]:
         cells = [row.get(name) for row in table.with_numbers(name, None, whole=False).rows]
         held = [cell for cell in cells if not is_missing(cell)]
         numbers = sum(not math.isnan(any_number(cell)) for cell in held)
-        values = len({cell_text(cell) for cell in held})
-        columns.append({"name": name, "numbers": 2 * numbers > len(held), "values": values})
+        values = {cell_text(cell) for cell in held}
+        met = max((sum(one.casefold() in names for one in values) for names in named), default=0)
+        is_map, is_number = 2 * met > len(values), 2 * numbers > len(held)
+        columns.append(
+            {"name": name, "numbers": is_number, "values": len(values), "regions": is_map}
+        )
     for row in table.rows[:MOST_SHOWN]:
         cells = [row.get(one["name"]) for one in columns]
         rows.append(["" if is_missing(cell) else cell_text(cell) for cell in cells])
@@ -206,7 +211,7 @@ def labels_of(container: Container, stop: Stop = never) -> tuple[list[PartLabel]
     short = list[str]()
     parts = read_parts(container, short.append, stop)
     labels, told = part_labels(parts, container.side)
-    none = f"{container.name} names no parts: an SVG does, by the titles or ids of its shapes"
+    none = f"{container.name} names no parts: a map in GeoJSON does, or an SVG by titles or ids"
     lines = [f"{container.name}: {line}" for line in short]
     return labels, [*lines, *map(str, told)] if parts else [*lines, none]
 

@@ -15,6 +15,7 @@ from packwork.live.mosaic import MOST_PX, Mosaic
 from packwork.live.relayout import Shown, poured
 from packwork.live.session import Session
 from packwork.readers.layouts.read import holds_layout, is_drawn, read_written
+from packwork.readers.maps import ENDINGS, is_map
 from packwork.readers.recipe import read_recipe
 from packwork.readers.target import kept_picture
 from packwork.recipe import Recipe, make_recipe
@@ -113,6 +114,8 @@ def chart_opening(container: Container, table: str, **options: Any) -> Opening:
 
 
 def _is_document(path: Path) -> bool:
+    if path.suffix.lower() in ENDINGS and path.is_file() and is_map(path):
+        return False
     is_ours = is_drawn(path) and path.is_file() and holds_layout(path)
     return is_ours or path.suffix.lower() in DOCUMENTS
 

@@ -156,6 +156,6 @@ function files(studio) {
     { id: "save", group: "File", label: "Save a copy as a session", keys: ["Mod+S"], when: () => studio.collage.hasPoses, run: () => studio.exporting.download("packwork", {}) },
     { id: "add", group: "File", label: "Open or add files", keys: ["Mod+O"], icon: "file", run: () => studio.dropping.choose() },
     { id: "folder", group: "File", label: "Add a folder", keys: ["Mod+Shift+O"], run: () => studio.dropping.chooseFolder() },
-    { id: "room", group: "File", label: "Take a file as the container", keys: ["Shift+O"], run: () => studio.dropping.chooseOne((batch) => studio.dropping.fill(batch)) },
+    { id: "room", group: "File", label: "Take a file as the container", keys: ["Shift+O"], run: () => studio.dropping.chooseRoom() },
   ];
 }

@@ -7,7 +7,8 @@ import { tell } from "./toasts.js";
 /** @typedef {import("./connection.js").Connection} Connection */
 
 const DRAWINGS = ".svg,.svgz,.dxf,image/*";
-const ANY = `${DRAWINGS},.packwork,.toml,.geojson,.csv,.tsv,.txt,.md,.ttf,.otf,.ttc,.otc`;
+const MAPS = `${DRAWINGS},.geojson`;
+const ANY = `${MAPS},.packwork,.toml,.csv,.tsv,.txt,.md,.ttf,.otf,.ttc,.otc`;
 const AT_ONCE = 4;
 const MOST = 1000;
 const MOST_TOLD = 3;
@@ -87,6 +88,11 @@ export class Dropping {
    */
   chooseOne(then) {
     this.ask(DRAWINGS, false, then);
+  }
+
+  /** Ask for the container's file: a drawing, a picture or a map. */
+  chooseRoom() {
+    this.ask(MAPS, false, (batch) => this.fill(batch));
   }
 
   /**

@@ -151,13 +151,13 @@ export class Panels {
     const word = h("input", { type: "text", id: "word", maxlength: "60", placeholder: "HELLO", "aria-label": "Word to fill" });
     const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}`, font: this.roomFont.value, canvas: dropping.sheet });
     const grid = h("div", { class: "grid" });
-    const names = h("input", { type: "checkbox", checked: dropping.names, title: "Titles or ids of the shapes of an SVG, as maps have them", onchange: () => (dropping.names = names.checked) });
+    const names = h("input", { type: "checkbox", checked: dropping.names, title: "Of a map in GeoJSON, or titles or ids of the shapes of an SVG", onchange: () => (dropping.names = names.checked) });
     const edit = h("button", { type: "button", class: "edit-room", "aria-pressed": String(this.studio.room.isOn), onclick: () => this.studio.editRoom() }, icon("shape"), "Edit its outline");
     const draw = (/** @type {string} */ label, /** @type {boolean} */ isHole) => h("button", { type: "button", onclick: () => this.studio.sketch.begin(isHole) }, icon("pencil"), label);
     const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value) }, ...this.sheets().map(([value, label]) => h("option", { value }, label)));
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
-        h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file"),
+        h("button", { type: "button", onclick: () => dropping.chooseRoom() }, "Choose a file"),
         h("label", { class: "row center" }, names, "Write the names of its parts")),
       h("div", { class: "row of-edges" }, edit), h("div", { class: "row halves of-edges" }, draw("Draw one", false), draw("A hole", true)),
       h("label", { class: "row" }, "Sheet", sheet), ...this.repeating.elements,

@@ -26,6 +26,8 @@ export class Start {
       this.kept,
       h("div", { class: "row end" }, h("span", { class: "hint" }, "All you do is kept on this machine."), h("button", { type: "button", onclick: () => this.dialog.close() }, "Cancel")));
     document.body.append(this.dialog);
+    // Files that are dragged in show where they may be dropped, which it would cover.
+    addEventListener("dragenter", (event) => event.dataTransfer?.types.includes("Files") && this.dialog.close());
     /** @type {string[]} */
     this.pictures = [];
   }

@@ -4,7 +4,7 @@
 import { h } from "./dom.js";
 import { tell } from "./toasts.js";
 
-/** @typedef {{name: string, numbers: boolean, values: number}} Column */
+/** @typedef {{name: string, numbers: boolean, values: number, regions: boolean}} Column */
 /** @typedef {{columns: Column[], rows: string[][], count: number}} Offered */
 
 /** Columns of the preview. */
@@ -19,6 +19,8 @@ export class Tables {
     this.batch = "";
     /** Columns of numbers. @type {Set<string>} */
     this.numbers = new Set();
+    /** Columns that name parts of the container. @type {Set<string>} */
+    this.mapped = new Set();
     this.title = h("h2", {});
     this.rows = h("table", {});
     this.size = h("select", {});
@@ -26,6 +28,7 @@ export class Tables {
     this.label = h("select", {});
     this.mark = h("select", {});
     this.by = h("select", { onchange: () => this.refresh() });
+    this.inRegions = h("input", { type: "checkbox", checked: true });
     this.step = h("input", { type: "number", min: "0", step: "any", placeholder: "each value" });
     this.heading = h("input", { type: "text", maxlength: "200", placeholder: "none" });
     this.answers = h("div", { class: "stack" },
@@ -35,6 +38,7 @@ export class Tables {
     const field = (/** @type {string} */ label, /** @type {HTMLElement} */ of) => h("label", { class: "row" }, label, of);
     this.form = h("form", { class: "columns", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
       field("Size", this.size), field("Colour", this.colour), field("Names", this.label), field("Groups", this.by),
+      this.regions = h("label", { class: "tick" }, this.inRegions, "Each in its region of the map"),
       this.steps = field("In steps of", this.step), field("Marks", this.mark), field("Title", this.heading),
       h("p", { class: "hint" }, "It begins as a document of its own, in the container that is there."),
       h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, "Draw the chart"), h("button", { type: "button", onclick: () => this.show(false) }, "Back")));
@@ -73,17 +77,20 @@ export class Tables {
     const numbers = columns.filter((one) => one.numbers);
     const texts = columns.filter((one) => !one.numbers);
     const names = texts.toSorted((a, b) => b.values - a.values)[0];
-    const kinds = texts.find((one) => one !== names && one.values > 1 && one.values < count && one.values <= COLOURS);
+    const mapped = columns.filter((one) => one.regions);
+    const kinds = texts.find((one) => one !== names && one !== mapped[0] && one.values > 1 && one.values < count && one.values <= COLOURS);
     choose(this.size, "all alike", numbers, numbers[0]);
     choose(this.colour, "all alike", columns, kinds);
     choose(this.label, "none", columns, names);
-    choose(this.by, "none", columns, undefined);
+    choose(this.by, "none", columns, mapped[0]);
+    this.mapped = new Set(mapped.map((one) => one.name));
     this.numbers = new Set(numbers.map((one) => one.name));
     this.refresh();
   }
 
-  /** Ask for steps of what are numbers. */
+  /** Ask for steps of what are numbers, and whether names of parts of the container mean these. */
   refresh() {
+    this.regions.hidden = !this.mapped.has(this.by.value);
     this.steps.hidden = !this.numbers.has(this.by.value);
   }
 
@@ -104,7 +111,7 @@ export class Tables {
     this.studio.choice.set([]);
     this.studio.connection.send({
       type: "chart", source: `file:${this.batch}`, size_by: size.value || null, color_by: colour.value || null, label_by: label.value || null,
-      by: by.value || null, by_step: this.steps.hidden ? null : step.valueAsNumber || null,
+      by: by.value || null, in_regions: !this.regions.hidden && this.inRegions.checked, by_step: this.steps.hidden ? null : step.valueAsNumber || null,
       mark: mark.value ? `builtin:${mark.value}` : null, title: heading.value.trim() });
   }
 

@@ -11,7 +11,7 @@
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{kind: "background", colour?: string, asset?: (string | null)}} Background
  * @typedef {{type: "begin", template?: (("icons" | "letters" | "words" | "names" | "badge" | "paper" | "jar" | "nest" | "photos" | "mosaic") | null), source?: (string | null), kept?: (string | null)}} Begin
- * @typedef {{type: "chart", source: string, size_by?: (string | null), color_by?: (string | null), label_by?: (string | null), by?: (string | null), by_step?: (number | null), mark?: (string | null), title?: string}} BeginChart
+ * @typedef {{type: "chart", source: string, size_by?: (string | null), color_by?: (string | null), label_by?: (string | null), by?: (string | null), in_regions?: boolean, by_step?: (number | null), mark?: (string | null), title?: string}} BeginChart
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{kind: "cancel"}} Cancel
  * @typedef {{type: "copy", items: number[], token: string}} Copy

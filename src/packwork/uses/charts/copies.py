@@ -55,20 +55,24 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, context: RunContext)
     others shrink in place.
     """
     single = _single(job, chart, pattern)
-    most = max(len(own) for own in chart.members)
-    check_padding(single, job.plan.gap, most, " of a group")
+    rooms = [_room(cell.room, single) if chart.regions else single for cell in chart.cells]
+    for room, own in zip(rooms, chart.members, strict=True):
+        check_padding(room, job.plan.gap, len(own), " of a group")
     zero = np.zeros(len(job.items))
     poses, before = Poses(zero, zero, zero, zero), np.arange(0)
     groups: list[_Filled] = []
-    known: dict[tuple[tuple[Outline, float], ...], RunState] = {}
-    found = zip(chart.cells, chart.members, strict=True)
-    corner = np.array(single.outline.bounds[:2])
-    pairs = [(np.array(cell.room.bounds[:2]) - corner, own) for cell, own in found if len(own)]
+    known: dict[tuple[Outline | float, ...], RunState] = {}
+    found = zip(chart.cells, rooms, chart.members, strict=True)
+    pairs = [
+        (np.array(cell.room.bounds[:2]) - room.outline.bounds[:2], room, own)
+        for cell, room, own in found
+        if len(own)
+    ]
     # The fullest first: its scale tells when others need no more effort.
-    fullest = int(np.argmax([job.weights[own].sum() for _, own in pairs]))
-    for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
+    fullest = int(np.argmax([job.weights[own].sum() / room.outline.area for _, room, own in pairs]))
+    for offset, room, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
         steps = GroupSteps(context.observer, poses, before, own, offset)
-        part = _part(job, single, own, len(job.items) - len(before))
+        part = _part(job, room, own, len(job.items) - len(before))
         found_before = known.get(_alike(part))
         if found_before is None:
             group = _filled(part, own, offset, groups, RunContext(steps, context.stop))
@@ -113,10 +117,10 @@ def _filled(
     return _Filled(own, offset, placed, scale)
 
 
-def _alike(part: Job) -> tuple[tuple[Outline, float], ...]:
-    """The same for groups of the same marks, all as large for each other."""
+def _alike(part: Job) -> tuple[Outline | float, ...]:
+    """The same for groups of the same marks, all as large for each other, in rooms of one shape."""
     shares = (part.weights / part.weights.max()).round(SHARE_DIGITS).tolist()
-    return tuple((i.outline, share) for i, share in zip(part.items, shares, strict=True))
+    return (part.container.outline, *(item.outline for item in part.items), *shares)
 
 
 def _as_before(
@@ -139,6 +143,13 @@ def _single(job: Job, chart: Chart, pattern: Container) -> Container:
         height=pattern.height * scale,
         unit=job.container.unit,
     )
+
+
+def _room(outline: Outline, single: Container) -> Container:
+    """A part of a map on a canvas of its own."""
+    left, top, right, bottom = outline.bounds
+    moved = outline.mapped(affine.similarity(-left, -top, 0.0, 1.0))
+    return replace(single, outline=moved, width=right - left, height=bottom - top)
 
 
 def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int) -> Job:

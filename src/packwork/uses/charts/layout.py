@@ -25,6 +25,7 @@ from packwork.uses.charts.colours import ChartColours
 from packwork.uses.charts.framing import EM_SHARE, LegendFrame, frame_ems, framed
 from packwork.uses.charts.marks import ChartRead
 from packwork.uses.charts.pen import Pen
+from packwork.uses.charts.regions import NamedRegion
 
 BAR_SHARE = 0.86
 """Width of a bar over the way from one to the next. Larger ones run into each other, smaller ones
@@ -119,7 +120,8 @@ class Chart:
     """Marks of a chart, their colours, and where its groups, title and legend go.
 
     There are no ``cells`` where there are no groups; ``single`` is the container of which each
-    group has a copy, None where they are bars.
+    group has a copy, None where they are bars. ``regions``: parts of it that are drawn, the first
+    of which are the cells.
     """
 
     read: ChartRead
@@ -127,6 +129,7 @@ class Chart:
     frame: LegendFrame
     cells: tuple[Cell, ...] = ()
     single: Container | None = None
+    regions: tuple[NamedRegion, ...] = ()
 
     @property
     def options(self) -> ChartOptions:
@@ -149,11 +152,16 @@ class Chart:
 
 
 def spread_out(
-    recipe: Recipe, chart: ChartRead, colours: ChartColours, single: Container | None
+    recipe: Recipe,
+    chart: ChartRead,
+    colours: ChartColours,
+    single: Container | None,
+    regions: Sequence[NamedRegion] = (),
 ) -> tuple[Chart, Container]:
     """A chart on its canvas, and all that is filled: of several parts where there are groups.
 
     ``single`` is the container to fill, or of which each group has a copy; None for bars.
+    ``regions``: parts of it that groups fill instead, in their order, and then those of no group.
     """
     if single is None and not chart.groups:
         raise RecipeError("container", "none shows groups as bars: give --by COL, or a container")
@@ -161,6 +169,11 @@ def spread_out(
     if single is not None and not chart.groups:
         container, frame, _ = framed(single, chart, colours, size)
         return Chart(chart, colours, frame), container
+    if single is not None and regions:
+        whole = replace(single, outline=joined_rooms(_cells(regions, chart)))
+        container, frame, place = framed(whole, chart, colours, size)
+        there = tuple(one.mapped(place) for one in regions)
+        return Chart(chart, colours, frame, _cells(there, chart), single, there), container
     usual = ROWS_ASPECT if single is not None else _bars_aspect(chart)
 
     def in_room_of(whole: Container | None) -> tuple[Container, tuple[Cell, ...]]:
@@ -178,6 +191,11 @@ def spread_out(
     container, frame, place = framed(whole, chart, colours, size)
     placed = tuple(cell.mapped(place) for cell in cells)
     return Chart(chart, colours, frame, placed, single), container
+
+
+def _cells(regions: Sequence[NamedRegion], chart: ChartRead) -> tuple[Cell, ...]:
+    """Cells of those parts that have a group."""
+    return tuple(Cell(one.name, one.room, 0.0, 0.0) for one in regions[: len(chart.groups)])
 
 
 def _bars_aspect(chart: ChartRead) -> float:

@@ -37,6 +37,7 @@ from packwork.uses.charts.layout import (
 )
 from packwork.uses.charts.marks import ChartRead
 from packwork.uses.charts.pen import Pen, places_of, shortened, spoken
+from packwork.uses.charts.regions import draw_regions
 from packwork.uses.charts.rows import SPECK
 
 INK = "#2d3748"
@@ -101,6 +102,9 @@ def _groups(pen: Pen, chart: Chart, layout: Layout) -> None:
         cell.name: spoken(sums.get(cell.name, 0.0), chart.read.decimal, places) for cell in cells
     }
     pale = readable(between((pen.ink, options.paper), PALE), options.paper, PALE_CONTRAST)
+    if chart.regions:
+        draw_regions(pen, chart.regions, layout.container.side, pale)
+        return
     if not chart.has_bars:
         _over_copies(pen, cells, written, frame.em, pale)
         return

@@ -8,6 +8,7 @@ from typing import Any, final
 
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
+from packwork.geometry.polygon import polygon_parts
 from packwork.offers import Verbs
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job, Use
@@ -19,7 +20,7 @@ from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.readers.charts import ChartOptions
 from packwork.recipe import Recipe
-from packwork.scene.container import Container
+from packwork.scene.container import Container, with_margin
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.solve.solver import Ending
@@ -34,6 +35,7 @@ from packwork.uses.charts.layout import Chart, spread_out
 from packwork.uses.charts.legend import legend_notes
 from packwork.uses.charts.mark_labels import mark_labels
 from packwork.uses.charts.marks import ChartRead, read_chart
+from packwork.uses.charts.regions import NamedRegion, in_regions
 from packwork.uses.charts.rows import MOST_MARKS
 from packwork.uses.collage import filling, jamming, placing, reporting
 
@@ -41,6 +43,10 @@ CLOSE = 0.03
 """Gap between discs at most where none was asked for, over the side of a mark's share of the
 container. Larger wastes room, smaller is not seen as a gap: some 200 marks keep the usual one.
 Chosen by eye."""
+
+
+EDGE = 0.006
+"""Free edge about a map, over its longer side: lines along its borders are not cut. Chosen."""
 
 
 @final
@@ -83,8 +89,12 @@ class ChartUse(Use):
 
     @property
     def stated(self) -> Mapping[str, Any]:
-        """Groups by their names, in the order in which the container has the rooms of each."""
-        return {"groups": [cell.name for cell in self.chart.cells]} if self.chart.cells else {}
+        """Groups by their names, and numbers of parts of the container that follow each other."""
+        cells = self.chart.cells
+        if not cells:
+            return {}
+        parts = [len(polygon_parts(cell.room.region)) for cell in cells]
+        return {"groups": [cell.name for cell in cells], "group_parts": parts}
 
     def subset(self, kept: IntArray) -> ChartUse:
         """The same of some of the marks."""
@@ -176,10 +186,16 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
             "stroke_width", "even changes the areas of marks, which stand for numbers; leave it out"
         )
     read = read_chart(asked, recipe.holes, recipe, recipe.read_options)
+    regions = list[NamedRegion]()
+    if asked.in_regions:
+        if room is None:
+            raise RecipeError("in_regions", "needs a container with named parts, not none")
+        room = with_margin(room, (EDGE * room.side,) * 4)
+        read, regions = in_regions(read, room)
     # Refuses too few colours before anything is run.
     colours = chart_colours(recipe, read)
     chosen = cast_chart(recipe, read)
-    chart, container = spread_out(recipe, read, colours, room)
+    chart, container = spread_out(recipe, read, colours, room, regions)
     return Material(
         use=ChartUse(chart),
         container=container,

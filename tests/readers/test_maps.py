@@ -1,0 +1,118 @@
+"""Maps in GeoJSON: areas true to those on the globe, names of any property, hostile files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from packwork.errors import ReadError
+from packwork.readers.container import part_names, read_container, read_parts
+from packwork.readers.maps import MOST_REGIONS, is_map
+
+NAMED = ({"name": "Peru", "iso": "PE"}, {"name": "Chile", "iso": "CL"})
+
+
+def square(west: float, south: float, side: float, steps: int = 20) -> list[list[float]]:
+    """Ring of a square of degrees, its sides in steps, so that they are curves of a projection."""
+    corners = [(west, south), (west + side, south), (west + side, south + side),
+               (west, south + side), (west, south)]  # fmt: skip
+    ends = pairwise(corners)
+    ring = [np.linspace(a, b, steps, endpoint=False) for a, b in ends]
+    return np.vstack([*ring, [corners[0]]]).tolist()
+
+
+def written(
+    folder: Path, *rings: list[list[float]], named: tuple[Mapping[str, Any], ...] = NAMED
+) -> Path:
+    file = folder / "land.geojson"
+    features = [
+        {
+            "type": "Feature",
+            "properties": of,
+            "geometry": {"type": "Polygon", "coordinates": [ring]},
+        }
+        for ring, of in zip(rings, named, strict=True)
+    ]
+    file.write_text(
+        json.dumps({"type": "FeatureCollection", "features": features}), encoding="utf-8"
+    )
+    return file
+
+
+@pytest.mark.parametrize(("west", "apart"), [(5.0, 8.0), (170.0, 12.0), (-150.0, 200.0)])
+def test_areas_are_in_the_proportion_of_those_on_the_globe(
+    tmp_path: Path, west: float, apart: float
+) -> None:
+    """Near each other, over the 180th meridian, and on both sides of the earth."""
+    file = written(tmp_path, square(west, 10, 8), square(west + apart, 50, 8))
+    areas = {name: region.area for name, region in read_parts(read_container(file))}
+    # Of a square of degrees: the difference of the sines of its latitudes.
+    south, north = (np.ptp(np.sin(np.radians([low, low + 8]))) for low in (10, 50))
+    assert areas["Peru"] / areas["Chile"] == pytest.approx(south / north, rel=2e-3)
+
+
+def test_north_is_up_and_a_survey_in_metres_keeps_its_shape(tmp_path: Path) -> None:
+    ring = [[500e3, 0.0], [900e3, 0.0], [900e3, 300e3], [500e3, 0.0]]
+    container = read_container(written(tmp_path, ring, named=NAMED[:1]))
+    assert (container.width, container.height) == pytest.approx((600, 450))
+    assert container.outline.region.contains_properly(
+        container.outline.region.representative_point()
+    )
+    # The corner in the north-east is at the top right.
+    assert [600.0, 0.0] in container.outline.points.round(6).tolist()
+
+
+@pytest.mark.parametrize("asked", [["peru", "chile"], ["PE", "CL"], []])
+def test_parts_are_called_by_the_property_that_has_the_names(
+    tmp_path: Path, asked: list[str]
+) -> None:
+    container = read_container(written(tmp_path, square(0, 0, 5), square(5, 0, 5)))
+    parts = read_parts(container, asked=asked)
+    assert [name.casefold() for name, _ in parts] == [
+        name.casefold() for name in asked or ["Peru", "Chile"]
+    ]
+    assert sum(region.area for _, region in parts) == pytest.approx(container.outline.area)
+
+
+def test_features_that_are_called_alike_are_one_part(tmp_path: Path) -> None:
+    named = ({"name": "Peru", "on": "America"}, {"name": "Chile", "on": "America"})
+    file = written(tmp_path, square(0, 0, 5), square(5, 0, 5), named=named)
+    ((name, region),) = read_parts(read_container(file), asked=["america"])
+    assert (name, region.geom_type) == ("America", "Polygon")
+    assert {"peru", "chile"} in part_names(str(file))
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("[1, 2]", "is no GeoJSON FeatureCollection"),
+        ('{"features": []}', "holds no regions"),
+        ('{"features": [7, null, {"geometry": 3}]}', "holds no regions"),
+        ('{"features": [{"geometry": {"type": "Polygon", "coordinates": 3}}]}', "rings of four"),
+        ('{"features": [{"geometry": {"type": "Polygon", "coordinates": [[[0]]]}}]}', "rings of"),
+        ('{"features": [{"geometry": {"type": "Polygon", "coordinates": [[[0, "x"]]]}}]}', "rings"),
+        (json.dumps({"features": [0] * (MOST_REGIONS + 1)}), "more than 2,000"),
+        ("{", "is not JSON"),
+    ],
+)
+def test_what_is_no_map_is_refused_in_one_line(tmp_path: Path, text: str, why: str) -> None:
+    file = tmp_path / "bad.geojson"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ReadError, match=why) as refused:
+        read_container(file)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_layout_of_ours_is_no_map(tmp_path: Path) -> None:
+    ours = tmp_path / "layout.geojson"
+    ours.write_text(
+        '{"type": "FeatureCollection", "features": [{"role" : "container"}]}', encoding="utf-8"
+    )
+    assert not is_map(ours)
+    assert is_map(written(tmp_path, square(0, 0, 5), named=NAMED[:1]))

@@ -1,0 +1,96 @@
+"""Charts on maps: marks lie in the region that their row names, at one scale."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+import packwork as pw
+from packwork.errors import RecipeError
+
+QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
+ROWS = {
+    "farm": list("abcdefgh"),
+    "acres": [30, 20, 10, 25, 5, 12, 8, 9],
+    "land": ["West", "west", "Isle", "East", "East", "Isle", "Moon", "West"],
+}
+
+
+@pytest.fixture
+def land(tmp_path: Path) -> Path:
+    """Two regions that touch, one of two parts, and one without rows."""
+    boxes = {"West": [(0, 0, 3, 4)], "East": [(3, 0, 6, 4)], "Isle": [(0, 5, 2, 8), (4, 5, 6, 8)],
+             "Bare": [(7, 0, 8, 2)]}  # fmt: skip
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"name": name},
+            "geometry": {
+                "type": "MultiPolygon",
+                "coordinates": [[[[a, b], [c, b], [c, d], [a, d], [a, b]]] for a, b, c, d in parts],
+            },
+        }
+        for name, parts in boxes.items()
+    ]
+    file = tmp_path / "land.geojson"
+    file.write_text(
+        json.dumps({"type": "FeatureCollection", "features": features}), encoding="utf-8"
+    )
+    return file
+
+
+@pytest.mark.parametrize("padding", [None, 12])
+def test_each_mark_lies_in_the_region_of_its_row(land: Path, padding: float | None) -> None:
+    layout = pw.chart(
+        land, ROWS, by="land", in_regions=True, size_by="acres", label_by="farm",
+        padding=padding, **QUICK,
+    )  # fmt: skip
+    assert layout.certified
+    # The rows of no region, and nothing else, are left out.
+    assert [item.name for item in layout.items] == list("abcdefh")
+    per_acre = layout.areas / [item.datum.value for item in layout.items]
+    assert per_acre == pytest.approx(np.full(7, per_acre[0]))
+    bounds = np.reshape(layout.container.outline.bounds, (2, 2))
+    groups = [item.datum.group for item in layout.items]
+    middles = np.column_stack([layout.poses.x, layout.poses.y])
+    west, east, isle = (
+        middles[[k for k, one in enumerate(groups) if one == name]]
+        for name in ("West", "East", "Isle")
+    )
+    assert west[:, 0].max() < bounds[:, 0].mean() < east[:, 0].min()
+    assert isle[:, 1].max() < min(west[:, 1].min(), east[:, 1].min())
+    assert {note.says for note in layout.notes} >= {"West", "East"}
+
+
+def test_names_keep_clear_of_marks(land: Path) -> None:
+    layout = pw.chart(land, ROWS, by="land", in_regions=True, size_by="acres", **QUICK)
+    names = [note for note in layout.notes if note.says in {"West", "East", "Isle", "Bare"}]
+    assert names
+    for note in names:
+        x, y = note.matrix[:, 2]
+        assert not any(
+            one.region.buffer(1).contains(shapely.Point(x, y)) for one in layout.outlines
+        )
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        ({"in_regions": True}, "needs the column"),
+        ({"in_regions": True, "by": "farm"}, "no part of land is named"),
+    ],
+)
+def test_what_names_no_region_is_refused(land: Path, options: dict[str, Any], why: str) -> None:
+    with pytest.raises(RecipeError, match=why):
+        pw.chart(land, ROWS, **options, **QUICK)
+
+
+@pytest.mark.parametrize(("container", "why"), [("none", "not none"), ("heart", "names no parts")])
+def test_other_containers_have_no_regions(container: str, why: str) -> None:
+    with pytest.raises(RecipeError, match=why):
+        pw.chart(container, ROWS, by="land", in_regions=True, **QUICK)
