@@ -10,8 +10,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.offers import Verbs
-from packwork.options import offered
+from packwork.options import Verbs, offered
 from packwork.recipe import Recipe
 from packwork.recipe.verbs import VERBS, default_of, run_options
 from packwork.writers.options import DrawingOptions

@@ -17,8 +17,7 @@ from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics, ShapeMetrics
-from packwork.offers import Offered
-from packwork.options import offered
+from packwork.options import Offered, offered
 from packwork.recipe import Recipe
 from packwork.recipe.verbs import VERBS, default_of, options_of
 from packwork.writers.film.options import FilmOptions

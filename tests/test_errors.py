@@ -17,8 +17,8 @@ import packwork as pw
 from each import for_each
 from packwork import errors
 from packwork.errors import PackworkError, ReadError, RecipeError, RowsLostError, WriteError
-from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import opened
+from packwork.readers.reading import read_bytes
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.refusals import validated
 from packwork.writers.atomic import write_atomic

@@ -21,8 +21,7 @@ from pydantic import BaseModel
 
 from packwork.api.inputs import COLOURS, CONTAINERS, ITEMS, PICTURES, VECTORS
 from packwork.api.signatures import BACKGROUND
-from packwork.offers import Offer, Offered, Verbs
-from packwork.options import Options, offered
+from packwork.options import Offer, Offered, Options, Verbs, offered
 from packwork.recipe import Recipe
 from packwork.recipe.rules import Pin, Rule
 from packwork.recipe.verbs import VERBS, default_of, run_options

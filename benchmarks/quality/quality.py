@@ -28,8 +28,7 @@ from benchmarks.quality import many
 from packwork import precompile, uses
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.job import Clock
-from packwork.pipeline.run import RunContext, run_steps
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, run_steps
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item

@@ -23,7 +23,7 @@ from packwork.batches.batch import (
 from packwork.batches.cluster import parcel_of
 from packwork.batches.task import RowOutcome
 from packwork.errors import PackworkError
-from packwork.readers.files import exists, is_folder, read_bytes
+from packwork.readers.reading import exists, is_folder, read_bytes
 from packwork.sources import mirrored, names_like, place_in
 
 SVG = '<svg viewBox="0 0 9 9"><path d="M0 0h9v{}z"/></svg>'

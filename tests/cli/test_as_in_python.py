@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.recipe.verbs import VERBS
 
 TABLE = "name,n\nash,3\nelm,2\noak,1\n"

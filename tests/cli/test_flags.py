@@ -12,8 +12,7 @@ from typer.testing import CliRunner
 
 from each import for_each
 from packwork.cli.options import by_name, flag, typed
-from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.options import Options, offered
+from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs, offered
 from packwork.recipe import Recipe
 
 

@@ -17,7 +17,7 @@ from typer.testing import Result
 
 import packwork.cli
 from packwork.cli.commands import SUMMARIES, Commands
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.recipe.verbs import COMMON, VERBS, named
 
 Command = Callable[..., Result]

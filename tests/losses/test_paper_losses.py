@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from numerics import assert_gradient
-from packwork.losses.paper import OUTSIDE, WINDOWS_PX, paper_containment, paper_evenness
+from packwork.losses.registry import OUTSIDE, WINDOWS_PX, paper_containment, paper_evenness
 
 
 def test_an_error_outside_costs_a_hundred_times_one_inside() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 import packwork as pw
 from packwork import uses
-from packwork.pipeline.run import RunContext
+from packwork.pipeline.state import RunContext
 from packwork.progress import NOBODY, Step, together
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
 from packwork.steps.finish import DWARF, dwarfs_told_apart

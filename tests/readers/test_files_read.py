@@ -8,7 +8,7 @@ import pytest
 
 from packwork.errors import ReadError
 from packwork.readers.container import read_container
-from packwork.readers.files import exists, read_bytes, read_text
+from packwork.readers.reading import exists, read_bytes, read_text
 
 needs_pipes = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
 

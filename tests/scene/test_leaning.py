@@ -11,8 +11,7 @@ from PIL import Image
 import packwork as pw
 from packwork.compaction.objective import turn_ranges
 from packwork.finish.options import FinishOptions
-from packwork.scene.limits import LEAST, MOST, leanings, turn_sides
-from packwork.scene.pose import Poses
+from packwork.scene.pose import LEAST, MOST, Poses, leanings, turn_sides
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from packwork.scene.limits import Limits, Zone
+from packwork.scene.pose import Limits, Zone
 from scenes import box
 
 NAN = np.nan

@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 
 from packwork.geometry.outline import Outline
-from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.neighbours import side_by_side
+from packwork.scene.pose import NO_LIMITS, Limits
 from packwork.solve.exchange import exchange
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve

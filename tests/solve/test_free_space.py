@@ -11,7 +11,7 @@ import shapely
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
-from packwork.scene.limits import Limits, Zone
+from packwork.scene.pose import Limits, Zone
 from packwork.solve.free_space import ZonePull
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions

@@ -19,8 +19,7 @@ from packwork.losses.image import containment, evenness, filling, overlap
 from packwork.losses.term import ImageLoss, Term
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback, region_image
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits, Zone
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses, Zone
 from packwork.solve.level import Level
 from packwork.solve.outlines import Ensemble
 from scenes import (

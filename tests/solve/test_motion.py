@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from packwork.scene.limits import Limits
+from packwork.scene.pose import Limits
 from packwork.solve.motion import STILLNESS, Adam, Motion
 from packwork.solve.options import SolveOptions
 from scenes import poses

@@ -16,8 +16,7 @@ from packwork.raster.coverage import coverage
 from packwork.scene.container import tiled
 from packwork.scene.layout import sheet
 from packwork.scene.pose import Poses
-from packwork.solve.level import Level
-from packwork.solve.repeating import RepeatingLevel, Torus
+from packwork.solve.level import Level, RepeatingLevel, Torus
 from scenes import as_array, from_array, poses, star
 
 WEIGHTS = {"overlap": 7.0, "filling": 1.5}

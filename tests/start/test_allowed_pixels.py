@@ -10,8 +10,7 @@ import pytest
 import shapely
 
 from packwork.geometry.outline import Outline
-from packwork.scene.limits import Limits, Zone
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses, Zone
 from packwork.start.first_poses import first_poses, relocated
 from packwork.start.options import StartOptions
 from packwork.start.places import allowed_pixels, around

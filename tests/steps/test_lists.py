@@ -11,8 +11,7 @@ import pytest
 from PIL import Image
 
 from packwork import uses
-from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps, share_of
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.steps.control import BestOf, Replan, Retry, UnlessTight

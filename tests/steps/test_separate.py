@@ -10,8 +10,7 @@ import pytest
 import shapely
 
 from packwork import uses
-from packwork.pipeline.run import RunContext, run_steps
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, run_steps
 from packwork.recipe import make_recipe
 from packwork.steps import finish
 from packwork.steps.separate import ROUNDS, Separate

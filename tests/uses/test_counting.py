@@ -17,8 +17,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import ShapeMetrics
 from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
-from packwork.pipeline.run import RunContext
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container, repeating
 from packwork.scene.layout import Layout

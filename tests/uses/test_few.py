@@ -10,8 +10,7 @@ import pytest
 
 from packwork import pipeline
 from packwork.geometry.simplify import hull_areas
-from packwork.pipeline.run import RunContext
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState
 from packwork.recipe import make_recipe
 from packwork.uses import read
 from packwork.uses.icons import ALIKE, FEW, MANY, NEAR_UPRIGHT, STARTS, alike_upright

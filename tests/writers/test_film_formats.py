@@ -22,8 +22,7 @@ from PIL import Image, ImageSequence
 from packwork.errors import WriteError
 from packwork.scene.layout import Layout
 from packwork.scene.track import Leaving, track_of
-from packwork.writers.film.film import Film
-from packwork.writers.film.framing import in_frame
+from packwork.writers.film.film import Film, in_frame
 from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.projector import Projector

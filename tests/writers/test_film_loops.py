@@ -14,8 +14,7 @@ from packwork.errors import RecipeError
 from packwork.recipe.refusals import validated
 from packwork.scene.layout import Layout
 from packwork.scene.track import Leaving, poses_of, track_of
-from packwork.writers.film.film import Film
-from packwork.writers.film.framing import in_frame
+from packwork.writers.film.film import Film, in_frame
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.registry import film_bytes
 

@@ -7,8 +7,7 @@ import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypedDict, TypeVar
 
-from packwork.offers import Offered, Verbs
-from packwork.options import Options, offered
+from packwork.options import Offered, Options, Verbs, offered
 from packwork.phrasing import in_python
 from packwork.progress import Listener, Stop, never
 from packwork.recipe import Recipe

@@ -27,7 +27,7 @@ from packwork.batches.seeds import best_first
 from packwork.batches.task import telling_once
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.pipeline import Run
 from packwork.pipeline.read import safe_area
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never, together

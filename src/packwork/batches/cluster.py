@@ -27,7 +27,7 @@ from packwork.display.extras import import_extra
 from packwork.errors import PackworkError
 from packwork.installed import installed_version
 from packwork.progress import Stop, never
-from packwork.readers.files import is_folder
+from packwork.readers.reading import is_folder
 from packwork.recipe_paths import named_files
 from packwork.sources import mirrored, place_in
 from packwork.temporary import TemporaryFolder

@@ -16,8 +16,7 @@ from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
 from packwork.cli.options import Terminal
 from packwork.cli.terminal import MOST_LINES, printable, say
 from packwork.errors import RecipeError, WriteError
-from packwork.offers import Offer, Verbs
-from packwork.options import Options
+from packwork.options import Offer, Options, Verbs
 from packwork.phrasing import enumerated, number_of
 from packwork.writers.options import DrawingOptions
 

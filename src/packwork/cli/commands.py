@@ -138,7 +138,7 @@ class HelpfulCommand(TyperCommand):
 
 def topics(params: Sequence[Any]) -> list[str]:
     """Topics of the groups that a command's options stand in, in their order."""
-    from packwork.offers import Group
+    from packwork.options import Group
 
     there = {getattr(param, "rich_help_panel", None) for param in params}
     return [group.topic for group in Group if group.value in there]
@@ -157,7 +157,7 @@ def _common(command: HelpfulCommand) -> list[Any]:
 
 def _of_topic(command: Any, topic: str) -> list[Any]:
     """Options of a group, or one option; none if the command has neither."""
-    from packwork.offers import Group
+    from packwork.options import Group
     from packwork.recipe.verbs import named, options_of
 
     options = [param for param in command.params if param.param_type_name == "option"]

@@ -132,9 +132,8 @@ def _show_preflight(path: Path, quiet: bool, of_layouts: Mapping[str, object]) -
 
 def _painted(path: Path, layout: Layout) -> PaintedPixels:
     """Pixels that a file's picture paints."""
-    from packwork.readers.files import read_bytes
     from packwork.readers.gate.door import MAX_BYTES
-    from packwork.readers.reading import UnfitError, reading_file
+    from packwork.readers.reading import UnfitError, read_bytes, reading_file
     from packwork.verify import painted_pixels
 
     with reading_file(str(path)):

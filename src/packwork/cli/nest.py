@@ -13,8 +13,7 @@ from pydantic import Field
 from packwork.cli import options as shared
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, WATCH, Interrupt, clear_errors
 from packwork.cli.options import SideFiles, Terminal
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 from packwork.phrasing import number_of
 from packwork.recipe import Effort
 

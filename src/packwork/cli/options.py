@@ -16,8 +16,7 @@ from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 import typer
 from pydantic import BeforeValidator, Field
 
-from packwork.offers import Group, Offer, Offered, Verbs
-from packwork.options import Options, offered
+from packwork.options import Group, Offer, Offered, Options, Verbs, offered
 from packwork.recipe import Recipe
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import VERBS, WRITTEN, in_groups, options_of, run_options

@@ -13,7 +13,7 @@ import typer
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
 from packwork.errors import RecipeError
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.recipe import Recipe, make_recipe
 
 COLLAGE = Path("collage.svg")

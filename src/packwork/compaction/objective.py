@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.kernels.steps import LEAST_GROWTH, Objective
 from packwork.compaction.options import MoveOptions
-from packwork.scene.limits import turn_sides
+from packwork.scene.pose import turn_sides
 
 LAGGARD = 0.05
 """Logarithm of size by which an item must stay behind to be moved to a void, and by which it may

@@ -10,9 +10,9 @@ from PIL import Image, ImageDraw
 
 from packwork.errors import RecipeError
 from packwork.readers.container import read_container
-from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import developed, inspected
+from packwork.readers.reading import read_bytes
 from packwork.readers.saliency import QuietOptions, saliency_map
 from packwork.recipe import Recipe
 from packwork.recipe_paths import AROUND

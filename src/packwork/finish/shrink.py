@@ -16,8 +16,7 @@ from packwork.compaction.separate import CUT, MOST_CHECKS
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 
 FILLER_CUT, FILLER_CHECKS = 0.04, 20
 """Logarithm of size that a filler in conflict loses at a time, and how often. A smaller

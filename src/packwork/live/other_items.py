@@ -13,8 +13,7 @@ from packwork.live.commands.container import SetContainer, SetOption
 from packwork.live.commands.items import Add, Remove
 from packwork.live.commands.lines import SetLines
 from packwork.live.document import Document
-from packwork.live.kinds import LineKind, kind_of
-from packwork.live.options import LiveOptions
+from packwork.live.kinds import LineKind, LiveOptions, kind_of
 from packwork.live.relayout import Shown, ground_of, run_shown
 from packwork.metrics.certificate import Promise
 from packwork.progress import Stop, never

@@ -25,12 +25,12 @@ from packwork.recipe.order import unknown_measure
 from packwork.scene.container import Container
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout
-from packwork.scene.limits import Zone
+from packwork.scene.pose import Zone
 from packwork.scene.target import TargetPicture
 from packwork.solve.outlines import stand_ins
 
 if TYPE_CHECKING:
-    from packwork.pipeline.run import RunStep
+    from packwork.pipeline.state import RunStep
     from packwork.scene.item import Item
     from packwork.scene.layout import Layout
 

@@ -34,8 +34,7 @@ from packwork.recipe.order import FROM_TEXT
 from packwork.scene.container import Container, inside_margin, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.scene.limits import Zone
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Poses, Zone
 from packwork.scene.target import TargetPicture
 from packwork.sources import stored
 from packwork.units import CanvasSize, length_asked, parse_length

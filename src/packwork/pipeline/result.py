@@ -18,7 +18,7 @@ from packwork.pipeline.findings import Filling, Sentence, Told, Unplaced, WordsF
 from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.pipeline.state import RunState
 from packwork.scene.layout import Layout
-from packwork.scene.limits import NO_LIMITS, Limits
+from packwork.scene.pose import NO_LIMITS, Limits
 from packwork.solve.level import Level
 from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import violation_shares

@@ -1,10 +1,11 @@
-"""State of a run between two of its steps: items by number, their poses, what was found of them."""
+"""State of a run, items by number, their poses, what was found; and the role of its steps."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -16,9 +17,9 @@ from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.findings import Filling, Finding, Sentence, Unplaced, WordsFound
 from packwork.pipeline.job import Job
 from packwork.pipeline.recorder import Recorder
+from packwork.progress import NOBODY, Observer, Stage, Step, Stop, never, together
 from packwork.scene.layout import Layout
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.solve.solver import Ending, LevelReport
 
 
@@ -139,3 +140,90 @@ class RunState:
         """Layout and metrics of a state that has been measured."""
         assert self.layout is not None and self.metrics is not None  # noqa: S101, PT018
         return self.layout, self.metrics
+
+
+class RunStep(ABC):
+    """One step of a run: takes a state, gives a state.
+
+    What was not asked is not on a run's list, so no step asks whether a feature is on.
+    """
+
+    share: float = 0.0
+    """Part of the progress that it takes, beside those of the other steps of its list."""
+
+    @abstractmethod
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """Next state; items, recipe and plan of the one before stay as they are."""
+
+
+def share_of(steps: Sequence[RunStep]) -> float:
+    """Part of the progress that a list takes."""
+    return sum(step.share for step in steps)
+
+
+def run_steps(steps: Sequence[RunStep], state: RunState, context: RunContext) -> RunState:
+    """State after all steps, one after another; each tells of its part of the progress."""
+    whole, done = sum(step.share for step in steps) or 1.0, 0.0
+    for step in steps:
+        part = context.part(done / whole, (done + step.share) / whole) if step.share else context
+        state = step.run(state, part)
+        done += step.share
+    return state
+
+
+LEVELS = 0.4
+"""How far a run is when its levels are done, where an exact finish follows. Tried."""
+
+
+Tried = TypeVar("Tried")
+
+
+@dataclass(frozen=True, eq=False)
+class RunContext:
+    """Observer and stop of a run, or of a part of it.
+
+    Examples
+    --------
+    >>> [part.observer.every for part, _ in RunContext().turns("ab")] == [NOBODY.every] * 2
+    True
+    """
+
+    observer: Observer = NOBODY
+    stop: Stop = never
+
+    def part(self, begin: float, end: float, stage: Stage | None = None) -> RunContext:
+        """Watch of one stage of several, which goes from ``begin`` to ``end``."""
+        return replace(
+            self, observer=_Subrange(self.observer, begin, end, stage, self.observer.every)
+        )
+
+    def turns(self, tried: Sequence[Tried]) -> Iterator[tuple[RunContext, Tried]]:
+        """A part for each of several that are tried in turn; the first alone after a stop."""
+        count = len(tried)
+        for number, one in enumerate(tried):
+            if number and self.stop():
+                return
+            yield self.part(number / count, (number + 1) / count), one
+
+    def heard_by(self, recorder: Recorder | None) -> RunContext:
+        """The same, told to a recorder, too, if there is one."""
+        if recorder is None:
+            return self
+        return replace(self, observer=together(self.observer, recorder))
+
+
+@dataclass(eq=False)
+class _Subrange:
+    """Passes steps of a stage on, whose progress is a part of that of another."""
+
+    observer: Observer
+    begin: float
+    end: float
+    stage: Stage | None
+    every: int
+
+    def on_step(self, step: Step) -> None:
+        """Tell of a step."""
+        progress = self.begin + (self.end - self.begin) * min(step.progress, 1.0)
+        stage = self.stage or step.stage
+        self.observer.on_step(replace(step, progress=progress, stage=stage))

@@ -9,8 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs
 from packwork.readers.options import check_colour
 
 SizeIs: TypeAlias = Literal["area", "height", "width"]

@@ -19,7 +19,6 @@ from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.progress import Stop, never
 from packwork.readers.builtin import builtin_container, container_names
-from packwork.readers.files import exists, is_folder, read_bytes, read_text, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.maps import (
     ENDINGS,
@@ -32,7 +31,15 @@ from packwork.readers.memory.items import container_in_memory
 from packwork.readers.options import AS_DRAWN, GAPS_AUTO, GAPS_NONE, TEXT_PREFIX, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
-from packwork.readers.reading import notice, reading_file
+from packwork.readers.reading import (
+    exists,
+    is_folder,
+    notice,
+    read_bytes,
+    read_text,
+    reading_file,
+    stem,
+)
 from packwork.readers.regions import canvas_box
 from packwork.readers.saliency import QuietOptions, container_around
 from packwork.readers.svg.container import Tell, container_of_svg, named_parts, parts_of_svg

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.phrasing import MOST_NAMED, enumerated
-from packwork.readers.files import exists, read_bytes
+from packwork.readers.reading import exists, read_bytes
 from packwork.readers.tables.delimited import ENDINGS, TextTable, read_sheet
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import SPREADSHEETS

@@ -13,7 +13,7 @@ import numpy as np
 
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated
-from packwork.readers.files import stem
+from packwork.readers.reading import stem
 from packwork.sources import here_of, names_like
 
 LOOK_LIKE_PICTURES = frozenset(f".{ending}" for ending in (

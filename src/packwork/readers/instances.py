@@ -12,9 +12,8 @@ from shapely.geometry import Polygon
 
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.readers.files import read_text, stem
 from packwork.readers.json_text import parsed
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, read_text, reading_file, stem
 from packwork.scene.item import Item
 
 MAX_INSTANCE_BYTES = 16_000_000

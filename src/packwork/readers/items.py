@@ -12,13 +12,13 @@ from typing import TypeAlias
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
 from packwork.readers.engraving import Engraving
-from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import Listing, Sample, listed, matched
 from packwork.readers.memory.items import items_in_memory
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import Read, with_pages_alike
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
+from packwork.readers.reading import exists, is_folder
 from packwork.readers.regions import Holes
 from packwork.readers.svg.item import read_svg
 from packwork.recipe_paths import BUILTIN

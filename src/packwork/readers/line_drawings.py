@@ -38,10 +38,9 @@ from packwork.readers.dxf.item import (
 from packwork.readers.dxf.item import ENGRAVED as ENGRAVED_LAYER
 from packwork.readers.dxf.rings import Ring, RingPart, rings_of
 from packwork.readers.engraving import Engraving, rgb_of
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES, parse_xml, serialised, unpacked
 from packwork.readers.pages import Read
-from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
+from packwork.readers.reading import UnfitError, notice, one_budget, read_bytes, reading_file, stem
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.container import name_of, stated_unit, tag_of
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing

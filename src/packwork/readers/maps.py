@@ -23,9 +23,8 @@ from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.overlay import intersection, union, valid
 from packwork.geometry.polygon import Region
-from packwork.readers.files import read_bytes
 from packwork.readers.json_text import parsed
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, read_bytes, reading_file
 from packwork.readers.regions import MAX_POINTS, clean_union
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.container import Container, placed_container

@@ -10,8 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs
 from packwork.readers.options import check_colour
 
 ROUNDED = "rounded"

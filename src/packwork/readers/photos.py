@@ -21,7 +21,6 @@ from packwork.geometry import affine
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.container import read_container
-from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, Sample, listed, matched
 from packwork.readers.items import ItemsRead
 from packwork.readers.options import AS_DRAWN, HALF
@@ -29,7 +28,7 @@ from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, PICTURE_ENDINGS
 from packwork.readers.pictures.developing import Negative, Photograph, Window, developed, inspected
 from packwork.readers.pictures.silhouette import outline_of_cut_out, solidity, tell_what_is_faint
-from packwork.readers.reading import reading_file
+from packwork.readers.reading import exists, is_folder, read_bytes, reading_file, stem
 from packwork.readers.regions import centred, clean_union
 from packwork.scene.item import Item, PhotoArt
 from packwork.sources import MEMORY

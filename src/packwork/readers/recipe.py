@@ -11,7 +11,7 @@ from typing import Any
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
-from packwork.readers.files import read_text
+from packwork.readers.reading import read_text
 from packwork.recipe_paths import files_outside, found_from, with_paths
 
 MAX_BYTES = 1_000_000

@@ -16,11 +16,10 @@ from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import Region
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import Negative, Photograph, developed, inspected
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, read_bytes, reading_file, stem
 from packwork.readers.regions import large_parts
 from packwork.recipe_paths import AROUND
 from packwork.scene.container import Backdrop, Container

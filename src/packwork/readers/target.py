@@ -12,11 +12,10 @@ from packwork.arrays import FloatArray
 from packwork.errors import ReadError
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
 from packwork.readers.pictures.developing import Photograph, inspected
-from packwork.readers.reading import reading_file
+from packwork.readers.reading import read_bytes, reading_file, stem
 from packwork.readers.svg.art import KeptOriginal
 from packwork.readers.svg.item import item_of_svg
 from packwork.scene.colour import hex_colour

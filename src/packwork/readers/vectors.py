@@ -13,8 +13,8 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
-from packwork.readers.files import read_bytes
 from packwork.readers.memory.values import GivenVectors
+from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table

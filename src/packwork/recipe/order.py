@@ -11,8 +11,7 @@ from pydantic import field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import DIRECTIONS
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 from packwork.recipe.refusals import parsed_by
 from packwork.recipe.typed import Anchor
 from packwork.recipe_paths import split_words

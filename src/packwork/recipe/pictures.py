@@ -9,8 +9,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 from packwork.readers.photo_options import PhotoOptions
 from packwork.units import parse_share
 

@@ -9,8 +9,7 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, is_pair
-from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs
 from packwork.recipe.refusals import length_of
 from packwork.recipe.typed import Force
 from packwork.recipe_paths import split_words

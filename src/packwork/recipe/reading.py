@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 from packwork.readers.options import GAPS_AUTO, GAPS_NONE, HALF, ReadOptions
 from packwork.units import length_asked
 

@@ -16,7 +16,7 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
+from packwork.options import NOT_OFFERED, Group, Offer, Verbs
 from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions

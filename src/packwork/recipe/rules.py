@@ -15,8 +15,7 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.offers import Offer
-from packwork.options import Options, number_or_auto
+from packwork.options import Offer, Options, number_or_auto
 from packwork.units import parse_length
 
 MAX_COUNT = 100_000

@@ -7,8 +7,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import model_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 
 TileKind: TypeAlias = Literal["square", "half-drop", "hexagon"]
 """Ways in which a tile repeats."""

@@ -1,6 +1,6 @@
 """Options of each verb: those of the recipe, of its own part, of drawings and of films.
 
-All follow from the models' fields and their :class:`packwork.offers.Offer`. What stands here is
+All follow from the models' fields and their :class:`packwork.options.Offer`. What stands here is
 which model belongs to one verb alone, and which defaults of a verb differ from the recipe's.
 """
 
@@ -12,8 +12,7 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any
 
-from packwork.offers import Group, Offered, Verbs
-from packwork.options import Options, offered
+from packwork.options import Group, Offered, Options, Verbs, offered
 from packwork.readers.charts import ChartOptions
 from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.words.options import WordOptions
@@ -76,7 +75,7 @@ VERBS: Mapping[Verbs, Verb] = MappingProxyType(
         ),
     }
 )
-"""All verbs, in the order of :class:`packwork.offers.Verbs`."""
+"""All verbs, in the order of :class:`packwork.options.Verbs`."""
 
 WRITTEN: tuple[type[Options], ...] = (DrawingOptions, FilmOptions)
 """Models of how results are drawn and filmed; all verbs share them."""

@@ -14,9 +14,8 @@ from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
-from packwork.scene.limits import Limits
 from packwork.scene.neighbours import side_by_side
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 
 ALIKE = 1.3
 """Factor in the size of the hull, as a length, between items that change places among

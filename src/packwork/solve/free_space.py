@@ -12,8 +12,7 @@ from packwork.geometry.outline import Outline
 from packwork.losses.pose import Recall
 from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from packwork.scene.container import Container
-from packwork.scene.limits import Zone
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Poses, Zone
 from packwork.solve.outlines import Ensemble
 
 RECALL_PX = 200

@@ -10,8 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.scene.limits import NO_LIMITS, Limits, turn_sides
-from packwork.scene.pose import Poses
+from packwork.scene.pose import NO_LIMITS, Limits, Poses, turn_sides
 from packwork.solve import _kernels
 from packwork.solve.options import SolveOptions
 

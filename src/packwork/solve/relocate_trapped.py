@@ -12,8 +12,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.fields.voids import Clearance, largest_voids
-from packwork.scene.limits import NO_LIMITS, Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import NO_LIMITS, Limits, Poses
 from packwork.solve.level import Level
 
 TRAPPED_SHARE = 0.02

@@ -20,15 +20,13 @@ from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import NOBODY, ObjectiveTerms, Observer, Step, Stop, never
 from packwork.scene.container import Container
-from packwork.scene.limits import NO_LIMITS, Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import NO_LIMITS, Limits, Poses
 from packwork.solve.exchange import exchange
-from packwork.solve.level import Level
+from packwork.solve.level import Level, RepeatingLevel
 from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
 from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import Relocation, relocate_trapped
-from packwork.solve.repeating import RepeatingLevel
 from packwork.solve.schedule import force_factor, growth, pace_of, rate_factor, weights_at
 
 EXCHANGES = (0.15, 0.3, 0.45)

@@ -14,8 +14,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from packwork.scene.container import Container
-from packwork.scene.limits import NO_LIMITS, Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import NO_LIMITS, Limits, Poses
 from packwork.start.options import Placing, StartOptions
 from packwork.start.places import (
     AXIS_ELBOW_ROOM,

@@ -28,8 +28,7 @@ from packwork.fields.morphology import medial_axis as axis_of
 from packwork.fields.voids import Clearance, largest_voids
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser, region_image
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.start.options import Placing
 
 JITTER = 0.11

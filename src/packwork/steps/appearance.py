@@ -19,8 +19,7 @@ from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules, kinds
 from packwork.pipeline.plan.own_losses import sees_colours
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.raster.coverage import coverage
 from packwork.raster.drawing import drawn_png
 from packwork.recipe.rules import OWN_COLOURS

@@ -21,8 +21,7 @@ from packwork.assignment.orders import GRID, order_by_colour
 from packwork.assignment.quadratic import cheapest
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses

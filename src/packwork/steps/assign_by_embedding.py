@@ -23,8 +23,7 @@ from packwork.forces.forces import BondForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.vectors import ItemVectors
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit.preferences import Homes

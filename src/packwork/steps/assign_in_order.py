@@ -20,8 +20,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.fields.distance_transform import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.tables.pairs import read_pairs
 from packwork.recipe.order import FILES, MEASURES, Ordering, parse_arrangement
 from packwork.scene.container import Container

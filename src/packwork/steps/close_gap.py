@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.recipe.verbs import VERBS
 
 

@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias, final
 
-from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps, share_of
 
 Choice: TypeAlias = Callable[[Sequence[RunState], RunContext], RunState]
 """Takes what came of several lists, gives the best."""

@@ -12,8 +12,7 @@ from packwork.assignment.orders import min_conflicts_order
 from packwork.forces.exchanges import exchanged
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.container import Container
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses

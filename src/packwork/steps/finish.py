@@ -21,12 +21,10 @@ from packwork.phrasing import number_of
 from packwork.pipeline.findings import Finding, Sentence, Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_found, job_leanings
-from packwork.pipeline.run import LEVELS, RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import LEVELS, RunContext, RunState, RunStep
 from packwork.progress import Observer, Step, until_over
 from packwork.scene.item import bulge_between
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.solve.solver import scale_bounds
 from packwork.steps.measure import reason
 from packwork.steps.warm_start import needs_no_levels

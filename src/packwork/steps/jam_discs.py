@@ -12,8 +12,7 @@ from packwork.compaction.options import HAIR
 from packwork.geometry.bezier import FLATTENING
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding, too_much_padding
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Step, until_over
 from packwork.scene.pose import Poses
 from packwork.separation.discs import DiscSearch

@@ -18,8 +18,7 @@ from packwork.metrics.certificate import HAIR
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout

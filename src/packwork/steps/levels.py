@@ -8,8 +8,7 @@ from typing import final
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import job_leanings, padded
 from packwork.pipeline.plan.own_losses import in_colours, sees_colours
-from packwork.pipeline.run import LEVELS, RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import LEVELS, RunContext, RunState, RunStep
 from packwork.recipe.presets import DEFAULT, refined_levels
 from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions

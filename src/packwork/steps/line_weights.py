@@ -12,8 +12,7 @@ import numpy as np
 from packwork.phrasing import enumerated
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.svg.thinner import (
     MOST_LOOKED,
     LineDrawing,

@@ -17,8 +17,7 @@ from packwork.pipeline.findings import Finding, Sentence, Unplaced
 from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.plan.resolution import coarser, photo_pixels
 from packwork.pipeline.result import find_unplaced
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.steps.shortfalls import specks

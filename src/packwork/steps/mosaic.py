@@ -13,8 +13,7 @@ from packwork.fields.filters import structural_similarity
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.raster.coverage import coverage
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.container import Container

@@ -22,12 +22,10 @@ from packwork.pipeline.plan.limits import (
     padded,
     pinned_scales,
 )
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Stop
 from packwork.recipe.rules import Rotation
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.solve.level import Level
 from packwork.solve.outlines import simplify_for_level
 from packwork.solve.relocate_trapped import violation_shares

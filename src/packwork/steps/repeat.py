@@ -12,8 +12,7 @@ from packwork.fields.voids import Clearance
 from packwork.geometry.lattice import Lattice
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.pose import Poses
 from packwork.start.first_poses import disc_radii, start_resolution
 from packwork.start.places import elbow_room, place_discs

@@ -12,8 +12,7 @@ from packwork.compaction.options import HAIR
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, polygon_parts
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import until_over
 from packwork.separation.container import ContainerSearch
 from packwork.separation.shapes import Part, spare

@@ -19,8 +19,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import items_needed, lines_width, widest_cu
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.pipeline.plan.plan import VoidPlan
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import are_of_one_colour
 

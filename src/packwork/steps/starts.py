@@ -29,8 +29,7 @@ from packwork.pipeline.state import RunState
 from packwork.progress import until_over
 from packwork.recipe.presets import DEFAULT
 from packwork.scene.contrast import oklabs_of_light
-from packwork.scene.limits import Limits, turn_sides
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses, turn_sides
 from packwork.scene.target import TargetPicture, blurred
 from packwork.start.angles_and_sizes import spread_angles
 from packwork.start.erosion import is_thread, scales_within, spread_along

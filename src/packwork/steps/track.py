@@ -12,8 +12,7 @@ from packwork.arrays import IntArray
 from packwork.pipeline.job import Job
 from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.registration import SAME_AREA, match_items, new_items
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.container import brought_over
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.recolour import has_one_colour, recoloured

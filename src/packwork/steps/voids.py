@@ -16,8 +16,7 @@ from packwork.finish.shrink import admit_fillers
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Filling, Sentence
 from packwork.pipeline.plan.copies import ItemRules
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses

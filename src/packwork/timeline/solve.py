@@ -14,8 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.pipeline.plan.limits import item_limits
 from packwork.pipeline.result import Run
-from packwork.pipeline.run import RunContext, run_steps
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, run_steps
 from packwork.progress import NOBODY, Stop, never
 from packwork.scene.pose import Poses
 from packwork.timeline.follow import followed, places_of

@@ -12,8 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.svg.thinner import are_lines
 from packwork.recipe.rules import Rotation
 from packwork.steps.appearance import CountBeside, Dress, StandOut

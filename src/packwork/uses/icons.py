@@ -15,8 +15,7 @@ from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import TYPICAL_RATIO, items_needed, no_container
 from packwork.pipeline.read import AUTO, Material, drawn_first, read_named
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.raster.coverage import coverage
 from packwork.recipe import Recipe
 from packwork.recipe.rules import Rotation

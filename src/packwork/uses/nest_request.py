@@ -18,10 +18,10 @@ from packwork.phrasing import enumerated
 from packwork.readers.container import read_container
 from packwork.readers.cut_list import CutListRow, is_cut_list, read_cut_list
 from packwork.readers.engraving import Engraving
-from packwork.readers.files import exists
 from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import SESSION, holds_layout, read_written
+from packwork.readers.reading import exists
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item
 from packwork.scene.line_art import LineArt

@@ -1,7 +1,11 @@
-"""Nesting: parts of true size on as few sheets and as little of the last one as possible."""
+"""Nesting: parts of true size on as few sheets and as little of the last one as possible.
+
+It tells of parts of several pieces, which come apart when they are cut.
+"""
 
 from __future__ import annotations
 
+import logging
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -15,6 +19,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.overlay import buffered, polygon_parts
 from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise
+from packwork.phrasing import enumerated
 from packwork.separation.container import SquareGround, SquareSearch
 from packwork.separation.ground import Ground
 from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
@@ -27,9 +32,20 @@ from packwork.separation.windows import (
     lay_on_strip,
 )
 from packwork.uses.fewer_sheets import advice_on_sheets
-from packwork.uses.loose_pieces import tell_pieces
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
 from packwork.uses.tool_reach import tell_unreached
+
+_LOG = logging.getLogger("packwork")
+
+
+def tell_pieces(parts: Sequence[SheetPart]) -> None:
+    """Name parts of more than one piece, and how many they have, in a line of the log."""
+    pieces = {
+        one.item.name: int(shapely.get_num_geometries(one.item.outline.region)) for one in parts
+    }
+    if loose := [f"{name} ({count})" for name, count in pieces.items() if count > 1]:
+        _LOG.warning("of several pieces, which come apart when they are cut: %s", enumerated(loose))
+
 
 FEW = 400
 """Parts up to which a strip is searched as a whole: of 600, pieces are 2 to 5 points denser within

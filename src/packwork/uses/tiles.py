@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import final
 
 from packwork.pipeline.job import Job, UseOf
-from packwork.pipeline.run import RunStep
+from packwork.pipeline.state import RunStep
 from packwork.steps.control import Replan
 from packwork.steps.finish import Finish
 from packwork.steps.levels import Levels

@@ -21,9 +21,8 @@ from packwork.arrays import FloatArray
 from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.phrasing import number_of
-from packwork.readers.files import read_bytes
 from packwork.readers.gate.door import parse_xml
-from packwork.readers.reading import UnfitError, notice, reading_file
+from packwork.readers.reading import UnfitError, notice, read_bytes, reading_file
 from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert

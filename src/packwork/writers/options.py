@@ -8,8 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 from packwork.writers.prepress.options import MarksChoice
 
 CutLine: TypeAlias = Literal["outlines", "silhouette"]

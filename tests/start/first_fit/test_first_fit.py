@@ -13,8 +13,7 @@ from packwork.forces.field import Direction
 from packwork.forces.forces import FieldForce
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits, Zone
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses, Zone
 from packwork.start.first_fit.first_fit import first_fit
 
 BOX = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])

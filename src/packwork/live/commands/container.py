@@ -24,7 +24,7 @@ from packwork.live.commands.command import (
 )
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
-from packwork.live.options import LiveOptions
+from packwork.live.kinds import LiveOptions
 from packwork.pipeline.plan.limits import check_padding
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container

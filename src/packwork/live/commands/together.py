@@ -20,15 +20,16 @@ from packwork.live.commands.container import (
     SetOption,
 )
 from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
-from packwork.live.commands.grouping import Group, Ungroup
 from packwork.live.commands.items import (
     Add,
     Duplicate,
     Flip,
+    Group,
     Recolour,
     Remove,
     Rename,
     Replace,
+    Ungroup,
     Weigh,
 )
 from packwork.live.commands.lines import SetLines

@@ -25,7 +25,7 @@ from packwork.scene.layout import Layout, framed
 from packwork.temporary import TemporaryFolder
 from packwork.units import parse_share
 from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options
-from packwork.writers.film.framing import in_frame
+from packwork.writers.film.film import in_frame
 from packwork.writers.film.options import CANVAS, FilmOptions
 from packwork.writers.registry import check_extra
 

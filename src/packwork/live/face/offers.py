@@ -15,8 +15,8 @@ from packwork.fonts import families_of_face, installed_families
 from packwork.geometry.outline import Outline
 from packwork.live import ground
 from packwork.live.face.exporting import missing
+from packwork.live.kinds import LiveOptions
 from packwork.live.mosaic import MOST_PX
-from packwork.live.options import LiveOptions
 from packwork.options import SizeMode, offered
 from packwork.pipeline.region_labels import PartLabel, part_labels
 from packwork.progress import Stop, never

@@ -26,8 +26,8 @@ from packwork.live.history import SessionState
 from packwork.live.log import Entry, Log, read_entries
 from packwork.live.session import Session
 from packwork.phrasing import number_of
-from packwork.readers.files import exists, read_bytes, read_lines
 from packwork.readers.layouts.read import SESSION
+from packwork.readers.reading import exists, read_bytes, read_lines
 from packwork.scene.layout import Layout
 from packwork.sources import forget_input
 from packwork.writers.atomic import write_atomic

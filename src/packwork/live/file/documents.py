@@ -13,9 +13,9 @@ from packwork.live.commands.command import FARTHEST, sized
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text, kept_text
 from packwork.live.file.values import colour_of, matrix_of, matrix_record
+from packwork.live.kinds import LiveOptions
 from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
-from packwork.live.options import LiveOptions
 from packwork.options import Options
 from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDEST_STRETCH
 from packwork.readers.reading import UnfitError

@@ -20,14 +20,12 @@ from packwork.live.neighbourhood.allowance import ranges
 from packwork.live.neighbourhood.caches import LevelCache
 from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.raster.coverage import Rasteriser
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.solve.free_space import FreeSpace
-from packwork.solve.level import Level
+from packwork.solve.level import Level, RepeatingLevel
 from packwork.solve.motion import Motion
 from packwork.solve.options import ImageLossFunction, SolveOptions
 from packwork.solve.outlines import Ensemble
-from packwork.solve.repeating import RepeatingLevel
 
 FADE = 0.6
 """Factor on the steps of an item for each ring that it is away. Larger moves far items more,

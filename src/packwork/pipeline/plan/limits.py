@@ -22,8 +22,7 @@ from packwork.pipeline.plan.copies import RuleSource, kinds
 from packwork.pipeline.plan.resolution import largest_scales
 from packwork.scene.container import Container
 from packwork.scene.item import Item, PhotoArt
-from packwork.scene.limits import Limits, leanings
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses, leanings
 from packwork.units import Unit, convert, parse_length
 
 

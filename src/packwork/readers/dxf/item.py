@@ -34,9 +34,8 @@ from packwork.readers.dxf.entities import (
 )
 from packwork.readers.dxf.rings import Ring, RingPart, called, nested, place, rings_of
 from packwork.readers.engraving import Engraving
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.pages import Read
-from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
+from packwork.readers.reading import UnfitError, notice, one_budget, read_bytes, reading_file, stem
 from packwork.readers.regions import Holes, centred
 from packwork.scene.container import Container, placed_container
 from packwork.scene.item import Item

@@ -12,12 +12,11 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.fonts import FONT_ENDINGS, MOST_FACES, installed_families
 from packwork.geometry.curves import Curve
-from packwork.readers.files import exists, read_bytes
 from packwork.readers.fonts.bent import bent_lettering
 from packwork.readers.fonts.face import MAX_FONT_BYTES, UNKNOWN_LANGUAGE, Typeface, bundled_typeface
 from packwork.readers.fonts.itemise import Piece, clusters, itemised
 from packwork.readers.fonts.lettering import MOST_COARSE, Lettering, TypeSetting, lettering_of
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, exists, read_bytes, reading_file
 
 MOST_NAMED = 6
 """Characters that a message about missing ones names. Chosen."""

@@ -16,9 +16,8 @@ from packwork.arrays import FloatArray, as_points
 from packwork.errors import ReadError, RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.readers.files import read_text
 from packwork.readers.json_text import opened_collection, parsed
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, read_text, reading_file
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.colour import css_colour

@@ -7,14 +7,13 @@ import re
 from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES, parse_xml
 from packwork.readers.layouts import HANDED_IN
 from packwork.readers.layouts.dxf import APPLICATION, layout_of_dxf
 from packwork.readers.layouts.foreign_svg import group_named
 from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
 from packwork.readers.layouts.svg import layout_of_svg
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, read_bytes, reading_file, stem
 from packwork.scene.layout import Layout
 
 ENDINGS = (".geojson", ".json", ".svg", ".dxf")

@@ -11,7 +11,6 @@ from typing import TypeAlias
 import numpy as np
 from PIL import Image, ImageCms
 
-from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
     as_it_lies,
@@ -22,7 +21,7 @@ from packwork.readers.pictures.decode import (
     shrunk,
     upright,
 )
-from packwork.readers.reading import reading_file
+from packwork.readers.reading import read_bytes, reading_file
 from packwork.scene.item import VectorArt
 
 REDUCING_GAP = 2.0

@@ -10,7 +10,6 @@ from PIL import Image
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry.polygon import Region
-from packwork.readers.files import read_bytes
 from packwork.readers.options import HALF
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
 from packwork.readers.pictures.silhouette import (
@@ -24,7 +23,7 @@ from packwork.readers.pictures.silhouette import (
     tell_what_is_faint,
     without_enclosed_white,
 )
-from packwork.readers.reading import UnfitError, notice, reading_file
+from packwork.readers.reading import UnfitError, notice, read_bytes, reading_file
 from packwork.readers.regions import NEARLY_ALL, clean_union, tell_if_full
 
 SMALL_PX = 256

@@ -11,7 +11,6 @@ import shapely
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.options import HALF, ReadOptions
 from packwork.readers.pages import PageFate, Read
 from packwork.readers.pictures.contours import contour_region
@@ -21,7 +20,7 @@ from packwork.readers.pictures.decode import (
     decode_picture,
     png_of_pixels,
 )
-from packwork.readers.reading import UnfitError, notice, reading_file
+from packwork.readers.reading import UnfitError, notice, read_bytes, reading_file, stem
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.scene.item import Item, PictureArt
 

@@ -13,10 +13,9 @@ from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import AS_DRAWN, ReadOptions
-from packwork.readers.reading import UnfitError, reading_file
+from packwork.readers.reading import UnfitError, read_bytes, reading_file, stem
 from packwork.readers.regions import SPECK, canvas_box, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing

@@ -20,11 +20,10 @@ from packwork.geometry.outline import Outline
 from packwork.readers.budget.expansion import count_expanded
 from packwork.readers.budget.rendering import FILTER, drop_filters
 from packwork.readers.cache import read_once
-from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import PageFate, Read, with_pages_alike
-from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
+from packwork.readers.reading import UnfitError, notice, one_budget, read_bytes, reading_file, stem
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import FILTERED, vector_art, whole_reach, within_outline
 from packwork.readers.svg.drawing import LARGESSE, WHOLE_PAGE, PaintedDrawing, read_drawing

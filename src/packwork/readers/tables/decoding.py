@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from packwork.errors import ReadError
-from packwork.readers.files import read_bytes
+from packwork.readers.reading import read_bytes
 from packwork.readers.tables.format import TableFormat
 
 MARKS = (

@@ -8,8 +8,7 @@ from typing import Annotated, Literal
 from pydantic import field_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 
 NAMES = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";", "space": " ", "pipe": "|"}
 """What people call characters that are hard to type."""

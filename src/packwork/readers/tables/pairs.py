@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
-from packwork.readers.files import read_bytes
+from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import is_number_like, written_numbers
 from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import TextTable, check_size, read_sheet

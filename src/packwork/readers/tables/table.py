@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.files import read_bytes
+from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written, figure, is_blank, written_numbers
 from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import ENDINGS, MOST_ROWS, TextTable, check_size, read_sheet

@@ -13,8 +13,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.options import Options, number_or_auto
+from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs, number_or_auto
 from packwork.readers.options import check_colour
 
 

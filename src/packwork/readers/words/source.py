@@ -12,7 +12,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import enumerated, number_of
-from packwork.readers.files import exists, read_bytes
+from packwork.readers.reading import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, check_no_document, decoded
 from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat

@@ -23,8 +23,7 @@ from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
 from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
-from packwork.scene.limits import NO_LIMITS, Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import NO_LIMITS, Limits, Poses
 from packwork.start.first_fit.occupancy import NOISE, Occupancy, Stencil, cut
 from packwork.start.first_fit.preferences import Homes, KindPenalty
 from packwork.start.first_poses import container_image

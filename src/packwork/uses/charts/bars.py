@@ -16,7 +16,7 @@ from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext
+from packwork.pipeline.state import RunContext
 from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.tables.cells import MISSING, as_number, cell_text
 from packwork.scene.container import Container

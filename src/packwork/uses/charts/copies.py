@@ -18,8 +18,7 @@ from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding
-from packwork.pipeline.run import RunContext, run_steps
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, run_steps
 from packwork.progress import Observer, Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from packwork.errors import RecipeError
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.readers.charts import ChartOptions
 from packwork.readers.options import check_colour
 from packwork.readers.tables.table import index_of_frame

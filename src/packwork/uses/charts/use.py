@@ -9,20 +9,19 @@ from typing import Any, final
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.polygon import polygon_parts
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.read import Material
 from packwork.pipeline.recorder import Recorder
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.charts import ChartOptions
 from packwork.recipe import Recipe
 from packwork.scene.container import Container, with_margin
 from packwork.scene.layout import Layout
-from packwork.scene.limits import Limits
+from packwork.scene.pose import Limits
 from packwork.solve.solver import Ending
 from packwork.steps.close_gap import RemarkGap, close_gap
 from packwork.steps.control import Replan

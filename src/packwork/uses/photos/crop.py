@@ -20,8 +20,7 @@ from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.plan.limits import check_padding
 from packwork.pipeline.plan.plan import NO_VOIDS, void_plan
 from packwork.pipeline.recorder import Recorder
-from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps, share_of
 from packwork.progress import Observer, Step
 from packwork.recipe import Recipe
 from packwork.scene.container import Container

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.readers.photo_options import PhotoOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.refusals import validated

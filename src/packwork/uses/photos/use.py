@@ -1,4 +1,4 @@
-"""Photographs that fill a container, icons among them."""
+"""Photographs that fill a container, icons among them, or are tiles of a mosaic on a grid."""
 
 from __future__ import annotations
 
@@ -6,14 +6,57 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
+from packwork.errors import RecipeError
 from packwork.pipeline.job import Job, Use
-from packwork.pipeline.read import Material
-from packwork.pipeline.run import RunStep
+from packwork.pipeline.plan.copies import expand_copies
+from packwork.pipeline.read import Material, read_named
+from packwork.pipeline.state import RunStep
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
+from packwork.steps.lay_grid import TILES, LayGrid, hardly_shown
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer, material_of
 from packwork.uses.photos.crop import CropAtEdge, crops
+
+SQUARE = "square"
+"""Shape of photos where none is asked for: the largest square in the middle of each."""
+
+
+@final
+class GridUse(Use):
+    """Photographs in the cells of a grid."""
+
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """A choice of photos for the cells; measures and looks."""
+        recipe, target = job.recipe, job.target
+        assert target is not None  # noqa: S101
+        most = recipe.count if isinstance(recipe.count, int) else TILES
+        return [LayGrid(target, most, recipe.repeats), *self.report(job)]
+
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """Measures and looks."""
+        return reporting(job, is_dressed=False, shows_shape=False, judge=hardly_shown)
+
+
+def read_grid(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None) -> Material:
+    """Photographs of a recipe, each once, whatever the number of tiles."""
+    photos = recipe.photos
+    if photos is None:
+        raise RecipeError("grid", "is of photos; use packwork photos")
+    if photos.edge == "crop":
+        raise RecipeError("edge", "crop is of photos that lie freely; leave out --grid")
+    if photos.shape is None:
+        photos = photos.model_copy(update={"shape": SQUARE})
+    named = read_named(recipe.model_copy(update={"photos": photos}), given)
+    once = recipe.model_copy(update={"count": None})
+    return Material(
+        use=GridUse(),
+        container=room.known,
+        cast=expand_copies(once, named.items),
+        fillers=named.items,
+        skipped=named.skipped,
+    )
+
 
 PHOTO_STARTS = ("distance-field", "medial-axis", "scatter")
 """Starts that are tried of photos; what a short finish makes of the levels of each tells which ends
@@ -58,7 +101,7 @@ def read_collage(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | N
     """Photographs of a recipe, and the items among them."""
     if recipe.grid:
         # Only what is asked for is loaded.
-        from packwork.uses.photos.grid import read_grid
+        from packwork.uses.photos.use import read_grid
 
         return read_grid(recipe, room, given)
     return material_of(PhotosUse(crops(recipe)), recipe, room, given)

@@ -24,13 +24,11 @@ from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.limits import given_scales
 from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.registration import matched
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.recipe.piles import PileOptions
 from packwork.scene.container import brought_over
 from packwork.scene.layout import Layout
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.settle.pile import Arrival, Piled, SettleOptions, pile
 from packwork.start.angles_and_sizes import nearest_allowed, spread_angles
 from packwork.start.first_fit.lowest_fit import Falling, lowest_fit

@@ -19,8 +19,7 @@ from packwork.phrasing import number_of
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules
-from packwork.pipeline.run import RunContext, RunStep, run_steps
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps
 from packwork.readers.reading import UnfitError
 from packwork.readers.words.items import EM_PX, WordsRead
 from packwork.readers.words.options import Along, Word, sound

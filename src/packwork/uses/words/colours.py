@@ -10,13 +10,12 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.raster.coverage import coverage
-from packwork.readers.files import exists, read_bytes
 from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
     PICTURE_ENDINGS,
     decode_picture,
 )
-from packwork.readers.reading import reading_file
+from packwork.readers.reading import exists, read_bytes, reading_file
 from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import ColourOf, Word, WordOptions
 from packwork.recipe import Recipe

@@ -10,11 +10,10 @@ from typing import final
 import numpy as np
 
 from packwork.compaction.options import HAIR
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding, padded
-from packwork.pipeline.run import RunContext, RunStep, run_steps
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps
 from packwork.progress import Step, until_over
 from packwork.readers.words.items import EM_PX
 from packwork.recipe.verbs import VERBS

@@ -24,14 +24,12 @@ from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import lines_width
 from packwork.pipeline.plan.limits import check_padding
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Stop, never
 from packwork.readers.words.items import EM_PX
 from packwork.recipe import Recipe
 from packwork.recipe.rules import Rotation
-from packwork.scene.limits import Limits
-from packwork.scene.pose import Poses
+from packwork.scene.pose import Limits, Poses
 from packwork.start.angles_and_sizes import spread_angles, start_angles
 from packwork.start.first_fit.graded import Graded, graded_fit
 from packwork.start.first_fit.greedy_board import Candidate

@@ -16,8 +16,7 @@ from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection, union
 from packwork.geometry.polygon import Region
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import until_over
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses

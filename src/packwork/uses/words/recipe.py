@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from packwork.errors import RecipeError
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.tables.pairs import PairColumns, pairs_of_rows
 from packwork.readers.tables.table import is_frame, rows_of_frame

@@ -9,8 +9,7 @@ import numpy as np
 from packwork.compaction.options import HAIR
 from packwork.pipeline.findings import Filling, Sentence
 from packwork.pipeline.plan.copies import ItemRules
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Stop, until_over
 from packwork.readers.words.items import EM_PX, INK
 from packwork.recipe.rules import OWN_COLOURS

@@ -16,8 +16,7 @@ from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import RuleSource, shared_out
 from packwork.pipeline.read import read_regions
-from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps, share_of
 from packwork.readers.words.items import EM_PX, WordsRead
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Sizes

@@ -10,7 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
-from packwork.offers import Verbs
+from packwork.options import Verbs
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.findings import Sentence, Unplaced, WordsFound
 from packwork.pipeline.job import Job, Use
@@ -18,8 +18,7 @@ from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.pipeline.read import AUTO, Material, read_named
 from packwork.pipeline.result import Run
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.vectors import Vectors
 from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
 from packwork.readers.words.options import Word, WordOptions

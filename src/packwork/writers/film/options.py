@@ -8,8 +8,7 @@ from typing import Annotated, Literal, Self, TypeAlias
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from packwork.errors import RecipeError
-from packwork.offers import Group, Offer, Verbs
-from packwork.options import Options
+from packwork.options import Group, Offer, Options, Verbs
 
 Easing: TypeAlias = Literal["smooth", "linear", "ease-in", "ease-out", "ease-in-out"]
 

@@ -11,8 +11,7 @@ from typing import TypeAlias
 from packwork.errors import WriteError
 from packwork.writers.atomic import check_writable
 from packwork.writers.film.animated_svg import animated_svg_bytes
-from packwork.writers.film.film import Film, Tell, tell_nobody
-from packwork.writers.film.framing import in_frame
+from packwork.writers.film.film import Film, Tell, in_frame, tell_nobody
 from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.lottie import lottie_bytes
 from packwork.writers.film.video import mp4_bytes, webm_bytes
