@@ -39,7 +39,7 @@ def test_the_best_of_several_is_what_its_seed_gives_alone(
     ("more", "said"),
     [
         ("--best-of 0", "--best-of: must be"),
-        ("--best-of 2 --best-by nonesuch", "--best-by: must be one of coverage, evenness, LC"),
+        ("--best-of 2 --best-by nonesuch", "--best-by: must be one of coverage, evenness, overlap"),
         ("--best-by LC", "--best-by: is of --best-of"),
         ("--contact-sheet s.png", "--contact-sheet: is of --best-of"),
         ("--best-of 2 --contact-sheet x.svg", "is the same file"),

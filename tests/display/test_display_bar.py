@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import time
 from types import SimpleNamespace
 from typing import Any
 
@@ -156,6 +157,14 @@ def test_a_bar_never_goes_backwards(capsys: pytest.CaptureFixture[str]) -> None:
         bar.tell(0.5, "this")
         bar.tell(0.2, "that")
     assert capsys.readouterr().err == "packwork: 50 %: this\npackwork: 50 %: that\n"
+    # A run of half a minute leaves nothing in a log.
+    patient, now = TerminalBar(), time.monotonic()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bars, "SECONDS_BETWEEN_LINES", 30.0)
+        for later in (1.0, 29.0, 31.0, 40.0):
+            patch.setattr(time, "monotonic", lambda later=later: now + later)
+            patient.tell(later / 60, "on")
+    assert capsys.readouterr().err == "packwork: 52 %: on\n"
     quiet = TerminalBar(is_quiet=True)
     with quiet.showing():
         quiet.tell(0.5, "this")

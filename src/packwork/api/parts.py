@@ -37,18 +37,9 @@ class ReadOnly(dict[str, Any]):
         return type(self), (dict(self),)
 
 
-FULL_NAMES = {"coverage": "LC", "overlap": "OO", "outside": "EA", "unevenness": "LnU"}
-"""Names of measures, and those that papers and reports have for them."""
-
-
 def measures(values: Mapping[str, Any]) -> Metrics:
-    """Measures of a report, under their full names too."""
-    exact = values["exact"]
-    full = [
-        {name: table[short] for name, short in FULL_NAMES.items() if short in table}
-        for table in (values, exact)
-    ]
-    return cast(Metrics, ReadOnly({**full[0], **values, "exact": {**full[1], **exact}}))
+    """Measures of a report, read-only."""
+    return cast(Metrics, ReadOnly(values))
 
 
 def same_content(one: Any, other: Any) -> bool:

@@ -11,7 +11,7 @@ from packwork.batches.pool import results, worker_count
 from packwork.batches.report import flat_metrics
 from packwork.batches.task import collecting_notices
 from packwork.errors import PackworkError, RecipeError
-from packwork.metrics.measure import ReportMetrics, ReportShares
+from packwork.metrics.measure import ExactShares, Metrics
 from packwork.phrasing import enumerated
 from packwork.pipeline import Run
 from packwork.progress import NOBODY, Stop, never
@@ -26,8 +26,8 @@ _MEANT = {
 """What words stand for: a metric of the report; with a minus, less of it is better."""
 
 METRICS = (
-    *(name for name in ReportMetrics.__annotations__ if name != "exact"),
-    *(f"exact_{name}" for name in ReportShares.__annotations__),
+    *(name for name in Metrics.__annotations__ if name != "exact"),
+    *(f"exact_{name}" for name in ExactShares.__annotations__),
 )
 """Of a report, by one name each."""
 
@@ -100,7 +100,7 @@ def run_seed(task: Seeded, stop: Stop) -> Run:
 def check_metric(by: str) -> None:
     """Refuse what no report has, naming all there are."""
     if _MEANT.get(by, by).removeprefix("-") not in METRICS:
-        there = enumerated([COVERAGE, EVENNESS, *METRICS], 30)
+        there = enumerated(list(dict.fromkeys((COVERAGE, EVENNESS, *METRICS))), 30)
         raise RecipeError("best_by", f"must be one of {there}, not {by[:40]!r}")
 
 

@@ -22,9 +22,9 @@ EPOCHS_BETWEEN = 20
 SECONDS_BETWEEN = 0.1
 """Least time between two pictures that a notebook is sent: more flood its page. Chosen."""
 
-SECONDS_BETWEEN_LINES = 5.0
-"""Time between two lines where there is no terminal to draw a bar on, and before the first.
-Smaller fills logs, larger looks dead. Chosen."""
+SECONDS_BETWEEN_LINES = 30.0
+"""Time between two lines where there is no terminal to draw a bar on, and before the first: most
+runs leave none in a log. Smaller fills logs, larger looks dead. Chosen."""
 
 BEFORE = "starting"
 

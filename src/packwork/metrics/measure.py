@@ -20,47 +20,50 @@ from packwork.scene.layout import Layout
 from packwork.threads import at_once
 
 
-class ReportShares(TypedDict):
-    """Measures in exact geometry, by the names of the report."""
+class ExactShares(TypedDict):
+    """Measures in exact geometry, by names that say what they are and by those of papers."""
 
-    LC: float
+    coverage: float
     """Share of the container that is covered."""
-    OO: float
+    overlap: float
     """Share that is covered twice."""
-    EA: float
+    outside: float
     """Area outside the container, as a share of it."""
+    LC: float
+    """Coverage."""
+    OO: float
+    """Overlap."""
+    EA: float
+    """Outside."""
     overlap_area: float
-    """The same in squared canvas units."""
+    """Overlap in squared canvas units."""
     outside_area: float
-    """The same in squared canvas units."""
+    """Outside in squared canvas units."""
     min_gap: float
     """Smallest distance of two items, canvas units."""
 
 
-class ExactShares(ReportShares):
-    """The same, by names that say what they are too."""
+class Metrics(TypedDict):
+    """Measures of a layout, as docs/reference/units.md explains them."""
 
     coverage: float
-    """LC."""
-    overlap: float
-    """OO."""
-    outside: float
-    """EA."""
-
-
-class _Measures(TypedDict):
-    """Measures of a layout by the names of the report, as docs/reference/units.md explains them."""
-
-    LC: float
     """Share of the container that is covered."""
+    overlap: float
+    """Share that is covered twice."""
+    outside: float
+    """Area outside the container, as a share of it."""
+    unevenness: float
+    """Mean squared distance from uncovered points to the nearest item, px of 600."""
+    LC: float
+    """Coverage."""
     LC_ratio: float
     """Covered over uncovered."""
     OO: float
-    """Share that is covered twice."""
+    """Overlap."""
     EA: float
-    """Area outside the container, as a share of it."""
+    """Outside."""
     LnU: float
-    """Mean squared distance from uncovered points to the nearest item, px of 600."""
+    """Unevenness."""
     LC_ink: float
     """Share of the container that is really drawn on, exact."""
     bare: float
@@ -71,26 +74,6 @@ class _Measures(TypedDict):
     """Parts of the container that are large enough to be seen."""
     bare_parts: int
     """How many of these hold nothing."""
-
-
-class ReportMetrics(_Measures):
-    """Measures of a layout as reports and manifests have them."""
-
-    exact: ReportShares
-    """The same in exact geometry."""
-
-
-class Metrics(_Measures):
-    """The same as layouts in Python have them, by names that say what they are too."""
-
-    coverage: float
-    """LC."""
-    overlap: float
-    """OO."""
-    outside: float
-    """EA."""
-    unevenness: float
-    """LnU."""
     exact: ExactShares
     """The same in exact geometry."""
 
@@ -111,10 +94,14 @@ class LayoutMetrics:
     ink: float
     seen: ShapeMetrics
 
-    def as_dict(self) -> ReportMetrics:
-        """Plain numbers under the names of the report."""
+    def as_dict(self) -> Metrics:
+        """Plain numbers under the names of the report, those that say what they are first."""
         pixel, exact, seen = self.pixel, self.exact, self.seen
-        return ReportMetrics(
+        return Metrics(
+            coverage=pixel.LC,
+            overlap=pixel.OO,
+            outside=pixel.EA,
+            unevenness=pixel.LnU,
             LC=pixel.LC,
             LC_ratio=pixel.LC_ratio,
             OO=pixel.OO,
@@ -125,7 +112,10 @@ class LayoutMetrics:
             shape=seen.shape,
             parts=seen.parts,
             bare_parts=seen.bare_parts,
-            exact=ReportShares(
+            exact=ExactShares(
+                coverage=exact.coverage,
+                overlap=exact.overlap,
+                outside=exact.exceeding,
                 LC=exact.coverage,
                 OO=exact.overlap,
                 EA=exact.exceeding,
