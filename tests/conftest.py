@@ -41,8 +41,8 @@ MOST_SECONDS = 180.0
 """Time that is waited for them, for who compiles them may have been killed. Chosen: several times
 what it takes on two processors."""
 
-WHOLE_RUNS = {"cli", "live", "pipeline", "uses"}
-"""Rooms of tests most of which make layouts and measure them."""
+MEASURING = {"metrics"}
+"""Rooms of tests that look at how finely layouts are measured."""
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -62,7 +62,11 @@ COMPILING: tuple[dict[str, Callable[[], object]], ...] = (
     {
         "words": lambda: packwork.words("heart", {"owl": 2, "fox": 1}, effort="draft"),
         "pile": lambda: packwork.pile("square", "circle", count=2, size="30%"),
+        "discs": lambda: packwork.fill(
+            "circle", "circle", count=60, sizes="shared", effort="draft"
+        ),
         "nest": lambda: packwork.nest("100mm", ["star", "moon"], passes=9),
+        "lattice": lambda: packwork.nest("200x100mm", {"star": 9}, passes=9),
     },
 )
 """What needs kernels that tests of many rooms need: first those that all runs have."""
@@ -103,6 +107,8 @@ def _nothing_by_chance() -> Iterator[None]:
         patch.setattr(compiled.listeners, "_tell_once", lambda: None)
         patch.setattr(cache, "DRAWINGS", _OfThisSession())
         patch.setattr(cache, "GLYPHS", _OfThisSession())
+        # Files of tests need not outlive the machine's next failure.
+        patch.setattr(os, "fsync", lambda _: None)
         yield
 
 
@@ -110,8 +116,9 @@ def _nothing_by_chance() -> Iterator[None]:
 def _coarse_measures(request: pytest.FixtureRequest) -> Iterator[None]:
     """Whole runs, of which tests look at other things, are measured by fewer pixels."""
     with pytest.MonkeyPatch.context() as patch:
-        if request.path.parent.name in WHOLE_RUNS:
+        if request.path.parent.name not in MEASURING:
             patch.setattr(pixel, "RESOLUTION", 300)
+            patch.setattr(pixel, "SHAPE_RESOLUTION", 200)
         yield
 
 

@@ -148,8 +148,8 @@ def test_losses_of_the_pages_move_items_where_they_say(
         made.append(moved(layout))
         return layout
 
-    for seed in range(5):
+    for seed in range(3):
         monkeypatch.setattr(packwork, "fill", partial(drawn, seed=seed), raising=False)
         exec(block, {"np": np, "pw": packwork})  # noqa: S102
-    assert len(made) == 5
+    assert len(made) == 3
     assert np.median(made) > max(np.median(plain), 0.0)

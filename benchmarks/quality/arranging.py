@@ -12,7 +12,6 @@ import sys
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from scipy.stats import spearmanr
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
@@ -55,6 +54,9 @@ def in_order(layout: Layout, way: str) -> float:
         turns: FloatArray = np.arctan2(off[:, 1], off[:, 0])[is_seen]
         round_about = hues[np.argsort(turns)]
         return float(np.cos(np.diff(np.append(round_about, round_about[0]))).mean())
+    # Half a second to load, also for what reads only the page of this module.
+    from scipy.stats import spearmanr
+
     along = off[:, 0] if way.startswith("right") else away
     return float(spearmanr(lightness, along).statistic)
 

@@ -17,6 +17,7 @@ from typer.testing import Result
 import packwork as pw
 from packwork.errors import ReadError
 from packwork.readers.instances import read_instance
+from packwork.uses.nest_work import PLACES
 
 Command = Callable[..., Result]
 
@@ -77,12 +78,15 @@ def test_the_same_work_gives_the_same_bytes(work: str, shop: Path, packwork: Com
 
 @pytest.mark.parametrize(
     ("asked", "effort", "most"),
-    [("", "normal", 20_000), ("--effort draft", "draft", 2_500), ("--time 0.2", None, 100_000),
+    [("", "normal", 2_500), ("--effort draft", "draft", 320), ("--time 0.2", None, 100_000),
      ("--passes 7", None, 7), ("--effort best --passes 5", None, 5)],
 )  # fmt: skip
 def test_an_effort_bounds_the_passes(
-    asked: str, effort: str | None, most: int, shop: Path, packwork: Command
-) -> None:
+    asked: str, effort: str | None, most: int, shop: Path, packwork: Command,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    for name, places in PLACES.items():
+        monkeypatch.setitem(PLACES, name, places // 8)
     assert packwork(f"nest 40mm disc.svg {asked} -o a.svg --report a.json").exit_code == 0
     said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
     assert said["effort"] == effort
@@ -273,9 +277,9 @@ def test_shapes_of_an_instance_may_have_holes_or_be_rectangles(
 def test_parts_of_an_earlier_nest_stay_where_they_are(
     shop: Path, packwork: Command, ending: str
 ) -> None:
-    line = f"nest 200x100mm bracket.svg*4 --kerf 1mm --passes 40 -o a.{ending}"
+    line = f"nest 200x100mm bracket.svg*4 --kerf 1mm --passes 12 -o a.{ending}"
     assert packwork(line).exit_code == 0
-    line = f"nest a.{ending},200x100mm disc.svg*14 --kerf 1mm --passes 40 -o b.{ending}"
+    line = f"nest a.{ending},200x100mm disc.svg*14 --kerf 1mm --passes 12 -o b.{ending}"
     result = packwork(line)
     assert result.exit_code == 0
     assert "its parts go into a DXF as outlines" not in " ".join(result.output.split())

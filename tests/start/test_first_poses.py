@@ -67,7 +67,7 @@ def test_a_container_thinner_than_a_pixel_is_no_trouble(method: Method) -> None:
 @METHODS
 def test_many_more_items_than_there_is_room_for(method: Method) -> None:
     container = round_container()
-    where = start(container, [disc()] * 3_000, np.full(3_000, 20.0), method)
+    where = start(container, [disc()] * 1_000, np.full(1_000, 20.0), method)
     assert np.isfinite([where.x, where.y]).all()
     assert ((where.x > 0) & (where.x < 100) & (where.y > 0) & (where.y < 100)).all()
 

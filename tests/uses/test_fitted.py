@@ -14,7 +14,7 @@ from packwork.uses.words.fitted import BESIDE
 from packwork.uses.words.grown import barred
 
 NAMES = ("harbour", "tide", "gull", "mast", "rope", "oar", "in", "of")
-WORDS = {f"{NAMES[k % 8]}{chr(97 + k // 8)}": (k + 1) ** -0.5 for k in range(64)}
+WORDS = {f"{NAMES[k % 8]}{chr(97 + k // 8)}": (k + 1) ** -0.5 for k in range(40)}
 
 
 def _gaps(layout: pw.Layout) -> np.ndarray:
