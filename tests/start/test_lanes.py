@@ -9,7 +9,7 @@ import shapely
 
 from packwork.geometry.curves import Curve
 from packwork.start.lane_sizes import LARGER
-from packwork.start.lanes import Lanes, WordOnLine, WordShape
+from packwork.start.lanes import SPACE, Lanes, WordOnLine, WordShape
 from packwork.start.limbs import Limb
 
 ANGLES = np.linspace(0.0, 4 * np.pi, 4_000)
@@ -103,3 +103,19 @@ def test_a_word_that_fits_nowhere_is_left() -> None:
     short = Limb(Curve(np.array([[0.0, 0.0], [20.0, 0.0]])), np.array([10.0, 10.0]))
     lanes = filled(np.full(60, 20.0), short, 10.0)
     assert lanes.left
+
+
+def test_words_begin_half_a_space_from_the_top_of_a_loop_however_wide_it_is() -> None:
+    angles = np.linspace(0.5, 2.5, 2_001) * np.pi
+    circle = 100 * np.column_stack([np.cos(angles), np.sin(angles)])
+    loop = Limb(Curve(circle), np.full(len(circle), 40.0), is_loop=True)
+    found = filled(np.full(60, 6.0), loop).found
+    heights = [-one.line.at(np.array([one.start, one.end])) for one in found]
+    at_top = [
+        (np.abs(ends[:, 0]).min(), one.size)
+        for one, ends in zip(found, heights, strict=True)
+        if ends[:, 1].min() > 0 and np.abs(ends[:, 0]).min() < one.size
+    ]
+    lanes = 80 / max(one.size for one in found)
+    assert len(at_top) >= lanes
+    assert max(away / size for away, size in at_top) < SPACE

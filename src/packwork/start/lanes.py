@@ -24,9 +24,8 @@ FILLED = 0.85
 """Height of letters over that of their lane. Larger leaves no room between lines, smaller wastes
 it. By eye."""
 
-SPACE, APART = 0.35, 0.15
-"""Room between two words of a lane, ems, and half of it where a loop begins, in its widths. Smaller
-lets them read as one. By eye."""
+SPACE = 0.35
+"""Room between two words of a lane, ems. Smaller lets them read as one. By eye."""
 
 MOST_TURN = 1.9
 """Turn of the line from the first to the last letter of a word, radians, at most. More cannot be
@@ -223,7 +222,7 @@ class Lanes:
 
     def fill(self, limb: Limb) -> None:
         """Set words along a limb, from its wider end to the other; of a loop both ways at once."""
-        heap = _begun(limb)
+        heap = [_Lane(way, -1.0, 1.0, 0.0) for way in limb.ways]
         while heap:
             for lane in self._gone_on(heapq.heappop(heap)):
                 heapq.heappush(heap, lane)
@@ -231,7 +230,7 @@ class Lanes:
     def has_room(self, limbs: Sequence[Limb]) -> bool:
         """Whether each word finds a place along these limbs; words are set until that is known."""
         for limb in limbs:
-            heap = _begun(limb)
+            heap = [_Lane(way, -1.0, 1.0, 0.0) for way in limb.ways]
             while heap and self.left:
                 for lane in self._gone_on(heapq.heappop(heap)):
                     heapq.heappush(heap, lane)
@@ -315,18 +314,20 @@ class Lanes:
             if size < self._least:
                 return None
             length = shape.length * size
-            turns = line.turning(start, start + length, width)
+            # Where both ways round a loop begin, a space is between their first words.
+            first = start + SPACE / 2 * size * (lane.limb.is_half and start == 0.0)
+            turns = line.turning(first, first + length, width)
             sharp = float(np.abs(turns).max())
             # Where the line bends, feet of letters are nearer to each other than their middles.
-            end = start + length / (1 - min(sharp, SHARPEST) / 3)
+            end = first + length / (1 - min(sharp, SHARPEST) / 3)
             if end > line.length:
                 return None
-            narrow = lane.width(start, end)
+            narrow = lane.width(first, end)
             if narrow >= NEARLY * width:
                 break
             width = narrow
         is_plain = sharp <= SHARPEST and abs(turns.sum()) <= MOST_TURN
-        return _Put(word, start, end, size) if is_plain else None
+        return _Put(word, first, end, size) if is_plain else None
 
     def _joined(self, lane: _Lane) -> list[_Lane]:
         """The lane that one was split from once all its parts have come so far; none at the end."""
@@ -365,9 +366,3 @@ class Lanes:
         if math.cos(angle) < -LEVEL or (math.cos(angle) <= LEVEL and math.sin(angle) > 0):
             line, middle = line.reversed(), line.length - middle
         return WordOnLine(put.word, line, middle - half, middle + half, size)
-
-
-def _begun(limb: Limb) -> list[_Lane]:
-    """A lane as wide as a limb; of a loop, one each way, and room for a space between both."""
-    space = APART * 2 * float(limb.half.max()) if limb.is_loop else 0.0
-    return [_Lane(way, -1.0, 1.0, space) for way in limb.ways]

@@ -75,11 +75,14 @@ class Limb:
         ``(n,)`` distance of the container's edge from the points of it.
     is_loop
         Whether words go both ways round it, the heaviest at its middle.
+    is_half
+        Whether it is one of these ways.
     """
 
     axis: Curve
     half: FloatArray
     is_loop: bool = False
+    is_half: bool = False
 
     @property
     def is_long(self) -> bool:
@@ -92,8 +95,8 @@ class Limb:
         if not self.is_loop:
             return (self,)
         middle = int(np.searchsorted(self.axis.lengths, self.axis.length / 2))
-        back = Limb(Curve(self.axis.points[middle::-1]), self.half[middle::-1])
-        return Limb(Curve(self.axis.points[middle:]), self.half[middle:]), back
+        back = Limb(Curve(self.axis.points[middle::-1]), self.half[middle::-1], is_half=True)
+        return Limb(Curve(self.axis.points[middle:]), self.half[middle:], is_half=True), back
 
     @property
     def area(self) -> float:
