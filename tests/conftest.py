@@ -41,8 +41,8 @@ MOST_SECONDS = 180.0
 """Time that is waited for them, for who compiles them may have been killed. Chosen: several times
 what it takes on two processors."""
 
-MEASURING = {"metrics"}
-"""Rooms of tests that look at how finely layouts are measured."""
+MEASURING = {"metrics", "batches"}
+"""Rooms of tests that look at measures, or compare runs of this process with those of others."""
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -40,6 +40,8 @@ VERBS = {
 def sharing(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     """Small runs share their work as large ones do; modules that have shared some."""
     found = set[str]()
+    # It takes over the blocks of compaction as they are when it is first loaded.
+    import_module("packwork.settle.settle")
 
     def shared(name: str, call: Callable[..., Any], calls: Sequence[tuple[Any, ...]]) -> list[Any]:
         if len(calls) > 1:
