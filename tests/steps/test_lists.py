@@ -15,6 +15,7 @@ from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps, sh
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.steps.control import BestOf, Replan, Retry, UnlessTight
+from packwork.uses.icons import MANY
 
 PLAIN = [
     "Place", "Levels", "Finish", "TellShortfalls", "Measure", "Advise", "TellOneColour",
@@ -23,7 +24,7 @@ PLAIN = [
 
 def job(**options: Any) -> Any:
     return uses.read(
-        make_recipe(**{"container": "circle", "items": ["star"], "count": 8} | options)
+        make_recipe(**{"container": "circle", "items": ["star"], "count": MANY} | options)
     )
 
 
@@ -36,9 +37,10 @@ def test_a_plain_run_is_six_steps() -> None:
     assert names() == PLAIN
 
 
-def test_few_icons_are_begun_several_times() -> None:
-    assert names(count=3) == ["BestOf", *PLAIN[3:]]
-    assert names(count=3, effort="draft") == names(count=7) == PLAIN
+@pytest.mark.parametrize("options", [{"count": 3}, {"count": MANY - 1, "effort": "draft"}])
+def test_few_icons_are_begun_upright_and_alike_first(options: dict[str, Any]) -> None:
+    assert names(**options) == ["Retry", "Replan", *PLAIN[3:]]
+    assert names(**options, apart=True).count("Retry") == 0
 
 
 @pytest.mark.parametrize(
@@ -50,10 +52,10 @@ def test_few_icons_are_begun_several_times() -> None:
         ({"palette": "okabe-ito"}, {"Dress"}),
         ({"target_coverage": 0.8}, {"FillVoids"}),
         ({"stroke_width": "even"}, {"FinishThinner", "EvenLines"}),
-        ({"count": "auto"}, {"RemarkCount"}),
+        ({"count": "auto", "apart": True}, {"KindsApart", "CountBeside", "RemarkCount"}),
         ({"least_dpi": 90}, {"TellCoarse"}),
-        ({"sizes": "shared"}, {"Separate"}),
-        ({"sizes": "shared", "effort": "draft"}, set()),
+        ({"sizes": "shared", "count": 8}, {"Separate"}),
+        ({"sizes": "shared", "count": 8, "effort": "draft"}, set()),
         ({"sizes": "shared", "count": 41}, set()),
         ({"sizes": "shared", "force": ["down"]}, {"UnlessTight"}),
     ],
@@ -95,7 +97,7 @@ def test_without_an_exact_finish_nothing_of_it_is_listed() -> None:
     ]
 
 
-DISCS = {"container": "circle", "items": ["circle"], "count": 30, "sizes": "shared"}
+DISCS = {"container": "circle", "items": ["circle"], "count": MANY, "sizes": "shared"}
 
 
 def test_discs_in_proportion_jam_in_one_step() -> None:
