@@ -11,6 +11,7 @@ import pytest
 from PIL import Image, ImageDraw
 
 import packwork as pw
+from made_profiles import press_profile
 from packwork.cli.running import on_trust_in
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
@@ -126,6 +127,13 @@ def test_a_pdf_as_it_is_written_keeps_the_promise(
     layout: pw.Layout, asked: dict[str, object]
 ) -> None:
     assert faults(layout, **asked) == ()
+
+
+def test_inks_of_a_press_move_no_path(layout: pw.Layout, tmp_path: Path) -> None:
+    press = tmp_path / "press.icc"
+    press.write_bytes(press_profile())
+    asked = {"bleed": "3mm", "marks": "crop", "background": "#ff8000", "cut": "outlines"}
+    assert faults(layout, icc=str(press), spot="Gold=#ff8000", **asked) == ()
 
 
 @pytest.mark.parametrize("canvas", ["200x150mm", "8in", "A0", "9x9cm"])
