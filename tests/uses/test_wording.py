@@ -288,3 +288,21 @@ def test_no_word_is_larger_than_the_hero(size: str, seed: int) -> None:
     assert max(sizes, key=sizes.__getitem__) == "licence"
     heights = dict(zip((i.name for i in layout.items), layout.poses.scale, strict=True))
     assert heights["copyright"] >= heights["work"] * (1 - 1e-9) >= heights["use"] * (1 - 2e-9)
+
+
+def test_few_words_of_one_weight_are_lines_that_fill_more() -> None:
+    words = {"Anna": 1, "Sebastian": 1, "Mia": 1, "Tom": 1, "Grandma": 1}
+    lines = pw.words("circle", words)
+    alike = pw.words("circle", words, sizes="shared")
+    assert lines.manifest["certified"]
+    assert lines.metrics["exact"]["coverage"] > 1.1 * alike.metrics["exact"]["coverage"]
+    y = np.sort(lines.poses.y)
+    assert np.diff(y).min() > 0.04 * lines.container.side
+    upwards = pw.words("circle", words, rotate="vertical")
+    assert np.unique(upwards.poses.scale).size == 1
+
+
+def test_few_words_whose_weights_tell_something_stay_in_proportion() -> None:
+    layout = pw.words("circle", {"one": 3, "two": 2, "three": 1})
+    heights = layout.poses.scale / layout.poses.scale[0]
+    np.testing.assert_allclose(heights, [1, 2 / 3, 1 / 3], rtol=1e-3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -156,7 +156,7 @@ class IconsUse(Use):
             placed = placing(job, suits_first_fit=False)
             if tried := alike_upright(job):
                 placed = [Retry([BestOf(tried, best_balanced)], placed, is_full, fuller)]
-                placed.append(Replan(**_asked(job)))
+                placed.append(as_asked(job))
         return [*placed, *filling(job), *self.report(job)]
 
     def report(self, job: Job) -> Sequence[RunStep]:
@@ -189,9 +189,10 @@ def alike_upright(job: Job) -> list[list[RunStep]]:
     return found
 
 
-def _asked(job: Job) -> dict[str, Any]:
-    """What :func:`alike_upright` changes, as it was asked for."""
-    return {name: getattr(job.plan, name) for name in ("rotation", "size_ratio", "seed")}
+def as_asked(job: Job) -> RunStep:
+    """Step that takes back what those of :func:`alike_upright` change in the plan."""
+    plan = job.plan
+    return Replan(rotation=plan.rotation, size_ratio=plan.size_ratio, seed=plan.seed)
 
 
 def best_balanced(tried: Sequence[RunState], context: RunContext) -> RunState:

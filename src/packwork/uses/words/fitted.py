@@ -10,6 +10,8 @@ from typing import final
 import numpy as np
 
 from packwork.compaction.options import HAIR
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered
 from packwork.options import Verbs
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding, padded
@@ -21,6 +23,7 @@ from packwork.scene.item import bulge_between
 from packwork.scene.pose import Poses
 from packwork.solve.solver import Ending
 from packwork.start.first_fit.tiled import tiled_fit
+from packwork.start.stacked_lines import stacked_lines
 from packwork.steps.place import first_angles
 from packwork.steps.starts import ATTEMPTS, may_rearrange
 
@@ -30,6 +33,9 @@ more beside 2 % of it; smaller lets two words of a line read as one. By eye."""
 
 FEWEST = 30
 """Words from which it is so: with 12 the usual finish fills some shapes better. Measured."""
+
+LINES_APART = 0.012
+"""Room between two lines of few words, as a share of the canvas' longer side. By eye."""
 
 COVERED = 0.5
 """Share of the container that words come to cover, by which the least gap goes. Chosen."""
@@ -108,3 +114,39 @@ class FitWords(RunStep):
             ending=ending,
         )  # fmt: skip
         return run_steps(self._then, found, context)
+
+
+@final
+class StackWords(RunStep):
+    """Few words, one a line, in the order and at the sizes that cover most.
+
+    Parameters
+    ----------
+    otherwise
+        Steps for a container that has no room for such lines.
+    """
+
+    share = 1.0
+
+    def __init__(self, otherwise: Sequence[RunStep]) -> None:
+        self._otherwise = otherwise
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State of upright words, each in a box of its own."""
+        job = state.job
+        with job.clock.time("start"):
+            boxes = np.array([outline.bounds for outline in job.solid_outlines])
+            gap = job.plan.gap + 2 * HAIR * job.container.side
+            inner = buffered(job.container.outline.region, -gap)
+            sizes = boxes[:, 2:] - boxes[:, :2]
+            line_gap = max(gap, LINES_APART * job.container.side)
+            room = None if inner.is_empty else Outline.from_region(inner)
+            found = None if room is None else stacked_lines(room, sizes, line_gap)
+        if found is None:
+            return run_steps(self._otherwise, state, context)
+        scale, middles = found
+        x, y = (middles - scale[:, None] * (boxes[:, 2:] + boxes[:, :2]) / 2).T
+        poses = Poses(x, y, np.zeros(len(x)), scale)
+        return replace(
+            state, poses=poses, nominal=scale, method="lines", is_tight=True, ending=Ending.DONE
+        )

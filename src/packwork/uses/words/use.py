@@ -27,11 +27,11 @@ from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.steps.close_gap import RemarkGap, close_gap
-from packwork.steps.control import Replan, Retry
+from packwork.steps.control import BestOf, Replan, Retry
 from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, more_copies
 from packwork.steps.track import StartRecording
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.icons import KnownContainer
+from packwork.uses.icons import KnownContainer, best_balanced
 from packwork.uses.photos.crop import crops
 from packwork.uses.words.along import RoundTheEdge, SetAlong
 from packwork.uses.words.colours import check_colours, word_colours
@@ -43,7 +43,7 @@ from packwork.uses.words.copies import (
     words_needed,
     words_of,
 )
-from packwork.uses.words.fitted import BESIDE, FitWords, goes_by_letters, least_gap
+from packwork.uses.words.fitted import BESIDE, FitWords, StackWords, goes_by_letters, least_gap
 from packwork.uses.words.graded import GradedPlaces, can_give_way
 from packwork.uses.words.grown import GrowWords
 from packwork.uses.words.repeats import REPEATED, RepeatWords
@@ -58,6 +58,9 @@ from packwork.uses.words.sizes import (
 MANY = 40
 """Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
 compared with each other. Chosen."""
+
+FEW = 6
+"""Words of one weight that are stacked in lines, at most. More make a cloud. By eye."""
 
 LEAST_SHOWN = 0.9
 """Share of a container's shape that a full cloud shows at least. Seen in clouds of running text:
@@ -96,13 +99,19 @@ class WordsUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """Sizes in proportion; where they leave the container bare, sizes that give way in turn."""
+        recording: list[RunStep] = [StartRecording()] if job.is_recorded else []
         if self.options.along is not None or self.options.ring:
-            recording = [StartRecording()] if job.is_recorded else []
             placed = self._on_curves(job)
             if self.options.ring:
                 placed = [RoundTheEdge(self.options.ring, self._on_curves)]
             found = [*recording, *self._filled(job), *self.report(job)]
             return [Replan(sizes="graded"), *placed, *found]
+        if self._stacks(job):
+            cloud = placing(job.replanned(sizes="shared"), suits_first_fit=True)
+            cloud = [Replan(sizes="shared"), *cloud]
+            lines = [Replan(sizes="free"), *recording, StackWords(cloud)]
+            placed = [BestOf([lines, cloud], best_balanced)]
+            return [*placed, *self._filled(job), *self.report(job)]
         graded = [Replan(sizes="graded"), *_closer(job, self._graded)]
         if job.plan.sizes == "graded" and (job.recipe.sizes != AUTO or can_give_way(job)):
             return graded
@@ -127,6 +136,19 @@ class WordsUse(Use):
             *reporting(job, is_dressed=True, shows_shape=shows, found=found),
             RemarkWords(),
         ]
+
+    def _stacks(self, job: Job) -> bool:
+        """Whether words are few, upright and of one weight: sizes that go by room say nothing.
+
+        At one size the longest is as wide as the container, and leaves most of that bare.
+        """
+        plan, letters = job.plan, self.letters
+        is_equal = len({word.weight for word in self.read.words}) == 1
+        is_few = 1 < len(job.items) == len(self.read.items) <= FEW
+        is_auto = job.recipe.sizes == AUTO and job.recipe.hero is None and can_give_way(job)
+        is_plain = plan.is_exact and plan.rotation.limit == 0.0 and job.container.lattice is None
+        has_bounds = letters.smallest is not None or letters.largest is not None
+        return is_equal and is_few and is_auto and is_plain and not has_bounds
 
     def _will_do(self, state: RunState) -> bool:
         """Whether words in proportion make a full cloud, or are too few to."""

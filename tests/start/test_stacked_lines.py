@@ -1,0 +1,52 @@
+"""Words one under another: inside, apart, and in the order and at the sizes that cover most."""
+
+from __future__ import annotations
+
+from itertools import permutations
+
+import numpy as np
+import pytest
+import shapely
+
+from packwork.geometry.outline import Outline
+from packwork.readers.builtin import builtin_container
+from packwork.start.stacked_lines import UNEVEN, stacked_lines
+
+SIZES = np.array([[330.0, 80], [150, 75], [200, 90], [300, 110]])
+
+
+def boxes_of(found: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    scale, middles = found
+    half = scale[:, None] * SIZES / 2
+    return np.asarray(shapely.box(*(middles - half).T, *(middles + half).T))
+
+
+@pytest.mark.parametrize("name", ["circle", "heart", "square", "bear"])
+def test_lines_lie_inside_and_apart_and_are_not_too_uneven(name: str) -> None:
+    room = builtin_container(name).outline
+    found = stacked_lines(room, SIZES, 9.0)
+    assert found is not None
+    boxes = boxes_of(found)
+    assert shapely.covers(room.region.buffer(2.0), boxes).all()
+    order = np.argsort(found[1][:, 1])
+    bounds = shapely.bounds(boxes)[order]
+    assert (bounds[1:, 1] - bounds[:-1, 3]).min() >= 9.0 - 1e-6
+    assert found[0].max() <= UNEVEN * found[0].min()
+
+
+def test_the_order_of_words_makes_no_difference_to_what_they_cover() -> None:
+    room = builtin_container("circle").outline
+    covered = []
+    for order in permutations(range(3)):
+        found = stacked_lines(room, SIZES[list(order)], 9.0)
+        assert found is not None
+        covered.append((found[0] ** 2 * SIZES[list(order)].prod(axis=1)).sum())
+    np.testing.assert_allclose(covered, covered[0], rtol=1e-9)
+
+
+def test_a_room_of_two_parts_has_lines_in_none_that_would_leave_it() -> None:
+    left, right = Outline.box(0, 0, 40, 90).region, Outline.box(60, 0, 90, 90).region
+    room = Outline.from_region(shapely.union(left, right))
+    found = stacked_lines(room, SIZES, 1.0)
+    assert found is not None
+    assert shapely.covers(left, boxes_of(found)).all()
