@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -92,6 +93,78 @@ def test_what_goes_over_the_edge_comes_in_again_is_undone_and_exported(
     waiting.value.save_as(tmp_path / "four.png")
     four = np.array(Image.open(tmp_path / "four.png"))
     assert np.array_equal(four, np.tile(four[:150, :150], (2, 2, 1)))
+
+
+def test_keys_and_a_finger_take_an_item_over_the_edge(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.settled()
+    before = np.array(desk.look(ON_TORUS))
+    number = desk.look(RIGHTMOST.replace("b[0] - a[0]", "a[0] - b[0]"))
+    width, height = desk.look("[studio.collage.scene.width, studio.collage.scene.height]")
+
+    def is_on_canvas() -> bool:
+        pose = desk.look(f"studio.collage.pose({number})")
+        at = _window(pose["x"], pose["y"])
+        is_taken = desk.look(f"(s => studio.stage.itemAt(...s))({at})") == number
+        return 0 <= pose["x"] <= width and 0 <= pose["y"] <= height and is_taken
+
+    desk.page.locator("#canvas").focus()
+    desk.look(f"studio.choice.set([{number}])")
+    was = desk.look(f"studio.collage.pose({number})")["x"]
+    for _ in range(math.ceil(was / 8)):
+        desk.page.keyboard.press("Shift+ArrowLeft")
+    desk.answered()
+    assert desk.look(f"studio.collage.pose({number})")["x"] > was
+    assert is_on_canvas()
+    desk.undo_all()
+    assert np.array(desk.look(ON_TORUS)) == pytest.approx(before, abs=1e-3)
+
+    touch = desk.page.context.new_cdp_session(desk.page)
+
+    def finger(kind: str, *at: float) -> None:
+        points = [dict(zip("xy", at, strict=True))] if at else []
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    where = desk.look(f"studio.collage.pose({number})")
+    start = desk.look(_on_window(where["x"], where["y"]))
+    end = desk.look(_on_window(where["x"] - width / 3, where["y"]))
+    finger("touchStart", *start)
+    for share in np.linspace(0.1, 1.0, 8).tolist():
+        finger("touchMove", *(np.array(start) + share * np.subtract(end, start)).tolist())
+    desk.until(f"studio.collage.hand.has({number})")
+    finger("touchEnd")
+    desk.answered()
+    assert is_on_canvas()
+    there = desk.look(f"studio.collage.pose({number})")
+    far = (there["x"] - where["x"] + width / 3) / (width / 2)
+    assert far == pytest.approx(round(far), abs=0.01)
+    desk.undo_all()
+
+
+def test_a_line_chooses_and_edges_draw_by_images_of_items(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.settled()
+    number = desk.look(RIGHTMOST)
+    where = desk.look(f"studio.collage.pose({number})")
+    width, height = desk.look("[studio.collage.scene.width, studio.collage.scene.height]")
+    # Round the image of it in the column before.
+    x, y = where["x"] - width / 2, (where["y"] - height / 2) % height
+    left, top = desk.look(_on_window(x, y))
+    desk.page.keyboard.press("q")
+    desk.page.mouse.move(left - 4, top - 4)
+    desk.page.mouse.down()
+    for corner in ((left + 4, top - 4), (left + 4, top + 4), (left - 4, top + 4)):
+        desk.page.mouse.move(*corner, steps=3)
+    desk.page.mouse.up()
+    assert desk.look("[...studio.choice.ids]") == [number]
+    boxes = desk.look(
+        "(s => { s.begin(new Set()); const found = s.others; s.end(); return found; })"
+        "(studio.stage.snapping)"
+    )
+    middles = [((a + c) / 2, (b + d) / 2) for a, b, c, d in boxes]
+    box = desk.look(f"studio.collage.bounds({number})")
+    off = ((box[0] + box[2]) / 2 - where["x"], (box[1] + box[3]) / 2 - where["y"])
+    assert any(one == pytest.approx((x + off[0], y + off[1]), abs=1e-3) for one in middles)
 
 
 ASKED_OF_ANOTHER = """(({ connection, document, panels }) => {

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from hashlib import sha256
 from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
-from packwork.live.face.offers import offered_fonts, only_file
+from packwork.live.face.offers import font_told, offered_fonts, only_file
 from packwork.live.face.opening import Opening
 from packwork.studio.files import FILES, Uploads
 from packwork.studio.view import told_of
@@ -27,6 +28,7 @@ class Importer:
 
     def __init__(self, workspace: Workspace, uploads: Uploads) -> None:
         self._workspace, self._uploads = workspace, uploads
+        self._fonts: dict[bytes, str] = {}
 
     def read(self, job: Callable[[], object], what: str = "Reading") -> None:
         """Have something read; what is refused names no folder of ours."""
@@ -74,12 +76,27 @@ class Importer:
         return asked if asked.startswith(TEXT) else self.source(asked)
 
     def font(self, asked: str | None) -> str | None:
-        """A font, of an installed family or a file."""
+        """A font, of an installed family, a file, or the words on the desk."""
         if asked is None or asked in offered_fonts():
             return asked
         if asked.startswith(FILES):
             return self.file(asked)
-        raise ReadError(asked[:40], "is neither an installed font nor a file that was sent")
+        return self._font_of_words(asked)
+
+    def _font_of_words(self, asked: str) -> str:
+        """File of a font that words on the desk have, by the name that pages are told."""
+        owner = self._workspace.owner
+        items = () if owner is None else owner.frame.document.items
+        runs = (run for item in items if item.text is not None for run in item.text.runs)
+        font = next((run.font for run in runs if font_told(run.font) == asked), None)
+        if font is None or font.index:
+            raise ReadError(asked[:40], "is neither an installed font nor a file that was sent")
+        key = sha256(font.data).digest()
+        if key not in self._fonts:
+            batch = self._uploads.new_batch()
+            self._uploads.add(batch, asked, font.data)
+            self._fonts[key] = self.file(batch)
+        return self._fonts[key]
 
     def without_folder(self, text: str) -> str:
         """A line without the folder that nobody knows."""

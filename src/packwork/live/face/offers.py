@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, TypeAlias, get_args
@@ -30,6 +30,8 @@ from packwork.readers.builtin import (
 from packwork.readers.container import part_names, read_container, read_parts
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
+from packwork.readers.photo_options import PhotoOptions
+from packwork.readers.photos import read_photo
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
 from packwork.readers.tables.table import read_table
 from packwork.readers.target import kept_picture, picture_colours
@@ -129,10 +131,27 @@ def _container(name: str) -> dict[str, Any]:
 
 
 def items_of(sources: Sequence[str], *, has_parts: bool = False) -> ItemsRead:
-    """Items of bundled names and of folders of files; of a nest they are drawings for a machine."""
+    """Items of bundled names and of folders of files; of a nest they are drawings for a machine.
+
+    Pictures that are opaque to their edges are photographs, which can be cropped.
+    """
     if has_parts:
         return read_items(sources, holes="keep", engraving=Engraving())
-    return read_items(sources)
+    found = read_items(sources)
+    return replace(found, items=tuple(map(_photographed, found.items)))
+
+
+def _photographed(item: Item) -> Item:
+    """A picture of a file that fills its rectangle as a photograph; others as they are."""
+    left, top, right, bottom = item.ink.bounds
+    fills = item.ink.area > WHOLE * (right - left) * (bottom - top)
+    if not isinstance(item.art, PictureArt) or not fills or not Path(item.source).is_file():
+        return item
+    return read_photo(item.source, PhotoOptions(sources=(item.source,)))
+
+
+WHOLE = 0.999
+"""Share of its rectangle from which a picture fills it. Larger misses soft edges of scans."""
 
 
 MOST_SHOWN = 4

@@ -21,8 +21,8 @@ export class FontField {
     /** Name of the font that words have now. */
     this.seen = "";
     this.field = h("select", { "aria-label": label, onchange: () => this.changed() }, option(BUNDLED, "Inter Display, bundled"), option(OWN, "A font file …"));
-    /** Stands for a font that words have and nobody can ask for. */
-    this.other = h("option", { value: "other", disabled: "" });
+    /** Stands for a font that words have by a file, which the studio takes from them. */
+    this.other = h("option", {});
     this.element = h("label", { class: "row" }, label, this.field);
   }
 
@@ -41,10 +41,10 @@ export class FontField {
     this.other.remove();
     const isOffered = [...this.field.options].some((one) => one.value === known);
     // The bundled font by name has no other for letters that it lacks.
-    this.value = !isOffered || (known === BUNDLED && this.value !== BUNDLED) ? null : known;
-    this.other.textContent = name;
+    this.value = known === BUNDLED && this.value !== BUNDLED ? null : known;
+    this.other.value = this.other.textContent = name;
     if (!isOffered) this.field.prepend(this.other);
-    this.field.value = isOffered ? known : this.other.value;
+    this.field.value = known;
   }
 
   /** What was chosen last is not to be had. */

@@ -220,10 +220,7 @@ export class Gestures {
     const [a, b] = [this.view.toCanvas(xs[0], ys[0]), this.view.toCanvas(xs[1], ys[1])];
     doing.before ??= [...this.choice.ids];
     const { collage } = this.stage;
-    const inside = collage.items.filter((_, k) => {
-      const [x, y] = collage.shown.subarray(4 * k, 4 * k + 2);
-      return collage.tiling.shifts(k).some(([dx, dy]) => x + dx >= a.x && x + dx <= b.x && y + dy >= a.y && y + dy <= b.y);
-    });
+    const inside = collage.items.filter((_, k) => collage.tiling.places(k).some(([x, y]) => x >= a.x && x <= b.x && y >= a.y && y <= b.y));
     this.choice.set([...(doing.adds ? doing.before : []), ...inside.map((item) => item.id)]);
   }
 

@@ -37,7 +37,7 @@ export class Lasso {
     }
     stage.pen.resetTransform();
     const path = new Path2D(pathOf([this.line]));
-    const held = collage.items.filter((_, k) => stage.pen.isPointInPath(path, collage.shown[4 * k], collage.shown[4 * k + 1], "nonzero"));
+    const held = collage.items.filter((_, k) => collage.tiling.places(k).some(([x, y]) => stage.pen.isPointInPath(path, x, y, "nonzero")));
     choice.isBusy = true;
     choice.set([...this.base, ...held.map((item) => item.id)]);
   }

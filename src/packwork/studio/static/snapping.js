@@ -30,10 +30,13 @@ export class Snapping {
   /** Begin to drag items: the lines are those of how all lie now. @param {Set<number>} ids */
   begin(ids) {
     const { collage } = this;
-    const boxes = collage.items.map((item) => ({ id: item.id, box: collage.bounds(item.id) }));
-    const dragged = boxes.filter(({ id }) => ids.has(id)).map(({ box }) => box);
+    const dragged = [...ids].filter((id) => collage.rows.has(id)).map((id) => collage.bounds(id));
     this.box = dragged.length ? dragged.reduce((a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])]) : null;
-    this.others = boxes.filter(({ id }) => !ids.has(id)).map(({ box }) => box);
+    this.others = collage.items.flatMap(({ id }, k) => {
+      if (ids.has(id)) return [];
+      const [left, top, right, bottom] = collage.bounds(id);
+      return collage.tiling.shifts(k).map(([x, y]) => /** @type {Box} */ ([left + x, top + y, right + x, bottom + y]));
+    });
     this.room = /** @type {Box} */ (boundsOf(ringsOf(collage.scene?.outline ?? "")));
   }
 

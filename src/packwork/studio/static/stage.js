@@ -23,7 +23,9 @@ const LONG = 6000;
 const FAINT = 0.3;
 /** Half a handle of the smallest items, px. */
 const LEAST_HALF = 2.5;
-/** Width over height from which an item may be letters: its pin is at its left end, where it covers none. */
+/** Radius of a pin, px. */
+const PIN = 9;
+/** Width over height from which an item may be letters: its pin is before its left end, where it covers none. */
 const WORDLIKE = 1.5;
 
 export class Stage {
@@ -372,10 +374,15 @@ export class Stage {
     const [width, height] = this.collage.look(item).size;
     const [top, , , bottom] = this.collage.corners(id);
     const isRead = item.is_word || width > WORDLIKE * height;
-    const { x, y } = isRead ? this.view.toScreen((top[0] + bottom[0]) / 2, (top[1] + bottom[1]) / 2) : this.view.toScreen(pose.x, pose.y);
+    const middle = this.view.toScreen(pose.x, pose.y);
+    const end = isRead ? this.view.toScreen((top[0] + bottom[0]) / 2, (top[1] + bottom[1]) / 2) : middle;
+    const [across, down] = [end.x - middle.x, end.y - middle.y];
+    // Before the first letter, and not on it.
+    const out = PIN / Math.max(Math.hypot(across, down), 1);
+    const [x, y] = [end.x + out * across, end.y + out * down];
     this.toWindow();
     pen.beginPath();
-    pen.arc(x, y, 9, 0, 2 * Math.PI);
+    pen.arc(x, y, PIN, 0, 2 * Math.PI);
     pen.fillStyle = colours.pin;
     pen.fill();
     pen.strokeStyle = colours.onPin;

@@ -58,6 +58,12 @@ export class Tiling {
     return found;
   }
 
+  /** Places where the item of a row is seen, canvas units. @param {number} k @returns {Shift[]} */
+  places(k) {
+    const [x, y] = this.collage.shown.subarray(4 * k, 4 * k + 2);
+    return this.shifts(k).map(([dx, dy]) => [x + dx, y + dy]);
+  }
+
   /**
    * Translation that brings a point to the image of it that is nearest to another one.
    * @param {number} x from one to the other
