@@ -96,6 +96,17 @@ def test_many_discs_of_mixed_sizes_cover_what_jammed_ones_of_fixed_places_cannot
 
 
 @compiled
+def test_discs_on_small_islands_hold_no_others_back() -> None:
+    """Random places put several onto some islands that have room for one, or for none."""
+    islands = [shapely.box(110, 8 * row, 110 + 0.6 * row, 8 * row + 4) for row in range(1, 12)]
+    container = Outline.of(shapely.MultiPolygon([shapely.box(0, 0, 100, 100), *islands]))
+    radii = sizes(150)
+    for seed in range(4):
+        found = packed(container, radii, 0.4, seed)
+        assert math.pi * np.square(found.scale * radii).sum() > 0.68 * container.area
+
+
+@compiled
 def test_large_discs_are_strewn_among_small_ones() -> None:
     radii = np.sort(sizes(800))
     found = packed(Outline.box(0, 0, 100, 100), radii)
@@ -158,7 +169,7 @@ def test_distances_of_the_edge_are_exact(name: str) -> None:
         here = shapely.Point(point)
         far = container.region.boundary.distance(here)
         expected = far if container.region.contains(here) else -far
-        scale = kernels.largest_scale(point[None], np.ones(1), 0.0, 0.0, wall, 200.0)
+        scale = kernels.clear_scales(point[None], np.ones(1), 0.0, 0.0, wall, 200.0)[0]
         assert scale == pytest.approx(expected, abs=1e-9)
 
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from scipy.spatial import cKDTree
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
@@ -70,6 +71,10 @@ room for the larger ones. Chosen."""
 OFF_EDGE, LATTICES = 0.45, 16
 """Distance of a lattice's places from the edge, over that of two, and halvings of the range of the
 latter. Larger leaves the rim empty, smaller presses discs into it. Tried."""
+
+TRAPPED, CROWD, NEAR = 0.9, 4.0, 6
+"""Share of the scale at which discs jam below which one is trapped, least distance of those that
+are freed at once, mean radii, and discs whose distance tells how wide a void is. Tried."""
 
 HURRIED = 0.8
 """Share of its scale that a layout keeps whose descent is cut short. Larger leaves overlaps, by
@@ -253,6 +258,8 @@ class DiscSearch:
                 return
             self._scale = self._jammed * (1 + float(excess))
             self._relax(STEPS, every)
+            if not self._are_alike:
+                self._free_trapped()
 
     def _relax(self, steps: int, every: int) -> None:
         """Some steps of the descent, and the scale at which discs jam by what is left."""
@@ -287,9 +294,36 @@ class DiscSearch:
         return best
 
     def _clear_scale(self) -> float:
-        own = self._radii[self._owners]
-        return float(
-            kernels.largest_scale(
-                self._discs, own, self._margin, self._margin, self._wall, self._scale
-            )
+        return float(self._clear_scales().min())
+
+    def _clear_scales(self) -> FloatArray:
+        """``(n,)`` scales up to which each place keeps clear of all others and of the edge."""
+        own, margin = self._radii[self._owners], self._margin
+        scales: FloatArray = kernels.clear_scales(
+            self._discs, own, margin, margin, self._wall, self._scale
         )
+        return scales
+
+    def _free_trapped(self) -> None:
+        """Put discs into voids that are held back on an island or a spit where too many began.
+
+        None can leave it, and all others would have to be as small as they are. Those that are
+        alike begin where there is room.
+        """
+        scales = self._clear_scales()
+        trapped = np.flatnonzero(scales < TRAPPED * self._jammed)
+        if not len(trapped):
+            return
+        usual = self._scale * float(self._radii.mean())
+        left = np.empty((0, 2))
+        # Once one of a crowd has left it, the next round tells whether the others have room.
+        for disc in trapped[np.argsort(scales[trapped], kind="stable")]:
+            if not np.any(np.hypot(*(left - self._discs[disc]).T) < CROWD * usual):
+                left = np.append(left, self._discs[disc, None], axis=0)
+                scales[disc] = 0.0
+        places = self._scattered()
+        radii = self._scale * self._radii[self._owners]
+        near, which = cKDTree(self._discs).query(places, range(1, min(NEAR, len(radii)) + 1))
+        room = np.minimum((near - radii[which]).min(axis=1), edge_distances(self._wall, places))
+        widest = np.argsort(-room, kind="stable")[: len(left)]
+        self._discs[np.flatnonzero(scales == 0.0)[: len(widest)]] = places[widest]

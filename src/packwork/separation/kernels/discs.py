@@ -248,22 +248,23 @@ def excess(discs, radii, swelling, rim, wall):
 
 
 @kernel
-def largest_scale(discs, own, margin, rim, wall, scale):
-    """Largest scale at which discs keep clear of each other and of the edge.
+def clear_scales(discs, own, margin, rim, wall, scale):
+    """Largest scale at which each disc keeps clear of all others and of the edge.
 
-    ``own``: radii at scale 1; ``margin``: half the gap; ``scale``: near the one sought.
+    ``own``: radii at scale 1; ``margin``: half the gap; ``scale``: near the least of those sought.
     """
     n = own.shape[0]
     radii = scale * own + margin
     pairs, count = _listed(discs, radii, radii.mean(), np.empty((12 * n + 16, 2), np.int64))
     # Pairs that are not listed allow more than that.
-    found = scale * (1.0 + radii.mean() / (2.0 * radii.max()))
+    found = np.full(n, scale * (1.0 + radii.mean() / (2.0 * radii.max())))
     for i in range(n):
         least = margin + rim
-        far = edge_distance(wall, discs[i, 0], discs[i, 1], found * own[i] + least)
-        found = min(found, (far - least) / own[i])
+        far = edge_distance(wall, discs[i, 0], discs[i, 1], found[i] * own[i] + least)
+        found[i] = min(found[i], (far - least) / own[i])
     for p in range(count):
         i, j = pairs[p, 0], pairs[p, 1]
         far = math.hypot(discs[i, 0] - discs[j, 0], discs[i, 1] - discs[j, 1])
-        found = min(found, (far - 2.0 * margin) / (own[i] + own[j]))
+        apart = (far - 2.0 * margin) / (own[i] + own[j])
+        found[i], found[j] = min(found[i], apart), min(found[j], apart)
     return found
