@@ -23,7 +23,7 @@ from packwork.solve.solver import Ending
 from packwork.writers import geojson_text, json_bytes
 from scenes import disc, flat_item, overlap_area, square, square_container
 
-QUICK = {"container": "circle", "epochs": 25, "levels": "32,64"}
+QUICK = {"container": "circle", "epochs": 25, "levels": "32,64", "effort": "draft"}
 
 
 def run(**options: Any) -> pipeline.Run:

@@ -14,7 +14,7 @@ from typer.testing import Result
 
 Command = Callable[..., Result]
 
-QUICK = "--epochs 3 --levels 16,32"
+QUICK = "--epochs 3 --levels 16,32 --effort draft"
 TILE = '<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>'
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-QUICK = "--levels 16 --epochs 2"
+QUICK = "--levels 16 --epochs 2 --effort draft"
 DOT = '<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="3"/></svg>'
 CURVE = '<svg viewBox="0 0 9 9"><path d="M1 1L8 8" fill="none" stroke="#000"/></svg>'
 

@@ -12,7 +12,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.palette import PALETTES
 from packwork.writers import recipe_bytes
 
-QUICK = "--levels 32 --epochs 6"
+QUICK = "--levels 32 --epochs 6 --effort draft"
 
 
 def items_of(path: Path) -> list[object]:

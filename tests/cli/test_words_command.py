@@ -11,7 +11,7 @@ from typer.testing import Result
 
 Command = Callable[..., Result]
 
-QUICK = "--epochs 10 --levels 50 -q"
+QUICK = "--epochs 10 --levels 50 --effort draft -q"
 TEXT = "The bear likes honey. A bear and a bee make honey, and the bear eats honey in the wood."
 
 

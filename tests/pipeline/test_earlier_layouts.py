@@ -14,7 +14,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.recipe import make_recipe
 from packwork.writers import write
 
-QUICK = {"container": "circle", "epochs": 25, "levels": "32,64"}
+QUICK = {"container": "circle", "epochs": 25, "levels": "32,64", "effort": "draft"}
 
 
 def run(**options: Any) -> pipeline.Run:

@@ -25,7 +25,9 @@ from packwork.steps.appearance import beside, same_kind_beside
 from packwork.steps.place import Setting
 from scenes import disc, flat_item, square, square_container
 
-QUICK = {"container": "square", "epochs": 60, "levels": "40,120", "seed": 4}
+QUICK = {
+    "container": "square", "epochs": 60, "levels": "40,120", "seed": 4, "effort": "draft",
+}  # fmt: skip
 NAMES = ["star", "circle", "heart"]
 
 

@@ -15,7 +15,7 @@ from packwork.writers.film.options import FilmOptions
 
 BEFORE = {"owl": 40.0, "fox": 28.0, "bear": 23.0, "wolf": 20.0}
 AFTER = {"owl": 30.0, "fox": 28.0, "wolf": 20.0, "lynx": 26.0}
-QUICK = {"epochs": 60, "levels": "50,150", "seed": 3}
+QUICK = {"epochs": 60, "levels": "50,150", "seed": 3, "effort": "draft"}
 
 
 @pytest.fixture(scope="module")

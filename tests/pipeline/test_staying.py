@@ -13,7 +13,7 @@ from packwork.pipeline.registration import matched
 
 NAMES = ["owl", "fox", "bear", "wolf", "hare"]
 WEIGHTS = {name: 40.0 / (k + 1) ** 0.5 for k, name in enumerate(NAMES)}
-QUICK = {"epochs": 60, "levels": "50,150", "seed": 3}
+QUICK = {"epochs": 60, "levels": "50,150", "seed": 3, "effort": "draft"}
 
 
 @pytest.fixture(scope="module")

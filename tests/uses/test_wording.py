@@ -25,7 +25,7 @@ from packwork.uses import fill, words_recipe
 from packwork.uses.words.copies import BOX_OVER_INK
 from packwork.writers.recipe import recipe_bytes
 
-QUICK = {"levels": "50", "epochs": 20}
+QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
 WEIGHTS = {"honey": 3.0, "bear": 2.0, "bee": 1.5, "fox": 1.0}
 
 
