@@ -1,27 +1,28 @@
-"""Paths of PDFs lie where those of the SVG that they were made of do, whatever is asked for."""
+"""PDFs are held against the SVG that they were made of, from their own text."""
 
 from __future__ import annotations
 
 import io
+import json
 from collections.abc import Callable
 from pathlib import Path
 
 import pikepdf
 import pytest
 from PIL import Image, ImageDraw
+from typer.testing import CliRunner
 
 import packwork as pw
 from made_profiles import press_profile
+from packwork.cli import app
 from packwork.cli.running import on_trust_in
+from packwork.readers.layouts.pdf import printed_page
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
 from packwork.scene.item import Item
-from packwork.units import convert
 from packwork.verify.text import faults_in_file
-from packwork.writers.prepress.sheet import bleed_pt
-from packwork.writers.registry import encoded, pdf_drawing, write_options
-from pdf_agreement import off_drawing
-from pdf_paint import printed_page
+from packwork.writers import pdf, registry
+from packwork.writers.registry import encoded, write_options
 
 Step = tuple[list[object], str]
 QUICK = {"effort": "draft", "levels": "24", "epochs": 6, "seed": 1}
@@ -56,12 +57,7 @@ def layout() -> pw.Layout:
 def faults(layout: pw.Layout, data: bytes | None = None, **asked: object) -> tuple[str, ...]:
     options = write_options(**asked)
     written = encoded(layout, "a.pdf", options) if data is None else data
-    bleed = options.printing.bleed
-    beyond_px = 0.0 if bleed is None else convert(bleed_pt(bleed, layout.container), "pt", "px")
-    return (
-        *faults_in_file(written, "a.pdf", layout, options),
-        *off_drawing(written, pdf_drawing(layout, options).encode(), beyond_px),
-    )
+    return faults_in_file(written, "a.pdf", layout, options)
 
 
 def changed(data: bytes, change: Callable[[list[Step]], None]) -> bytes:
@@ -176,7 +172,10 @@ def test_a_page_of_another_size_does_not(layout: pw.Layout) -> None:
     assert fault.startswith("its page is 601.333333 x 600 px instead of 600 x")
 
 
-def test_letters_are_no_paint_of_ours(layout: pw.Layout) -> None:
+def test_what_is_no_pdf_of_ours_is_said_in_a_line(layout: pw.Layout) -> None:
+    (fault,) = faults(layout, b"%PDF-")
+    assert fault.startswith("what is written cannot be read back: it is no PDF")
+    assert "\n" not in fault
     text = changed(
         encoded(layout, "a.pdf"), lambda steps: steps.append(([pikepdf.String("a")], "Tj"))
     )
@@ -184,12 +183,24 @@ def test_letters_are_no_paint_of_ours(layout: pw.Layout) -> None:
         printed_page(text)
 
 
-def test_what_is_not_measured_is_named(tmp_path: Path) -> None:
+def test_what_is_not_compared_is_named(tmp_path: Path) -> None:
     layout = pw.fill("circle", [drawing(MASKED), drawing(MARKED)], count=4, **QUICK)
     data = encoded(layout, "a.pdf")
-    beyond = {"mask", "marker"}
-    text = pdf_drawing(layout).encode()
-    assert off_drawing(data, text, beyond=beyond) == ()
+    assert faults(layout, data) == ()
     drawn = [(tmp_path / "a.pdf", data), (tmp_path / "a.svg", b"")]
     assert on_trust_in(drawn, layout) == ["a.pdf: what markers and masks paint is taken on trust"]
-    assert off_drawing(changed(data, displaced_item), text, beyond=beyond)
+    assert faults(layout, changed(data, displaced_item))
+
+
+def test_a_run_is_certified_if_its_pdf_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = ["-o", str(tmp_path / "a.pdf"), "--report", str(tmp_path / "a.json")]
+    line = ["fill", "circle", "star", "-n", "4", "--effort", "draft", "--levels", "24", *files]
+    done = CliRunner().invoke(app, line, catch_exceptions=False)
+    assert (done.exit_code, "\ncertified" in done.output) == (0, True)
+    monkeypatch.setattr(
+        registry, "pdf_bytes", lambda *given: changed(pdf.pdf_bytes(*given), displaced_item)
+    )
+    done = CliRunner().invoke(app, line, catch_exceptions=False)
+    assert (done.exit_code, "\ncertified" in done.output) == (1, False)
+    assert "a.pdf: it lacks 1 shape that was measured, and has 1 path that was not" in done.output
+    assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["certified"] is False

@@ -22,17 +22,16 @@ from made_profiles import press_profile
 from packwork.geometry.curves import Curve
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts, open_fonts
-from packwork.readers.reading import UnfitError
 from packwork.readers.words.items import bent_word, word_item
 from packwork.readers.words.options import Word
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.verify.preflight import preflight_of
-from packwork.writers import encoded, pdf_drawing, pdf_unseen_text, write_options
+from packwork.verify.text import faults_in_file
+from packwork.writers import encoded, pdf_unseen_text, write_options
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.svg import SvgOptions
-from pdf_agreement import off_drawing
 from printed import pdf_pixels
 
 FONTS = Path(__file__).parents[1] / "readers" / "fonts"
@@ -206,16 +205,15 @@ def test_what_is_written_is_held_against_the_layout() -> None:
     options = write_options(text="live")
     pdf = encoded(layout, "a.pdf", options)
     assert by_pdfium(pdf)[-1] == "TOP"
-    drawing = pdf_drawing(layout, options).encode()
-    assert off_drawing(pdf, drawing) == ()
+    assert faults_in_file(pdf, "a.pdf", layout, options) == ()
     with pikepdf.open(io.BytesIO(pdf)) as changed:
         changed.pages[0].contents_coalesce()
         content = changed.pages[0].Contents
         content.write(content.read_bytes().replace(b" 3 Tr", b" 0 Tr"))
         written = io.BytesIO()
         changed.save(written)
-    with pytest.raises(UnfitError, match="paints by TJ"):
-        off_drawing(written.getvalue(), drawing)
+    (fault,) = faults_in_file(written.getvalue(), "a.pdf", layout, options)
+    assert "paints by TJ" in fault
 
 
 def test_a_word_without_extent_is_left_out(placed: MakeLayout) -> None:

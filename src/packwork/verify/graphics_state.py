@@ -10,6 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.readers.layouts.pdf import matrix_of
 from packwork.verify.pdf_fonts import FontWidths
 
 NOWHERE = np.zeros((2, 2))
@@ -139,9 +140,3 @@ def scale_of(matrix: FloatArray) -> float:
 def corners(left: float, low: float, right: float, high: float) -> FloatArray:
     """``(4, 2)`` corners of a box."""
     return np.array([[left, low], [right, high], [left, high], [right, low]], dtype=np.float64)
-
-
-def matrix_of(numbers: Any) -> FloatArray:
-    """Map, 2 x 3, of the six numbers of a PDF."""
-    a, b, c, d, e, f = (float(v) for v in numbers)
-    return np.array([[a, c, e], [b, d, f]])

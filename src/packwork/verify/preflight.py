@@ -22,11 +22,12 @@ from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.phrasing import number_of
 from packwork.readers.gate.door import parse_xml
+from packwork.readers.layouts.pdf import matrix_of
 from packwork.readers.reading import UnfitError, notice, read_bytes, reading_file
 from packwork.readers.svg_syntax.coordinates import read_page
 from packwork.scene.layout import Layout
 from packwork.units import convert
-from packwork.verify.graphics_state import NOWHERE, Graphics, corners, matrix_of, scale_of
+from packwork.verify.graphics_state import NOWHERE, Graphics, corners, scale_of
 from packwork.verify.near_trim import HAIR_PT, NEAR_MM, SEEN_PT, ending_near
 from packwork.verify.pdf_fonts import MOST_WIDTHS, FontWidths
 from packwork.verify.pdf_objects import TOO_MUCH, check_size, listed, space_name

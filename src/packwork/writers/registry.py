@@ -32,6 +32,7 @@ from packwork.writers.options import DrawingOptions, HaloChoice
 from packwork.writers.pdf import drawing_text, pdf_bytes
 from packwork.writers.pictures import DPI, SPARE, with_fine_photos, with_photos_for_paper
 from packwork.writers.prepress.options import PrintOptions, spot_inks
+from packwork.writers.prepress.sheet import bleed_pt
 from packwork.writers.promise import is_nest
 from packwork.writers.svg import SvgOptions, svg_text
 
@@ -200,14 +201,16 @@ def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = Non
     return encoder(layout, (options or WriteOptions()).on_ground(layout))
 
 
-def pdf_drawing(layout: Layout, options: WriteOptions | None = None) -> str:
-    """SVG that :func:`encoded` puts on a PDF's page.
+def pdf_drawing(layout: Layout, options: WriteOptions | None = None) -> tuple[str, float]:
+    """SVG that :func:`encoded` puts on a PDF's page, and the bleed around it in points.
 
     Cut lines are among it; photos are their small copies.
     """
     options = (options or WriteOptions()).on_ground(layout)
     seen = haloed(layout, options.halo, options.svg.background)
-    return drawing_text(seen, options.svg)
+    bleed = options.printing.bleed
+    beyond = 0.0 if bleed is None else bleed_pt(bleed, layout.container)
+    return drawing_text(seen, options.svg), beyond
 
 
 def _encoder(path: str | Path, *others: str) -> Encoder:

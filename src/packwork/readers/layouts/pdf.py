@@ -22,7 +22,6 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.painted import Clip, Painted, Painting, StrokeStyle
 from packwork.readers.svg_syntax.path_data import PathBuilder, SubPath
 from packwork.units import convert
-from packwork.verify.graphics_state import matrix_of
 
 MAX_OPERATORS = 5_000_000
 """Operators of one page. Larger takes minutes to read. Chosen."""
@@ -193,3 +192,9 @@ def _paintings(name: str, state: _State) -> list[Painting]:
 
 def _painted(pieces: list[SubPath], painting: Painting, state: _State) -> Painted:
     return Painted(pieces, state.matrix, painting, None, _NOWHERE, state.clips)
+
+
+def matrix_of(numbers: Any) -> FloatArray:
+    """Map, 2 x 3, of the six numbers of a PDF."""
+    a, b, c, d, e, f = (float(v) for v in numbers)
+    return np.array([[a, c, e], [b, d, f]])

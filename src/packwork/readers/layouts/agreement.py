@@ -9,7 +9,7 @@ are farther apart than; else points of each with the other's line.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, final
@@ -20,8 +20,6 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry.overlay import buffered, intersection
 from packwork.geometry.polygon import Region, region
-from packwork.metrics.certificate import HAIR
-from packwork.phrasing import number_of
 from packwork.readers.gate.door import parse_xml
 from packwork.readers.layouts.arts import LINK
 from packwork.readers.layouts.foreign_svg import tag
@@ -32,9 +30,6 @@ from packwork.readers.svg_syntax.painted import Box, Clip, Painted, is_inside
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all
 from packwork.readers.svg_syntax.vocabulary import HREF
-from packwork.units import convert
-from packwork.writers.prepress.rim import OVERLAP_PT
-from pdf_paint import printed_page
 
 _MOST_SEGMENTS = 10_000_000
 """Segments of one layout, repeats counted. Larger takes minutes. Chosen."""
@@ -267,54 +262,3 @@ class _Part:
         half = 0.0 if self._is_filled else pen.miter_limit * float(np.linalg.norm(self._nib, 2))
         left, top, right, bottom = self.shape.bounds
         return left - half, top - half, right + half, bottom + half
-
-
-AGREEMENT = HAIR / 2
-"""How far paths of a PDF may lie from those of the SVG that it was made of, as a share of the
-canvas: half of the least gap that is certified, so that two items cannot meet."""
-
-
-def off_drawing(
-    data: bytes, drawing: bytes, bleed_px: float = 0.0, beyond: Set[str] = frozenset()
-) -> tuple[str, ...]:
-    """Paint of a PDF that the SVG that it was made of lacks, a sentence or none.
-
-    ``beyond``: elements that become no paths of the PDF, or others.
-    """
-    page, drawn = shapes_of_svg(drawing)
-    printed = printed_page(data)
-    tolerance = AGREEMENT * max(page.width, page.height)
-    if max(abs(page.width - printed.width), abs(page.height - printed.height)) > tolerance:
-        return (
-            f"its page is {printed.width:.9g} x {printed.height:.9g} px instead of "
-            f"{page.width:.9g} x {page.height:.9g}",
-        )
-    shapes = printed.shapes
-    if bleed_px and shapes and _is_beyond(shapes[0], page, bleed_px):
-        # The background of the whole sheet lies behind all.
-        shapes = shapes[1:]
-    drawn, shapes = ([one for one in all_ if not _is_off(one, page)] for all_ in (drawn, shapes))
-    found = differences(drawn, shapes, tolerance)
-    is_known = bool({"filter", "marker"} & beyond) or not found.strange
-    if is_known and not found.missing:
-        return ()
-    missing = number_of(len(found.missing), "shape that was", "shapes that were")
-    strange = number_of(len(found.strange), "path that was", "paths that were")
-    return (f"it lacks {missing} measured, and has {strange} not",)
-
-
-def _is_beyond(shape: Painted, page: Page, bleed_px: float) -> bool:
-    """Whether a shape covers the sheet and more on each side."""
-    left, top, right, bottom = shape.bounds
-    least = bleed_px / 2
-    return max(left, top) < -least and right > page.width + least and bottom > page.height + least
-
-
-def _is_off(shape: Painted, page: Page) -> bool:
-    """Whether a shape is seen beyond the sheet alone: marks, and art mirrored in the bleed."""
-    slack = convert(2 * OVERLAP_PT, "pt", "px")
-    boxes = (shape.bounds, *(one.bounds for clip in shape.clips for one in clip.shapes[:1]))
-    return any(
-        max(left - page.width, top - page.height, -right, -low) >= -slack
-        for left, top, right, low in boxes
-    )
