@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import gzip
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -376,6 +377,15 @@ def test_too_few_items_for_a_picture_are_told_of(checks: str, seed: int) -> None
 
 def test_enough_items_for_a_picture_are_not_told_of(many: Run) -> None:
     assert "the picture shows to" not in " ".join(many.advice)
+
+
+def test_what_a_picture_loses_is_told_with_the_number_that_would_show_it(many: Run) -> None:
+    [told] = [one for one in many.remarks if "can show the picture" in one]
+    found = re.fullmatch(r"300 items can show the picture to (\d+) %; -n (\d+) to (\d+) %", told)
+    assert found
+    shown, more, then = map(int, found.groups())
+    assert shown < then <= 100
+    assert more > 300
 
 
 def test_shuffled_items_are_like_no_picture(checks: str, many: Run) -> None:

@@ -30,6 +30,10 @@ from packwork.scene.layout import Layout
 DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
 """Endings of files that people look at."""
 
+LARGE_FILM = 3_000_000
+"""Bytes of a film from which a smaller format is named. Larger are slow in a page or a mail; a GIF
+of 60 icons has 12 MB, its MP4 2. Chosen."""
+
 
 def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoReturn:
     """Run and write what a command line asks for, and leave with the exit code of that.
@@ -85,7 +89,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         results = run.report(time.perf_counter() - began, START_UP.told())
         if is_looked_at := not was_cut_short and (outputs.report is not None or not quiet):
             # Looks at pictures of all items, for which nobody waits who wants it to end.
-            results["advice"] += _hard_to_see(run, outputs)
+            results["advice"] += _hard_to_see(run, outputs) + large_films(films)
         results["advice"] += pipeline.coarse_photos(
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
         )
@@ -186,6 +190,22 @@ def _filmed(
         interrupt.pressed = True
         say("stopped by Ctrl-C: no film was written")
         return []
+
+
+def large_films(films: Sequence[tuple[Path, bytes]]) -> list[str]:
+    """Advice on films of many bytes, whose formats keep each picture whole.
+
+    Examples
+    --------
+    >>> large_films([(Path("way.gif"), bytes(8_000_000)), (Path("way.mp4"), bytes(8_000_000))])
+    ['way.gif has 8 MB: way.svg or way.mp4 would have a fraction, a smaller --film-pixels less']
+    """
+    return [
+        f"{path.name} has {len(data) / 1e6:.0f} MB: {path.stem}.svg or {path.stem}.mp4 would have "
+        "a fraction, a smaller --film-pixels less"
+        for path, data in films
+        if len(data) > LARGE_FILM and path.suffix.lower() in {".gif", ".webp"}
+    ]
 
 
 def _drawn(

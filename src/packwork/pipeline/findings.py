@@ -95,6 +95,7 @@ class Sentence(Enum):
     )
     FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
+    SHOWN_TO = Told.REMARK, "{tiles} can show the picture to {percent:.0f} %{then}"
     COUNT = Told.REMARK, "auto chose {many}"
     TINTED = (
         Told.REMARK,

@@ -224,6 +224,9 @@ SHOWN = 0.84
 """Structural similarity of a picture and the means in its cells from which it is recognised. Larger
 asks for more tiles than it takes, smaller passes faces that nobody knows. By eye: decision 0053."""
 
+FINE = 0.95
+"""The same from which nothing is lost that is seen. Larger asks for thousands of tiles. By eye."""
+
 COUNTS = (100, 200, 300, 500, 700, 1_000, 1_500, 2_000, 3_000, 5_000, 7_000, 10_000)
 """Numbers of items that are named. Chosen."""
 
@@ -286,6 +289,20 @@ def too_fine(target: TargetPicture, container: Container, count: int, what: str)
     more = (f"-n {n}" for n in COUNTS if n > count and shows(n))
     values = {"tiles": number_of(count, what), "remedy": next(more, "a plainer picture")}
     return Finding(Sentence.FEW_TILES, values)
+
+
+def shown_by(target: TargetPicture, container: Container, count: int, what: str) -> Finding:
+    """Remark on how alike a picture is in so many squares, and the number that loses nothing."""
+    area = container.outline.area
+
+    def alike(count: int) -> float:
+        return max(structure_in_squares(target, float(np.sqrt(area / count))), 0.0)
+
+    now, more = alike(count), [n for n in COUNTS if n > count]
+    finer = next((n for n in more if alike(n) >= FINE), max(more, default=0)) * (now < FINE)
+    then = f"; -n {finer} to {100 * alike(finer):.0f} %" if finer else ""
+    values = {"tiles": number_of(count, what), "percent": 100 * now, "then": then}
+    return Finding(Sentence.SHOWN_TO, values)
 
 
 def correlation_with(layout: Layout, target: TargetPicture) -> float:
@@ -374,6 +391,8 @@ class ShowPicture(RunStep):
         with state.job.clock.time("measure"):
             job = state.job
             layout = in_picture(layout, self._target, job.tints, job.recipe.ground)
-        hidden = self._judge(state.job, self._target, layout)
-        found = state.findings if hidden is None else (*state.findings, hidden)
-        return replace(state, layout=layout, findings=found)
+        found = self._judge(job, self._target, layout)
+        if found is None and layout.items:
+            found = shown_by(self._target, layout.container, len(layout.items), "item")
+        findings = state.findings if found is None else (*state.findings, found)
+        return replace(state, layout=layout, findings=findings)
