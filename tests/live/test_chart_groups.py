@@ -74,6 +74,7 @@ def test_a_mark_that_is_dragged_into_another_group_goes_back(chart: pw.Layout) -
     session.settle()
     assert session.is_certified
     assert any("taken back, for Vietnam belongs to Asia" in one for one in session.advice)
+    assert any("not at" in one and "Vietnam belongs to Asia" in one for one in session.unmet)
     assert np.array_equal(session.document.poses.x, there.x)
     session.do("move", item=6, x=float(there.x[6]) + 5, y=float(there.y[6]))
     session.settle()
@@ -175,7 +176,7 @@ def test_marks_on_a_map_stay_in_their_regions(tmp_path: Path) -> None:
 def test_a_manifest_that_says_wrong_numbers_of_parts_is_not_heeded(
     chart: pw.Layout, parts: object
 ) -> None:
-    session = pw.Session(replace(chart, manifest={**chart.manifest, "group_parts": parts}))
+    session = replace(chart, manifest={**chart.manifest, "group_parts": parts}).edit()
     there = session.document.poses
     session.do("move", item=6, x=float(there.x[4]), y=float(there.y[4]) + 40)
     session.finish()

@@ -10,6 +10,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from packwork.live.chart_groups import stray
 from packwork.live.commands.aligning import LineUp
 from packwork.live.commands.command import Command
 from packwork.live.commands.items import Replace
@@ -227,7 +228,12 @@ class _Request:
 
 def _miss_of_place(document: Document, k: int, x: float, y: float) -> str | None:
     found = _elsewhere(document, k, x, y, NEAR)
-    return found and f"{found}: there is no room for it"
+    if not found:
+        return None
+    row = np.array([k])
+    asked = replace(document.poses.subset(row), x=np.array([x]), y=np.array([y]))
+    there = document.with_poses(document.poses.with_some(row, asked))
+    return f"{found}: {stray(document, there) or 'there is no room for it'}"
 
 
 def _miss_of_stay(document: Document, k: int, x: float, y: float) -> str | None:

@@ -33,10 +33,10 @@ from packwork.scene.item import MAX_LENGTH
 ENDINGS = (".geojson", ".json")
 
 MAX_MAP_BYTES = 50_000_000
-"""Size of a map's file: more than ``MAX_POINTS`` take. Chosen."""
+"""Size of a map's file: more than ``MAX_POINTS`` take. Derived."""
 
 MOST_BYTES = 200_000_000
-"""Size of GeoJSON that is looked at for being a map: that of a layout. Chosen."""
+"""Size of GeoJSON that is looked at for being a map: that of a layout. Derived."""
 
 MOST_REGIONS = 2_000
 """Features of a map at most: each is united with its neighbours. Chosen."""
