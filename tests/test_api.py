@@ -24,7 +24,7 @@ from packwork.cli import app
 from scenes import box, disc, flat_item, round_container, square
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "own_loss"
-QUICK: dict[str, Any] = {"epochs": 25, "levels": "32,64"}
+QUICK: dict[str, Any] = {"epochs": 25, "levels": "32,64", "effort": "draft"}
 
 
 def item_features(path: Path) -> list[Any]:

@@ -21,7 +21,7 @@ from packwork import writers
 from packwork.recipe import make_recipe
 from packwork.uses.words.recipe import words_recipe
 
-QUICK: dict[str, Any] = {"epochs": 25, "levels": "32,64"}
+QUICK: dict[str, Any] = {"epochs": 25, "levels": "32,64", "effort": "draft"}
 FORMATS = [ending for ending in writers.WRITERS if ending not in {".jpeg", ".tif"}]
 
 

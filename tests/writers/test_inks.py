@@ -168,7 +168,15 @@ def test_a_file_that_is_no_profile_of_a_press_is_refused(tmp_path: Path) -> None
 @pytest.mark.parametrize("name", ["All", "None", "Cyan"])
 def test_a_palette_names_no_reserved_ink(name: str) -> None:
     with pytest.raises(RecipeError, match=f"{name} is no spot ink"):
-        fill("page", "star", count=2, palette=f"spot:{name} #b58b2a", levels="24", epochs=4)
+        fill(
+            "page",
+            "star",
+            count=2,
+            palette=f"spot:{name} #b58b2a",
+            levels="24",
+            epochs=4,
+            effort="draft",
+        )
 
 
 @pytest.mark.parametrize(
@@ -183,7 +191,7 @@ def test_a_palette_gives_each_ink_a_colour_and_a_name_that_prints(
     palette: str | list[str], told: str
 ) -> None:
     with pytest.raises(RecipeError, match=told):
-        fill("page", "star", count=2, palette=palette, levels="24", epochs=4)
+        fill("page", "star", count=2, palette=palette, levels="24", epochs=4, effort="draft")
 
 
 @pytest.mark.parametrize("has_press", [False, True])
@@ -287,7 +295,15 @@ def test_ghostscript_separates_the_inks(coloured: Layout, press: Path, tmp_path:
 
 
 def test_a_palette_may_name_spot_inks() -> None:
-    layout = fill("page", "star", count=2, palette="spot:Gold #b58b2a,black", levels="24", epochs=4)
+    layout = fill(
+        "page",
+        "star",
+        count=2,
+        palette="spot:Gold #b58b2a,black",
+        levels="24",
+        epochs=4,
+        effort="draft",
+    )
     found = spaces_painted(encoded(layout, "a.pdf"))
     assert "/Separation /Gold" in found
     assert "/ICCBased" in found

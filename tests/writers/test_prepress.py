@@ -104,7 +104,9 @@ def test_a_margin_that_leaves_nothing_is_refused() -> None:
 
 
 def test_nothing_is_placed_in_the_margin() -> None:
-    layout = fill("page", "star", count=4, canvas="A6", margin="8mm", levels="24", epochs=4)
+    layout = fill(
+        "page", "star", count=4, canvas="A6", margin="8mm", levels="24", epochs=4, effort="draft"
+    )
     bounds = np.array([outline.bounds for outline in layout.outlines])
     assert bounds[:, :2].min() >= 8
     assert (bounds[:, 2:] <= [105 - 8, 148 - 8]).all()
