@@ -234,6 +234,14 @@ def test_articles_come_off_french_words(language: str, apostrophe: str) -> None:
     assert not [word for word in set(found) - {"aujourd'hui"} if "'" in word or "est" in word]
 
 
+@pytest.mark.parametrize("numbers", [False, True])
+def test_numbers_with_an_article_are_numbers(numbers: bool) -> None:
+    text = "Une armée d'80 hommes, l'80e ; d'11. Près d'80 chevaux"
+    found = counted(text, language="fr", include_numbers=numbers)
+    assert {"armée", "hommes", "80e", "chevaux"} <= set(found)
+    assert found.get("80", 0.0) == 2.0 * numbers
+
+
 def test_what_is_nothing_but_clitics_is_a_word_still() -> None:
     assert all(without_clitics(["d'-la", "l''l", "d''", "c'-ce-la"], ["fr", "ca", "it", "pt"]))
 

@@ -22,6 +22,7 @@ from packwork.readers.words.plurals import without_clitics, without_plurals
 from packwork.readers.words.table import MAX_BYTES, read_word_table
 from packwork.readers.words.tokens import (
     guess_language,
+    is_number,
     is_unspaced,
     matches,
     own_words,
@@ -233,7 +234,10 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         language = guess_language(counts) or "none"
     codes = [code.strip().lower() for code in language.split(",")]
     if options.regexp is None:
-        found = [without_clitics(words, codes) for words in found]
+        bare = [without_clitics(words, codes) for words in found]
+        if not options.include_numbers:
+            bare = [[word for word in words if not is_number(word)] for words in bare]
+        found = [words for words in bare if words]
     counts, written = folded(count_forms(found))
     # A capital at the beginning of a sentence tells nothing of how a word is written elsewhere.
     votes = [words[1:] if words[0].istitle() else words for words in found]

@@ -361,11 +361,12 @@ def _words(token: str, include_numbers: bool) -> Iterator[str]:
         yield from segments(word)
     elif len(word) > LONGEST or not any(map(str.isalnum, word)):
         return
-    elif include_numbers or not _is_number(word):
+    elif include_numbers or not is_number(word):
         yield word
 
 
-def _is_number(word: str) -> bool:
+def is_number(word: str) -> bool:
+    """Whether a word is of digits alone, and of hyphens between them."""
     return all(unicodedata.category(character)[0] == "N" for character in word.replace("-", ""))
 
 
