@@ -71,3 +71,24 @@ def test_keys_crop_and_escape_leaves_all_as_it_was(open_desk: Callable[..., Desk
     desk.until(f"{CROP} !== '{WHOLE}'")
     keys.press("Control+z")
     desk.until(f"{CROP} === '{WHOLE}'")
+
+
+def test_two_fingers_zoom_the_photograph_and_not_the_page(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.rested()
+    x, y = desk.place(0)
+    desk.page.mouse.dblclick(x, y)
+    zoom = desk.look("studio.view.zoom")
+    touch = desk.page.context.new_cdp_session(desk.page)
+    for kind, off in (("touchStart", 10), ("touchMove", 16), ("touchMove", 22)):
+        points = [{"x": x - off, "y": y, "id": 0}, {"x": x + off, "y": y, "id": 1}]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    desk.until("studio.cropping.now.zoom > 1.5")
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert desk.look("studio.view.zoom") == zoom
+    assert desk.look("studio.cropping.isOn")
+    desk.page.keyboard.press("Enter")
+    desk.until(f"{CROP} !== '{WHOLE}'")
+    desk.settled()
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"{CROP} === '{WHOLE}'")

@@ -35,7 +35,7 @@ export class Cropping {
     this.id = id;
     const [zoom, x, y] = crop;
     this.was = this.now = { zoom, x, y };
-    say("Dragging and arrow keys move the picture in its frame, wheel, plus and minus zoom; Enter keeps it, Escape leaves it as it was");
+    say("Dragging and arrow keys move the picture in its frame, wheel, two fingers, plus and minus zoom; Enter keeps it, Escape leaves it as it was");
     return true;
   }
 

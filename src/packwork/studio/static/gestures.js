@@ -306,6 +306,10 @@ export class Gestures {
     const at = /** @type {Point} */ (this.pointers.get(id));
     const [other] = [...this.pointers].filter(([one]) => one !== id).map(([, where]) => where);
     const [was, now] = [before, at].map((one) => Math.max(Math.hypot(one.x - other.x, one.y - other.y), 1));
+    if (this.stage.cropping?.isOn) {
+      this.stage.cropping.zoom(now / was);
+      return this.hears.changed();
+    }
     this.view.pan((at.x - before.x) / 2, (at.y - before.y) / 2);
     this.view.zoomAt(now / was, (at.x + other.x) / 2, (at.y + other.y) / 2);
   }
