@@ -234,6 +234,11 @@ def test_articles_come_off_french_words(language: str, apostrophe: str) -> None:
     assert not [word for word in set(found) - {"aujourd'hui"} if "'" in word or "est" in word]
 
 
+@pytest.mark.parametrize("names", ["Anna Mia Tom", "summer sun beach"])
+def test_one_function_word_makes_no_language_of_a_list(names: str) -> None:
+    assert set(counted("\n".join(names.split()))) == set(names.split())
+
+
 @pytest.mark.parametrize("numbers", [False, True])
 def test_numbers_with_an_article_are_numbers(numbers: bool) -> None:
     text = "Une armée d'80 hommes, l'80e ; d'11. Près d'80 chevaux"

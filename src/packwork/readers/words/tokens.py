@@ -74,11 +74,15 @@ def languages() -> tuple[str, ...]:
 def guess_language(counts: Counter[str]) -> str | None:
     """Language of a text, by the share of its words that are function words of one.
 
+    One function word alone is of no language: lists of names have some ("Mia", "sun").
+
     Examples
     --------
     >>> guess_language(Counter("der bär und die biene in dem wald".split()))
     'de'
     >>> guess_language(Counter(["bear", "honey"])) is None
+    True
+    >>> guess_language(Counter(["Tom", "mia", "Anna"])) is None
     True
     """
     total = counts.total()
@@ -86,7 +90,8 @@ def guess_language(counts: Counter[str]) -> str | None:
         return None
     shares = {code: sum(counts[word] for word in _list(code)) / total for code in languages()}
     best = max(shares, key=lambda code: (shares[code], -len(_list(code))))
-    return best if shares[best] >= LEAST_SHARE else None
+    are_several = len(counts.keys() & _list(best)) > 1
+    return best if shares[best] >= LEAST_SHARE and are_several else None
 
 
 def own_words(texts: Iterable[str]) -> frozenset[str]:
