@@ -12,6 +12,7 @@ import shapely
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.readers.layouts.read import read_written
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
 ROWS = {
@@ -65,6 +66,19 @@ def test_each_mark_lies_in_the_region_of_its_row(land: Path, padding: float | No
     assert west[:, 0].max() < bounds[:, 0].mean() < east[:, 0].min()
     assert isle[:, 1].max() < min(west[:, 1].min(), east[:, 1].min())
     assert {note.says for note in layout.notes} >= {"West", "East"}
+
+
+@pytest.mark.parametrize("ending", [".svg", ".geojson", ".packwork"])
+def test_what_is_written_is_read_again_and_rooms_are_not_drawn(
+    land: Path, tmp_path: Path, ending: str
+) -> None:
+    layout = pw.chart(land, ROWS, by="land", in_regions=True, size_by="acres", **QUICK)
+    file = tmp_path / f"chart{ending}"
+    layout.save(file)
+    again = read_written(file) if ending != ".packwork" else pw.Session.open(file).layout
+    assert again.container.outline.area == pytest.approx(layout.container.outline.area, rel=1e-4)
+    assert again.areas == pytest.approx(layout.areas, rel=1e-3)
+    assert ending == ".svg" or again.container.walls == ()
 
 
 def test_names_keep_clear_of_marks(land: Path) -> None:

@@ -216,6 +216,7 @@ class Scenes:
             version=version,
             name=container.name,
             outline=self._path(container),
+            is_lined=container.walls != (),
             width=container.width,
             height=container.height,
             unit=container.unit,

@@ -99,6 +99,8 @@ class Scene(Message):
     name: str
     outline: str
     """Of the container, path data in canvas units."""
+    is_lined: bool
+    """Whether that is drawn: on a map borders of regions are, and not the rooms of marks."""
     width: float
     height: float
     unit: str

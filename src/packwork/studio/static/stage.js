@@ -167,7 +167,7 @@ export class Stage {
     if (this.showsFaults) pen.fill(this.outline.path, "evenodd");
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.25 / this.view.zoom;
-    pen.stroke(this.outline.path);
+    if (scene.is_lined) pen.stroke(this.outline.path);
     // A sheet of paper has edges that matter.
     if (scene.unit !== "px") pen.strokeRect(left, top, width, height);
     for (const note of this.notes.get(null) ?? []) this.drawNote(note, new DOMMatrix());

@@ -56,7 +56,7 @@
  * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null), tile?: (("square" | "half-drop" | "hexagon") | null), names?: boolean}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
- * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile" | "tile" | "lines"), notes?: DrawnNote[], title?: string, palette?: string[], shades?: string, ground?: string, gradient?: string, font?: string, left_out?: any, likeness?: (number | null), halos?: string, along?: (("limbs" | "edge") | null), ring?: string[], repeat?: ([number, number, number] | null), rim?: number, under?: Underlay[]}} Scene
+ * @typedef {{type: "scene", version: number, name: string, outline: string, is_lined: boolean, width: number, height: number, unit: string, items: Thing[], options: any, angles?: (number[] | null), kind?: ("collage" | "nest" | "chart" | "pile" | "tile" | "lines"), notes?: DrawnNote[], title?: string, palette?: string[], shades?: string, ground?: string, gradient?: string, font?: string, left_out?: any, likeness?: (number | null), halos?: string, along?: (("limbs" | "edge") | null), ring?: string[], repeat?: ([number, number, number] | null), rim?: number, under?: Underlay[]}} Scene
  * @typedef {{type: "set", options: any}} Set
  * @typedef {{kind: "set_container", asset: string}} SetContainer
  * @typedef {{kind: "halos", choice: ("none" | "faint" | "all")}} SetHalos

@@ -170,7 +170,8 @@ def spread_out(
         container, frame, _ = framed(single, chart, colours, size)
         return Chart(chart, colours, frame), container
     if single is not None and regions:
-        whole = replace(single, outline=joined_rooms(_cells(regions, chart)))
+        # Borders are drawn beside the marks, rooms are not.
+        whole = replace(single, outline=joined_rooms(_cells(regions, chart)), walls=())
         container, frame, place = framed(whole, chart, colours, size)
         there = tuple(one.mapped(place) for one in regions)
         return Chart(chart, colours, frame, _cells(there, chart), single, there), container
