@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import threading
 import time
+from itertools import pairwise
 
 import pytest
 
@@ -34,6 +35,34 @@ def test_a_sender_that_is_faster_sees_a_bounded_queue_and_the_last_state(
     assert most <= 2
     assert owner.frame.document.poses.x[0] == pytest.approx(250 + 2_999 / 60)
     assert owner.frame.in_the_way == ()
+
+
+def test_between_frames_of_a_drag_the_thread_waits_for_what_comes(
+    dozen: pw.Layout, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done, wait, flow = list[str](), threading.Condition.wait, Session.flow
+
+    def waited(condition: threading.Condition, timeout: float | None = None) -> bool:
+        if threading.current_thread().name == "session":
+            done.append("wait")
+        return wait(condition, timeout)
+
+    def flowed(session: Session, milliseconds: float) -> int:
+        done.append("flow")
+        # Two epochs of many, so that it goes on.
+        return flow(session, epochs=2)
+
+    monkeypatch.setattr(threading.Condition, "wait", waited)
+    monkeypatch.setattr(Session, "flow", flowed)
+    owner = Owner(Session(Document.from_layout(dozen)))
+    owner.post(Grab(items=(0,)))
+    owner.post(Move(item=0, x=300.0, y=300.0))
+    with owner:
+        while done.count("flow") < 8:
+            time.sleep(0.005)
+        held = done[:]
+    flows = [k for k, what in enumerate(held) if what == "flow"]
+    assert all("wait" in held[k:n] for k, n in pairwise(flows))
 
 
 def test_more_than_wait_are_not_taken(dozen: pw.Layout, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,9 +27,12 @@ MOST_WAITING = 256
 MOST_REFUSED = 16
 """Refusals that are kept for the next frame at most. Chosen."""
 
-FRAME_MS = 6.0
-"""Time for the flow between two frames. Longer moves more, shorter answers faster. With 12 what a
-pointer does is seen a third later. Tried."""
+FRAME_MS = 3.0
+"""Time for the flow between two frames. Longer moves more, shorter answers faster. Tried."""
+
+PAUSE_SECONDS = 0.004
+"""How long the thread waits for commands between two frames while something is in the hand: whoever
+draws has the cores meanwhile, and what comes is done at once. Longer moves less. Tried."""
 
 SPARED = 1
 """Cores that are left to whoever draws the frames. None, on two cores: neighbours are redrawn half
@@ -247,6 +250,8 @@ class Owner:
             is_idle &= not (self._is_polishing and self._is_quiet)
             if not self._waiting and is_idle and not self._is_over:
                 self._changed.wait(IDLE_SECONDS)
+            elif not self._waiting and self._session.is_grabbed and not self._is_over:
+                self._changed.wait(PAUSE_SECONDS)
             taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
             is_over = self._is_over
         if taken:
