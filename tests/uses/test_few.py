@@ -60,6 +60,7 @@ def test_forty_icons_lie_nearly_upright_and_keep_what_was_asked_in_their_plan() 
         ({"count": MANY - 1}, 1),
         ({"count": MANY}, 0),
         ({"count": 3, "effort": "draft"}, 1),
+        ({"count": 28, "container": "page", "tile": "half-drop", "canvas": "200x200"}, 0),
         ({"count": 3, "time": 2.0}, 1),
         ({"count": 3, "target_coverage": 0.9}, 0),
         ({"count": 3, "force": "down"}, 0),
@@ -67,7 +68,7 @@ def test_forty_icons_lie_nearly_upright_and_keep_what_was_asked_in_their_plan() 
     ],
 )
 def test_what_is_asked_of_places_stays_as_it_is(options: dict[str, Any], starts: int) -> None:
-    assert len(alike_upright(read(make_recipe(container="heart", **options)))) == starts
+    assert len(alike_upright(read(make_recipe(**{"container": "heart", **options})))) == starts
 
 
 @pytest.mark.parametrize(("rotate", "ratio"), [("none", 3.0), ("180", 2.0), ("90", 3.0)])

@@ -168,10 +168,12 @@ def alike_upright(job: Job) -> list[list[RunStep]]:
     """Starts of few items, near upright and of about one size, unless asked otherwise.
 
     Each of few is looked at: one that lies on its side beside a giant looks thrown down. The more
-    there are, the more they may turn and vary. None where something is asked of where they lie.
+    there are, the more they may turn and vary. None in tiles of paper, which has no up, and where
+    something is asked of where they lie.
     """
     plan, count = job.plan, len(job.items)
-    if not 1 < count < MANY or plan.voids.fills or not may_rearrange(job):
+    is_tile = job.container.lattice is not None
+    if not 1 < count < MANY or is_tile or plan.voids.fills or not may_rearrange(job):
         return []
     away = (max(count - FEW, 0) / (MANY - FEW)) ** BEND
     near = Rotation(limit=math.radians(NEAR_UPRIGHT + away * (180 - NEAR_UPRIGHT)))
