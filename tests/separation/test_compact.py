@@ -86,3 +86,12 @@ def test_nothing_overlaps_whatever_the_parts(seed: int) -> None:
     assert x1 < 6.2
     for k, one in enumerate(found):
         assert not any(one.intersects(other) for other in found[:k])
+
+
+def test_parts_of_a_later_sheet_end_at_its_edge() -> None:
+    ground = ground_of([shapely.box(0, 0, 6, 2.2)] * 2, ([], []))
+    start = ground.bays[1].start
+    poses = np.array([[start + 4.0, 1.1, 0, 1]])
+    part = Part(region=shapely.box(-1, -1, 1, 1))
+    _, (found,) = compacted(Problem([part], ground), poses, start + 5.0)
+    assert found.bounds[0] - start == pytest.approx(0.0, abs=1e-4)

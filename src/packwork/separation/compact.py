@@ -62,7 +62,8 @@ class StripCompaction:
         far = 2.0 * length
         top = far if 1 in self.axes else problem.height
         slack = EDGE_HAIR * HAIR * self.unit
-        walls = Outline.from_region(box(-slack, -slack, far, top + slack))
+        # Parts of earlier sheets are not there: without a wall these would move over them.
+        walls = Outline.from_region(box(start - slack, -slack, far, top + slack))
         self.arrangement = Arrangement(own, walls, places)
 
     @property
