@@ -217,7 +217,7 @@ class Desk:
     def certified(self) -> None:
         """Wait until the badge says that all that was asked is done, certified."""
         self.until(
-            "studio.collage.done >= studio.connection.count && !studio.isEasing "
+            "studio.collage.done >= studio.connection.count "
             "&& document.getElementById('badge').dataset.is === 'certified'"
         )
 
