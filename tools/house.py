@@ -46,7 +46,7 @@ folder = tempfile.mkdtemp()
 os.chdir(folder)
 sys.setprofile(on_call)
 with contextlib.suppress(SystemExit):
-    app("fill heart -n 8 --effort draft --threads 1 --quiet -o a.svg".split())
+    app("fill heart -n 60 --effort draft --threads 1 --quiet -o a.svg".split())
 sys.setprofile(None)
 print(len(entered), len({{file for file, _ in entered}}))
 """

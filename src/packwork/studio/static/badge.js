@@ -51,8 +51,9 @@ export class Badge {
     this.bar.style.transform = state.progress ? `scaleX(${state.progress})` : "";
     this.stop.hidden = !state.can_stop;
     if (!state.busy && word !== this.told) say(`${this.share.textContent} ${word}`);
+    // What was in the way is no longer.
+    if (state.certified && word !== this.told && this.why.matches(":popover-open")) this.why.hidePopover();
     this.told = word;
-    if (state.certified && !this.wordOf(state).includes("·")) this.why.hidePopover?.();
   }
 
   /** @param {State} state */
