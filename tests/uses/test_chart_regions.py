@@ -81,6 +81,23 @@ def test_what_is_written_is_read_again_and_rooms_are_not_drawn(
     assert ending == ".svg" or again.container.walls == ()
 
 
+def test_a_small_full_region_is_named_and_leaves_marks_to_be_seen(tmp_path: Path) -> None:
+    """Widths of gaps and borders that suit the whole map would leave it no room."""
+    file = tmp_path / "plot.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 300">'
+        '<rect id="Field" width="590" height="300"/><rect id="Yard" x="592" width="5" height="5"/>'
+        "</svg>",
+        encoding="utf-8",
+    )
+    layout = pw.chart(
+        file, {"plot": ["Yard"] * 3 + ["Field"] * 30}, by="plot", in_regions=True, **QUICK
+    )
+    assert layout.certified
+    assert layout.areas.min() > 1.0
+    assert "Yard is the fullest: without it all marks could" in json.dumps(layout.manifest)
+
+
 def test_names_keep_clear_of_marks(land: Path) -> None:
     layout = pw.chart(land, ROWS, by="land", in_regions=True, size_by="acres", **QUICK)
     names = [note for note in layout.notes if note.says in {"West", "East", "Isle", "Bare"}]

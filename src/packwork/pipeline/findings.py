@@ -129,6 +129,10 @@ class Sentence(Enum):
         "so many {what} stand {gap:.2g} {unit} apart, not {usual:g} {unit}; "
         "another --padding is kept",
     )
+    FULLEST_PART = (
+        Told.REMARK,
+        "{part} is the fullest: without it all marks could be {factor:.2g} times as wide",
+    )
     HERO_LEADS = (
         Told.REMARK,
         "other words are smaller than their weights ask, so that {hero}, the hero, leads",

@@ -13,7 +13,7 @@ from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.recipe.verbs import VERBS
 
 
-def close_gap(job: Job, verb: Verbs, share: float) -> float:
+def close_gap(job: Job, verb: Verbs, share: float, each: float | None = None) -> float:
     """Gap, canvas units, no wider than suits so many items, if a verb's usual one was asked for.
 
     The usual one is a share of the canvas: thousands of items would be specks between gaps.
@@ -22,10 +22,14 @@ def close_gap(job: Job, verb: Verbs, share: float) -> float:
     ----------
     share
         The widest, over the side of an item's share of the container.
+    each
+        That share, canvas units squared, where items do not share the whole.
     """
     if job.recipe.padding != VERBS[verb].defaults["padding"]:
         return job.plan.gap
-    return min(job.plan.gap, share * math.sqrt(job.container.outline.area / len(job.items)))
+    if each is None:
+        each = job.container.outline.area / len(job.items)
+    return min(job.plan.gap, share * math.sqrt(each))
 
 
 @final

@@ -81,7 +81,8 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, context: RunContext)
         known[_alike(part)] = group.placed
         poses = poses.with_some(own, moved(group.placed.poses, offset))
         before = np.concatenate([before, own])
-    common = min(group.scale for group in groups)
+    common, *others = sorted(group.scale for group in groups)
+    tightest = min(groups, key=lambda group: group.scale)
     unplaced: list[Unplaced] = []
     for group in groups:
         at_scale, faults = _at_scale(group, common, context.stop)
@@ -90,7 +91,10 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, context: RunContext)
     method = groups[0].placed.method
     all_marks = np.arange(len(job.items))
     levels = [level for placed in known.values() for level in placed.levels]
-    return Grouped(poses, all_marks, job.container, method, tuple(unplaced), levels)
+    return Grouped(
+        poses, all_marks, job.container, method, tuple(unplaced), levels,
+        fullest=chart.read.group_of[tightest.own[0]], larger=(others or [common])[0] / common,
+    )  # fmt: skip
 
 
 def _filled(
@@ -182,7 +186,10 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
 
 @dataclass(frozen=True, eq=False)
 class Grouped:
-    """All groups of a chart in their places, and the container of several parts that they fill."""
+    """All groups of a chart in their places, and the container of several parts that they fill.
+
+    ``fullest``: the group that gives all their scale; ``larger``: by how much without it.
+    """
 
     poses: Poses
     kept: IntArray
@@ -190,6 +197,8 @@ class Grouped:
     method: str
     unplaced: tuple[Unplaced, ...]
     levels: list[LevelReport] = field(default_factory=list)
+    fullest: int = 0
+    larger: float = 1.0
 
 
 class GroupSteps:

@@ -142,6 +142,12 @@ class Chart:
         return bool(self.cells) and self.single is None
 
     @property
+    def least_share(self) -> float | None:
+        """Least area that a mark of a group has in its part of a map; None without parts."""
+        shared = zip(self.cells, self.members, strict=True) if self.regions else ()
+        return min((cell.room.area / len(own) for cell, own in shared if len(own)), default=None)
+
+    @property
     def members(self) -> list[IntArray]:
         """Marks of each group, in the order of the cells; empty for steps without any."""
         return [np.flatnonzero(self.read.group_of == k) for k in range(len(self.cells))]

@@ -34,6 +34,10 @@ APART = 0.003
 """Width along a border that marks keep free on either side, over the canvas' longer side. Larger
 wastes small parts, smaller lets marks of neighbours seem one group. Chosen by eye."""
 
+SLIM = 0.04
+"""The same over the side of a square as large as the part, at most: the smallest part gives all
+marks their scale, and may be a few pixels wide. Chosen by eye."""
+
 ISLAND = 0.01
 """Share of a part's area that an island of it has at least to take marks. Smaller ones have no room
 for one and cost time. Chosen."""
@@ -143,7 +147,8 @@ def _regions(
     found = []
     for key, (name, region) in parts.items():
         title, border = titles.get(key, name), Outline.from_region(region)
-        inner = buffered(region, -APART * side, join_style="mitre")
+        apart = min(APART * side, SLIM * float(np.sqrt(region.area)))
+        inner = buffered(region, -apart, join_style="mitre")
         room = shapely.MultiPolygon(large_parts(inner, ISLAND * inner.area))
         if room.area == 0:
             if key in titles:

@@ -44,6 +44,9 @@ container. Larger wastes room, smaller is not seen as a gap: some 200 marks keep
 Chosen by eye."""
 
 
+TIGHT = 1.3
+"""How much wider all marks could be without the fullest part of a map that it is told. Chosen."""
+
 EDGE = 0.006
 """Free edge about a map, over its longer side: lines along its borders are not cut. Chosen."""
 
@@ -60,14 +63,15 @@ class ChartUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """As icons, or groups one after another; discs closer together where there are so many."""
-        gap, jams = close_gap(job, Verbs.CHART, CLOSE), jams_discs(job) and not self.chart.has_bars
+        gap = close_gap(job, Verbs.CHART, CLOSE, self.chart.least_share)
+        jams = jams_discs(job) and not self.chart.has_bars
         if len(job.items) > MOST_MARKS and not jams:
             raise RecipeError(
                 "unit",
                 f"there are {len(job.items):,} marks; more than {MOST_MARKS:,} have to be circles "
                 "without bars, rules, forces or an earlier layout: use a larger unit",
             )
-        if gap >= job.plan.gap or not jams:
+        if gap >= job.plan.gap or not (jams or self.chart.regions):
             return self._listed(job)
         return [Replan(gap=gap), *self._listed(job.replanned(gap=gap)), RemarkGap("marks")]
 
@@ -145,6 +149,9 @@ class FillGroups(RunStep):
         else:
             done = fill_copies(job, chart, chart.single, context)
         kept, total = done.kept, len(job.items)
+        if chart.regions and done.larger >= TIGHT:
+            fullest = chart.cells[done.fullest].name
+            state = state.with_finding(Sentence.FULLEST_PART, part=fullest, factor=done.larger)
         if len(kept) < total:
             state = state.with_finding(Sentence.MARKS_LEFT, placed=len(kept), count=total)
         return replace(
