@@ -115,6 +115,7 @@ def test_a_drop_is_certified_exported_and_undone_before_gaps_are_closed(
         return polish(session, trials, stop) if may_end.wait(0.01) else 0
 
     monkeypatch.setattr(Session, "polish", polished)
+    monkeypatch.setattr("packwork.live.session.advice_of", lambda _: (f"after turn {len(turns)}",))
 
     async def scenario(desk: Workspace, open_page: Callable) -> None:
         page = open_page()
@@ -137,8 +138,9 @@ def test_a_drop_is_certified_exported_and_undone_before_gaps_are_closed(
         page.messages[:-1] = []
         may_end.set()
         await page.until(lambda: page.is_certified)
-        # All the while nothing is called work, or not certified.
+        # All the while nothing is called work, or not certified, and the same is said of it.
         assert all(one["certified"] and not one["busy"] for one in page.said("state"))
+        assert len({tuple(one["advice"]) for one in page.said("state")}) == 1
         assert turns
 
     play(scenario)

@@ -97,11 +97,11 @@ def test_words_are_changed_in_place_in_a_font_of_the_machine(
     assert not desk.look(
         "[...studio.words.font.field.options].some(one => /[/]/.test(one.value + one.text))"
     )
-    # A font that nobody can ask for is shown, and stands for no other.
+    # A font of a file is shown, and asked for by its name: the studio has it from the words.
     desk.look("studio.words.font.show('Own.otf')")
     assert desk.look(
         "[studio.words.font.value, studio.words.font.field.selectedOptions[0].text]"
-    ) == [None, "Own.otf"]
+    ) == ["Own.otf", "Own.otf"]
     desk.page.locator("#bar [data-do=undo]").click()
     desk.until(f"studio.collage.scene.font !== '{family}'")
     desk.settled()

@@ -97,7 +97,8 @@ class Frame:
     entangled
         Numbers of the items that are in conflict, where ``in_the_way`` is known.
     advice
-        What is poor, and what would do, where it is certified.
+        What is poor, and what would do, where it is certified; as of the last change, not of turns
+        by which coverage is won back.
     unmet
         Places and sizes that were asked for and not had, by the count of what was asked.
     is_rough
@@ -161,6 +162,7 @@ class Owner:
         self._is_touched = bool(session.marks.touched) or not session.is_at_rest
         self._failure: Exception | None = None
         self._done = self._tries = 0
+        self._advice = session.advice if session.in_the_way == () else ()
         self._asked_at = time.monotonic()
         self.posted = 0
         """How many commands, leaps and calls were taken."""
@@ -279,6 +281,8 @@ class Owner:
         self._tries += 1
         # What is in conflict after one settle is where the next one begins.
         self._is_touched = bool(found.in_the_way) and self._tries < MOST_TRIES
+        # Until the next change: turns that nobody asked for say nothing new.
+        self._advice = () if found.in_the_way else self._session.advice
         self._show(None if self._is_touched else found.in_the_way)
 
     def _polish(self) -> None:
@@ -353,7 +357,7 @@ class Owner:
             tuple(sorted({k for one in wrong for k in (one.item, one.other) if k is not None})),
             session.history.can_undo,
             session.history.can_redo,
-            session.advice if in_the_way == () else (),
+            self._advice if in_the_way == () else (),
             session.requests.unmet(session.document) if in_the_way == () else {},
             in_the_way is not None and self._is_polishing,
         )
