@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 70_719,
-    "lines of docstrings": 19_497,
-    "files": 605,
-    "functions of the road in one plain fill": 89,
+    "lines of code": 71_150,
+    "lines of docstrings": 19_650,
+    "files": 598,
+    "functions of the road in one plain fill": 90,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 780,
+    "constants chosen by hand": 787,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 
