@@ -10,7 +10,7 @@ import shapely
 
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container
-from packwork.start.stacked_lines import UNEVEN, stacked_lines
+from packwork.start.stacked_lines import stacked_lines
 
 SIZES = np.array([[330.0, 80], [150, 75], [200, 90], [300, 110]])
 
@@ -21,17 +21,29 @@ def boxes_of(found: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
     return np.asarray(shapely.box(*(middles - half).T, *(middles + half).T))
 
 
-@pytest.mark.parametrize("name", ["circle", "heart", "square", "bear"])
+@pytest.mark.parametrize("name", ["circle", "heart", "square", "bear", "star", "bird", "tree"])
 def test_lines_lie_inside_and_apart_and_are_not_too_uneven(name: str) -> None:
     room = builtin_container(name).outline
     found = stacked_lines(room, SIZES, 9.0)
-    assert found is not None
+    if found is None:
+        assert name in ("star", "bird", "tree")
+        return
     boxes = boxes_of(found)
-    assert shapely.covers(room.region.buffer(2.0), boxes).all()
+    assert shapely.covers(room.region.buffer(1e-6), boxes).all()
     order = np.argsort(found[1][:, 1])
     bounds = shapely.bounds(boxes)[order]
     assert (bounds[1:, 1] - bounds[:-1, 3]).min() >= 9.0 - 1e-6
-    assert found[0].max() <= UNEVEN * found[0].min()
+    assert found[0].max() <= 3.6 * found[0].min()
+
+
+def test_lines_keep_out_of_slits_between_the_rows_that_are_looked_at() -> None:
+    slits = [shapely.box(x, 0, x + 0.5, 600) for x in (100, 250, 400)]
+    flat = [shapely.box(0, y, 420, y + 0.2) for y in (101.7, 303.4)]
+    room = Outline.from_region(
+        shapely.difference(shapely.box(0, 0, 600, 600), shapely.union_all([*flat, *slits[:1]]))
+    )
+    found = stacked_lines(room, SIZES, 9.0)
+    assert found is None or shapely.covers(room.region.buffer(1e-6), boxes_of(found)).all()
 
 
 def test_the_order_of_words_makes_no_difference_to_what_they_cover() -> None:

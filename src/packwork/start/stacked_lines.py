@@ -10,12 +10,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
 
 ROWS = 150
 """Heights at which lines may begin. More take longer, fewer waste room. Chosen."""
@@ -23,6 +25,9 @@ ROWS = 150
 UNEVEN = 2.5
 """Scale of the largest line over that of the smallest, at most. Larger covers more, and has words
 that are overlooked. By eye."""
+
+SHRINKS, SMALLER = 12, 0.97
+"""Times that a line is made smaller which an edge between two rows cuts, and how much. Chosen."""
 
 CAPS = 12
 """Bounds on the largest that are tried, each smaller by a sixth. Chosen."""
@@ -78,7 +83,25 @@ def stacked_lines(
     order = sorted(best[1], key=lambda one: one[0])
     scale = np.array([line.scale for _, line in order])
     middles = [(line.x, line.y + line.scale * sizes[k, 1] / 2) for k, line in order]
-    return scale, _spread(room, scale[:, None] * sizes, np.array(middles))
+    return _inside(room, scale, sizes, _spread(room, scale[:, None] * sizes, np.array(middles)))
+
+
+def _inside(
+    room: Outline, scale: FloatArray, sizes: FloatArray, middles: FloatArray
+) -> tuple[FloatArray, FloatArray] | None:
+    """The same lines, those smaller that an edge between two rows cuts; None if that cuts deep."""
+    for _ in range(SHRINKS):
+        is_inside = shapely.covers(room.region, _boxes(scale[:, None] * sizes, middles))
+        if is_inside.all():
+            return scale, middles
+        scale = np.where(is_inside, scale, SMALLER * scale)
+    return None
+
+
+def _boxes(sizes: FloatArray, middles: FloatArray) -> Any:
+    """Boxes of so many sizes about their middles, less what rounding adds."""
+    (x, y), (half_width, half_height) = middles.T, sizes.T / 2 * (1 - 1e-9)
+    return shapely.box(x - half_width, y - half_height, x + half_width, y + half_height)
 
 
 def _spread(room: Outline, sizes: FloatArray, middles: FloatArray) -> FloatArray:
@@ -96,9 +119,7 @@ def _spread(room: Outline, sizes: FloatArray, middles: FloatArray) -> FloatArray
         shifts = (free - apart * (len(order) - 1)) / 2 - above + apart * np.arange(len(order))
         moved = middles.copy()
         moved[order, 1] += shifts
-        (x, y), (half_width, half_height) = moved.T, sizes.T / 2 * (1 - 1e-9)
-        boxes = shapely.box(x - half_width, y - half_height, x + half_width, y + half_height)
-        if shapely.covers(room.region, boxes).all():
+        if shapely.covers(room.region, _boxes(sizes, moved)).all():
             return moved
     return middles
 
@@ -110,7 +131,7 @@ def _chords(room: Outline) -> tuple[FloatArray, FloatArray]:
     inside = np.clip(heights, top + 1e-9 * (bottom - top), bottom - 1e-9 * (bottom - top))
     across = shapely.linestrings([[(left - 1, y), (right + 1, y)] for y in inside])
     ends = []
-    for found in shapely.intersection(room.region, across):
+    for found in intersection(np.full(len(across), room.region), across):
         parts = shapely.get_parts(found)
         widest = parts[np.argmax(shapely.length(parts))] if len(parts) else shapely.Point(left, top)
         ends.append(shapely.bounds(widest)[[0, 2]])

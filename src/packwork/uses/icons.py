@@ -154,7 +154,11 @@ class IconsUse(Use):
         else:
             # First fit is not tried.
             placed = placing(job, suits_first_fit=False)
-            if tried := alike_upright(job):
+            if job.earlier is not None and (ratio := ratio_of_few(job)) != job.plan.size_ratio:
+                # What goes on keeps the sizes that it began with.
+                on = placing(job.replanned(size_ratio=ratio), suits_first_fit=False)
+                placed = [Replan(size_ratio=ratio), *on, as_asked(job)]
+            elif tried := alike_upright(job):
                 placed = [Retry([BestOf(tried, best_balanced)], placed, is_full, fuller)]
                 placed.append(as_asked(job))
         return [*placed, *filling(job), *self.report(job)]
@@ -171,15 +175,11 @@ def alike_upright(job: Job) -> list[list[RunStep]]:
     there are, the more they may turn and vary. None in tiles of paper, which has no up, and where
     something is asked of where they lie.
     """
-    plan, count = job.plan, len(job.items)
-    is_tile = job.container.lattice is not None
-    if not 1 < count < MANY or is_tile or plan.voids.fills or not may_rearrange(job):
+    plan, count, away = job.plan, len(job.items), from_few(job)
+    if count < 2 or away == 1 or plan.voids.fills or not may_rearrange(job):
         return []
-    away = (max(count - FEW, 0) / (MANY - FEW)) ** BEND
     near = Rotation(limit=math.radians(NEAR_UPRIGHT + away * (180 - NEAR_UPRIGHT)))
-    rotation = near if plan.rotation.is_free else plan.rotation
-    usual = round(ALIKE + away * (plan.size_ratio - ALIKE), 2)
-    ratio = plan.size_ratio if plan.has_own_ratio else usual
+    rotation, ratio = near if plan.rotation.is_free else plan.rotation, ratio_of_few(job)
     starts = 1 if plan.seconds is not None else STARTS[plan.effort] * FEW // max(count, FEW)
     if starts <= 1 and (rotation, ratio) == (plan.rotation, plan.size_ratio):
         return []
@@ -189,6 +189,20 @@ def alike_upright(job: Job) -> list[list[RunStep]]:
         steps = placing(job.replanned(**tried), suits_first_fit=False)
         found.append([Replan(**tried), *steps])
     return found
+
+
+def from_few(job: Job) -> float:
+    """Way of a number of items from few to many; 1 in tiles of paper, too."""
+    if job.container.lattice is not None:
+        return 1.0
+    return float(np.clip((len(job.items) - FEW) / (MANY - FEW), 0.0, 1.0)) ** BEND
+
+
+def ratio_of_few(job: Job) -> float:
+    """How many times sizes may differ from the nominal ones: less for few, unless it was asked."""
+    plan = job.plan
+    usual = round(ALIKE + from_few(job) * (plan.size_ratio - ALIKE), 2)
+    return plan.size_ratio if plan.has_own_ratio else usual
 
 
 def as_asked(job: Job) -> RunStep:

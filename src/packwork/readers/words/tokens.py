@@ -74,7 +74,7 @@ def languages() -> tuple[str, ...]:
 def guess_language(counts: Counter[str]) -> str | None:
     """Language of a text, by the share of its words that are function words of one.
 
-    One function word alone is of no language: lists of names have some ("Mia", "sun").
+    A function word that stands there once is of no language: lists of names have some ("Mia").
 
     Examples
     --------
@@ -90,8 +90,7 @@ def guess_language(counts: Counter[str]) -> str | None:
         return None
     shares = {code: sum(counts[word] for word in _list(code)) / total for code in languages()}
     best = max(shares, key=lambda code: (shares[code], -len(_list(code))))
-    are_several = len(counts.keys() & _list(best)) > 1
-    return best if shares[best] >= LEAST_SHARE and are_several else None
+    return best if shares[best] >= max(LEAST_SHARE, 2 / total) else None
 
 
 def own_words(texts: Iterable[str]) -> frozenset[str]:

@@ -17,7 +17,7 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered, difference
+from packwork.geometry.overlay import buffered, difference, simplify
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.readers.container import read_parts
@@ -190,7 +190,8 @@ def _place(name: str, room: Region, side: float) -> tuple[float, float, float, R
 def draw_regions(pen: Pen, regions: Sequence[NamedRegion], side: float, pale: str) -> None:
     """Borders and names of all parts."""
     for one in regions:
-        drawn = one.border.region.simplify(FINE * side).boundary.buffer(BORDER * side / 2)
+        plainer = simplify(one.border.region, FINE * side, keeps_topology=True)
+        drawn = buffered(plainer.boundary, BORDER * side / 2)
         try:
             pen.shape(Outline.from_region(drawn), 0.0, 0.0, 1.0, pale)
         except ShapeError:
