@@ -51,7 +51,6 @@ PATHS: Mapping[str, str] = {
     "arrow": "M0 36h56v-24l44 38-44 38v-24h-56z",
     "circle": _disc(50),
     "cloud": "M24 78A22 22 0 0 1 18 36A27 27 0 0 1 66 24A24 24 0 0 1 84 44A18 18 0 0 1 80 78z",
-    "crescent": "M60 1A50 50 0 1 0 99 60A38 38 0 1 1 60 1z",
     "cross": "M35 0h30v35h35v30h-35v35h-30v-35h-35v-30h35z",
     "diamond": "M50 0L88 50L50 100L12 50z",
     "drop": "M50 0C62 24 84 44 84 66A34 34 0 0 1 16 66C16 44 38 24 50 0z",
@@ -70,6 +69,8 @@ PATHS: Mapping[str, str] = {
     "square": "M0 0h100v100h-100z",
     "star": _corners(5, 0.42),
     "triangle": _corners(3),
+    # Their places here are their colours, so new ones come last.
+    "crescent": "M60 1A50 50 0 1 0 99 60A38 38 0 1 1 60 1z",
 }
 """Path data by name; holes by the even-odd rule."""
 
@@ -151,7 +152,7 @@ def builtin_item(name: str, holes: Holes = "fill") -> Item:
     if shape is None:
         raise unknown_name(name, item_names(), "item")
     outline, ink, _ = centred(shape, holes)
-    order = sorted(PATHS).index(name) if name in PATHS else len(PATHS)
+    order = list(PATHS).index(name) if name in PATHS else len(PATHS)
     return Item(name, name, outline, ink, FlatArt(COLOURS[order % len(COLOURS)]))
 
 
