@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 71_150,
+    "lines of code": 71_157,
     "lines of docstrings": 19_650,
     "files": 598,
     "functions of the road in one plain fill": 90,
@@ -70,7 +70,7 @@ LIMITS = {
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 787,
+    "constants chosen by hand": 788,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

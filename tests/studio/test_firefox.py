@@ -47,7 +47,9 @@ def test_five_tasks_in_firefox(server: Server, tmp_path: Path) -> None:
         page.drag((x, y), (x - 30, y - 20), (x - 60, y - 40))
         page.settled()
         assert place(page, 0)[0] < x - 30
-        page.type("++h")
+        page.type("++")
+        page.settled()
+        page.type("h")
         page.until("studio.collage.item(0).held.every(Boolean)")
         page.settled()
         page.picture("firefox-hero")

@@ -199,7 +199,7 @@ def from_few(job: Job) -> float:
 
 
 def ratio_of_few(job: Job) -> float:
-    """How many times sizes may differ from the nominal ones: less for few, unless it was asked."""
+    """Most that sizes may differ from the nominal ones: less for few, unless it was asked."""
     plan = job.plan
     usual = round(ALIKE + from_few(job) * (plan.size_ratio - ALIKE), 2)
     return plan.size_ratio if plan.has_own_ratio else usual
