@@ -11,7 +11,7 @@ import pytest
 
 import packwork as pw
 
-ASKED: dict[str, Any] = {"count": 12, "effort": "draft", "seed": 4}
+ASKED: dict[str, Any] = {"count": 12, "effort": "draft", "seed": 4, "size_ratio": 2.0}
 ITEMS = ["star", "heart", "owl", "circle"]
 
 

@@ -154,11 +154,7 @@ class IconsUse(Use):
         else:
             # First fit is not tried.
             placed = placing(job, suits_first_fit=False)
-            if job.earlier is not None and (ratio := ratio_of_few(job)) != job.plan.size_ratio:
-                # What goes on keeps the sizes that it began with.
-                on = placing(job.replanned(size_ratio=ratio), suits_first_fit=False)
-                placed = [Replan(size_ratio=ratio), *on, as_asked(job)]
-            elif tried := alike_upright(job):
+            if tried := alike_upright(job):
                 placed = [Retry([BestOf(tried, best_balanced)], placed, is_full, fuller)]
                 placed.append(as_asked(job))
         return [*placed, *filling(job), *self.report(job)]
