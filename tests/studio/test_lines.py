@@ -55,7 +55,7 @@ def test_a_drag_snaps_to_the_middle_unless_ctrl_is_held(open_desk: Callable[...,
     desk = open_desk()
     desk.rested()
     x, y = desk.place(0)
-    off = desk.look(f"(300 - {MIDDLE}) * studio.view.zoom") + 3
+    off = desk.look(f"(300 - {MIDDLE}) * studio.view.zoom") - 3
     desk.page.mouse.move(x, y)
     desk.page.mouse.down()
     desk.page.mouse.move(x + off / 2, y)
@@ -64,7 +64,7 @@ def test_a_drag_snaps_to_the_middle_unless_ctrl_is_held(open_desk: Callable[...,
     assert desk.look("studio.stage.snapping.guides.map(guide => guide.at)")[0] == pytest.approx(300)
     desk.page.keyboard.down("Control")
     desk.page.mouse.move(x + off, y + 1)
-    assert desk.look(f"({MIDDLE} - 300) * studio.view.zoom") == pytest.approx(3, abs=0.1)
+    assert desk.look(f"({MIDDLE} - 300) * studio.view.zoom") == pytest.approx(-3, abs=0.1)
     assert desk.look("studio.stage.snapping.guides.length") == 0
     desk.page.keyboard.up("Control")
     desk.page.keyboard.down("Shift")
