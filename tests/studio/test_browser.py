@@ -64,7 +64,6 @@ def test_the_badge_has_two_states_and_no_more(open_desk: Callable[..., Desk]) ->
     desk.drag(desk.place(0), desk.place(3))
     desk.certified()
     # What is won back while nobody touches anything is no work.
-    assert desk.look("studio.collage.state.polishing")
     desk.settled()
     assert desk.look("log") == ["working: making room", "certified: covered · certified"]
     desk.page.keyboard.press("Control+z")
