@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 71_154,
+    "lines of code": 71_156,
     "lines of docstrings": 19_650,
     "files": 598,
     "functions of the road in one plain fill": 90,

@@ -13,6 +13,7 @@ import shapely
 import packwork as pw
 from packwork import uses
 from packwork.errors import RecipeError
+from packwork.geometry.overlay import polygon_parts
 from packwork.readers.layouts.read import read_written
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
@@ -96,6 +97,22 @@ def test_a_small_full_region_is_named_and_leaves_marks_to_be_seen(tmp_path: Path
     assert done.certified
     assert done.layout.areas.min() > 1.0
     assert any("Yard is the fullest: without it" in said for said in done.remarks)
+
+
+def test_marks_keep_out_of_small_enclaves(tmp_path: Path) -> None:
+    """Holes of less than a hundredth of the part that they lie in."""
+    file = tmp_path / "land.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 700 600"><path id="US" '
+        'fill-rule="evenodd" d="M0 0h600v600h-600zM300 300v40h40v-40z"/>'
+        '<rect id="Cuba" x="640" width="60" height="60"/></svg>',
+        encoding="utf-8",
+    )
+    rows = {"land": ["US"] * 60}
+    done = uses.fill(uses.chart_recipe(str(file), rows, by="land", in_regions=True, **QUICK))
+    assert done.certified
+    (room,) = polygon_parts(done.layout.container.outline.region)
+    assert len(room.interiors) == 1
 
 
 def test_names_keep_clear_of_marks(land: Path) -> None:

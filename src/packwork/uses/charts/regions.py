@@ -17,11 +17,10 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered, difference, simplify
+from packwork.geometry.overlay import buffered, difference, polygon_parts, simplify
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.readers.container import read_parts
-from packwork.readers.regions import large_parts
 from packwork.readers.tables.cells import cell_text
 from packwork.scene.container import Container
 from packwork.uses.charts.groups import left_out
@@ -149,7 +148,7 @@ def _regions(
         title, border = titles.get(key, name), Outline.from_region(region)
         apart = min(APART * side, SLIM * float(np.sqrt(region.area)))
         inner = buffered(region, -apart, join_style="mitre")
-        room = shapely.MultiPolygon(large_parts(inner, ISLAND * inner.area))
+        room = _without_islands(inner)
         if room.area == 0:
             if key in titles:
                 raise RecipeError("in_regions", f"{title} has no room for marks; leave it out")
@@ -157,9 +156,15 @@ def _regions(
             continue
         em, x, y, plate = _place(title, room, side)
         if plate is not None:
-            room = shapely.MultiPolygon(large_parts(difference(room, plate), ISLAND * room.area))
+            room = _without_islands(difference(room, plate))
         found.append(NamedRegion(title, border, Outline.from_region(room), em, x, y))
     return found
+
+
+def _without_islands(room: Region) -> shapely.MultiPolygon:
+    """Parts that have room for marks, with all their holes: others lie there, or a name."""
+    parts = polygon_parts(room)
+    return shapely.MultiPolygon([part for part in parts if part.area > ISLAND * room.area])
 
 
 def _place(name: str, room: Region, side: float) -> tuple[float, float, float, Region | None]:
