@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 71_156,
-    "lines of docstrings": 19_650,
+    "lines of code": 71_233,
+    "lines of docstrings": 19_665,
     "files": 598,
     "functions of the road in one plain fill": 90,
     "files of the road in one plain fill": 19,
@@ -70,7 +70,7 @@ LIMITS = {
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 788,
+    "constants chosen by hand": 791,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

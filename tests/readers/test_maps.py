@@ -57,6 +57,78 @@ def test_areas_are_in_the_proportion_of_those_on_the_globe(
     assert areas["Peru"] / areas["Chile"] == pytest.approx(south / north, rel=2e-3)
 
 
+def test_edges_of_two_points_are_as_long_as_many_short_ones(tmp_path: Path) -> None:
+    """A border along a parallel is curved on the plane; neighbours meet there."""
+    sparse, dense = (
+        read_parts(
+            read_container(written(tmp_path, square(-120, 20, 30, n), square(-120, 50, 20, n)))
+        )
+        for n in (1, 30)
+    )
+    for (_, one), (_, other) in zip(sparse, dense, strict=True):
+        assert one.area == pytest.approx(other.area, rel=1e-3)
+
+
+def test_a_ring_round_a_pole_has_no_hole_there(tmp_path: Path) -> None:
+    ring = [[-180, -90], [-180, -65], [-90, -70], [0, -68], [90, -66], [180, -65], [180, -90],
+            [-180, -90]]  # fmt: skip
+    ((_, region),) = read_parts(read_container(written(tmp_path, ring, named=NAMED[:1])))
+    assert (region.geom_type, len(region.interiors)) == ("Polygon", 0)
+
+
+def test_a_region_over_the_180th_meridian_is_no_band_round_the_earth(tmp_path: Path) -> None:
+    fiji = [[175, -20], [-175, -20], [-175, -10], [175, -10], [175, -20]]
+    file = written(tmp_path, fiji, square(0, -20, 10), square(-100, 0, 60), named=(*NAMED, {}))
+    areas = {name: region.area for name, region in read_parts(read_container(file))}
+    assert areas["Peru"] == pytest.approx(areas["Chile"], rel=1e-3)
+
+
+def test_rounding_off_the_globe_leaves_degrees_what_they_are(tmp_path: Path) -> None:
+    rings = square(0, -90, 20), square(0, 0, 20)
+    sound = read_container(written(tmp_path, *rings)).outline
+    rings[0][0][1] = -90.0000001
+    assert read_container(written(tmp_path, *rings)).outline.area == pytest.approx(sound.area)
+
+
+def test_regions_that_overlap_are_taken_from_the_larger(tmp_path: Path) -> None:
+    """An enclave is often drawn over its land, which has no hole for it."""
+    file = written(tmp_path, square(0, 0, 10), square(4, 4, 2))
+    (_, land), (_, enclave) = read_parts(read_container(file))
+    assert enclave.area > 0
+    assert land.intersection(enclave).area == pytest.approx(0, abs=1e-6)
+    with pytest.raises(ReadError, match="lies all within other regions"):
+        read_parts(read_container(written(tmp_path, *[square(0, 0, 9)] * 2)), asked=["chile"])
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "asked"),
+    [("Peru", "PERU", ["peru"]), ("01", "1", ["1"]), (7.0, 7, ["7"]), ("\u00f6", "o\u0308", ["ö"])],
+)
+def test_names_that_mean_one_region_are_one(
+    tmp_path: Path, first: object, second: object, asked: list[str]
+) -> None:
+    named = ({"name": first}, {"name": second})
+    file = written(tmp_path, square(0, 0, 5), square(5, 0, 5), named=named)
+    container = read_container(file)
+    ((_, region),) = read_parts(container, asked=asked)
+    assert region.area == pytest.approx(container.outline.area)
+
+
+def test_polygons_of_a_collection_are_a_region(tmp_path: Path) -> None:
+    shape = {"type": "Polygon", "coordinates": [square(0, 0, 5)]}
+    geometry = {"type": "GeometryCollection", "geometries": [shape, {"type": ["Point"]}, 3]}
+    one = {"type": "Feature", "properties": {"name": "Peru"}, "geometry": geometry}
+    file = tmp_path / "land.geojson"
+    file.write_text(json.dumps({"type": "FeatureCollection", "features": [one]}), encoding="utf-8")
+    assert [name for name, _ in read_parts(read_container(file))] == ["Peru"]
+
+
+def test_a_feature_that_crosses_itself_without_end_is_refused(tmp_path: Path) -> None:
+    tangle = np.random.default_rng(0).uniform(0, 9, (500, 2)).tolist()
+    with pytest.raises(ReadError, match="crosses itself"):
+        read_container(written(tmp_path, [*tangle, tangle[0]], named=NAMED[:1]))
+
+
 def test_north_is_up_and_a_survey_in_metres_keeps_its_shape(tmp_path: Path) -> None:
     ring = [[500e3, 0.0], [900e3, 0.0], [900e3, 300e3], [500e3, 0.0]]
     container = read_container(written(tmp_path, ring, named=NAMED[:1]))
@@ -95,6 +167,7 @@ def test_features_that_are_called_alike_are_one_part(tmp_path: Path) -> None:
         ('{"features": []}', "holds no regions"),
         ('{"features": [7, null, {"geometry": 3}]}', "holds no regions"),
         ('{"features": [{"geometry": {"type": "Polygon", "coordinates": 3}}]}', "rings of four"),
+        ('{"features": [{"geometry": {"type": ["Polygon"]}}]}', "holds no regions"),
         ('{"features": [{"geometry": {"type": "Polygon", "coordinates": [[[0]]]}}]}', "rings of"),
         ('{"features": [{"geometry": {"type": "Polygon", "coordinates": [[[0, "x"]]]}}]}', "rings"),
         (json.dumps({"features": [0] * (MOST_REGIONS + 1)}), "more than 2,000"),

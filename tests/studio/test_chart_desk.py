@@ -38,6 +38,16 @@ def draw(desk: Desk, file: Path) -> None:
     desk.settled()
 
 
+def saved(desk: Desk, kept: Path) -> pw.Layout:
+    """The certified layout of a document that is saved to a file."""
+    with desk.page.expect_download() as waiting:
+        desk.page.keyboard.press("Control+s")
+    waiting.value.save_as(kept)
+    layout = pw.Session.open(kept).layout
+    assert layout.certified
+    return layout
+
+
 def areas(desk: Desk) -> list[float]:
     """Areas of the marks over that of the first."""
     scales = desk.look("studio.collage.items.map(item => studio.collage.pose(item.id).scale)")
@@ -86,12 +96,8 @@ def test_a_table_of_excel_becomes_a_chart_under_the_hand(
     assert areas(desk) == pytest.approx(sizes)
     desk.picture("chart")
     # What is saved opens as the same chart, and what was written shows its keys.
-    with desk.page.expect_download() as waiting:
-        desk.page.keyboard.press("Control+s")
     kept = tmp_path / "chart.packwork"
-    waiting.value.save_as(kept)
-    layout = pw.Session.open(kept).layout
-    assert layout.certified
+    layout = saved(desk, kept)
     assert any(note.says == TITLE for note in layout.notes)
     give(desk, kept)
     desk.until("!studio.collage.state.can_undo || studio.collage.state.busy")
@@ -177,12 +183,8 @@ def test_marks_lie_in_the_regions_of_a_map_that_was_dropped(
     desk.answered()
     assert desk.rested() == before
     desk.picture("chart-map")
-    with desk.page.expect_download() as waiting:
-        desk.page.keyboard.press("Control+s")
     kept = tmp_path / "map.packwork"
-    waiting.value.save_as(kept)
-    layout = pw.Session.open(kept).layout
-    assert layout.certified
+    layout = saved(desk, kept)
     assert layout.manifest["group_parts"] == [1, 1]
     assert {note.says for note in layout.notes} >= {"Nord", "Sued"}
 

@@ -26,6 +26,7 @@ from packwork.readers.maps import (
     container_of_map,
     names_on_map,
     parts_of_map,
+    region_key,
 )
 from packwork.readers.memory.items import container_in_memory
 from packwork.readers.options import AS_DRAWN, GAPS_AUTO, GAPS_NONE, TEXT_PREFIX, ReadOptions
@@ -131,13 +132,13 @@ def read_parts(
 
 
 def part_names(source: str) -> list[set[str]]:
-    """Names that parts of a container's file have, in small letters, by what says them."""
+    """Names that parts of a container's file have, as by :func:`region_key`, by what says them."""
     path = Path(source)
     if path.suffix.lower() in ENDINGS and exists(path):
         return names_on_map(read_text(path, MAX_MAP_BYTES))
     if path.suffix.lower() in {".svg", ".svgz"} and exists(path):
         parts = named_parts(read_bytes(path, MAX_BYTES), lambda line: None)
-        return [{name.casefold() for name, _ in parts}]
+        return [{region_key(name) for name, _ in parts}]
     return []
 
 

@@ -30,6 +30,7 @@ from packwork.readers.builtin import (
 from packwork.readers.container import part_names, read_container, read_parts
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
+from packwork.readers.maps import region_key
 from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.photos import read_photo
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
@@ -174,7 +175,7 @@ def columns_of(path: str, source: str = "") -> dict[str, Any]:
         held = [cell for cell in cells if not is_missing(cell)]
         numbers = sum(not math.isnan(any_number(cell)) for cell in held)
         values = {cell_text(cell) for cell in held}
-        met = max((sum(one.casefold() in names for one in values) for names in named), default=0)
+        met = max((sum(region_key(one) in names for one in values) for names in named), default=0)
         is_map, is_number = 2 * met > len(values), 2 * numbers > len(held)
         columns.append(
             {"name": name, "numbers": is_number, "values": len(values), "regions": is_map}

@@ -21,6 +21,7 @@ from packwork.geometry.overlay import buffered, difference, polygon_parts, simpl
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.readers.container import read_parts
+from packwork.readers.maps import region_key
 from packwork.readers.tables.cells import cell_text
 from packwork.scene.container import Container
 from packwork.uses.charts.groups import left_out
@@ -40,6 +41,10 @@ marks their scale, and may be a few pixels wide. Chosen by eye."""
 ISLAND = 0.01
 """Share of a part's area that an island of it has at least to take marks. Smaller ones have no room
 for one and cost time. Chosen."""
+
+SPECK = 0.001
+"""Side of a square as large as the room of a part, over the canvas' longer side, at least: marks
+in less are not seen. Chosen."""
 
 LARGEST, SMALLEST, SIZES = 0.024, 0.014, 4
 """Height of an em of names over the canvas' longer side, and how many are tried. Larger takes the
@@ -100,15 +105,15 @@ def in_regions(chart: ChartRead, container: Container) -> tuple[ChartRead, list[
             f"{container.name} names no parts; use a map in GeoJSON, or an SVG whose shapes have "
             "titles or ids",
         )
-    parts = {name.casefold(): (name, region) for name, region in named}
-    known = [name.casefold() in parts for name in chart.groups]
+    parts = {region_key(name): (name, region) for name, region in named}
+    known = [region_key(name) in parts for name in chart.groups]
     if not any(known):
         met, there = (enumerated(list(one), 4) for one in (chart.groups, [n for n, _ in named]))
         raise RecipeError(
             "in_regions", f"no part of {container.name} is named {met}; it has {there}"
         )
     found = _without_strangers(chart, np.array(known))
-    order = [*(name.casefold() for name in found.groups)]
+    order = [*(region_key(name) for name in found.groups)]
     order += [name for name in parts if name not in set(order)]
     titles = dict(zip(order, found.groups, strict=False))
     return found, _regions({name: parts[name] for name in order}, titles, container)
@@ -121,11 +126,11 @@ def _without_strangers(chart: ChartRead, known: BoolArray) -> ChartRead:
     kept = np.flatnonzero(known[chart.group_of])
     new = np.cumsum(known) - 1
     left = chart.subset(kept)
-    strange = {name.casefold() for name, one in zip(chart.groups, known, strict=True) if not one}
+    strange = {region_key(name) for name, one in zip(chart.groups, known, strict=True) if not one}
     column = chart.options.by or ""
     rows = [
         k for k, row in enumerate(chart.table.rows)
-        if cell_text(row.get(column)).casefold() in strange
+        if region_key(cell_text(row.get(column))) in strange
     ]  # fmt: skip
     told = left_out(chart.table, column, "is no part of the map", rows, chart.options.label_by)
     _LOG.warning("%s", told)
@@ -149,7 +154,7 @@ def _regions(
         apart = min(APART * side, SLIM * float(np.sqrt(region.area)))
         inner = buffered(region, -apart, join_style="mitre")
         room = _without_islands(inner)
-        if room.area == 0:
+        if room.area < (SPECK * side) ** 2:
             if key in titles:
                 raise RecipeError("in_regions", f"{title} has no room for marks; leave it out")
             found.append(NamedRegion(title, border, border))

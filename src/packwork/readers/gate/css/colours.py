@@ -5,6 +5,7 @@ Colours outside sRGB are clipped, channel by channel.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
 from collections.abc import Sequence
@@ -29,16 +30,18 @@ def plain_colour(value: str) -> str:
 
     >>> plain_colour("hwb(120 0% 0%)"), plain_colour("oklch(100% 0 0 / 50%)")
     ('#00ff00', '#ffffff80')
-    >>> plain_colour("color-mix(in srgb, red, blue)"), plain_colour("red")
-    ('#800080', 'red')
+    >>> plain_colour("color-mix(in srgb, red, blue)"), plain_colour("hsl(0.5turn 50% 50%)")
+    ('#800080', '#40bfbf')
     """
     text = value.strip()
     call = _CALL.fullmatch(text)
     if call is None or len(value) > _LONGEST or call[1].lower() not in _OLD | _NEW:
         return value
-    try:
-        if call[1].lower() in _OLD:
+    if call[1].lower() in _OLD:
+        # Most are read at once; turns and radians are not.
+        with contextlib.suppress(ValueError):
             return _hex([part / 255 for part in css_colour(re.sub(r"\bnone\b", "0", text))])
+    try:
         found = _colour(text).convert("srgb")
         return _hex([*found.coords(nans=False), found.alpha(nans=False)])
     except (ValueError, KeyError, IndexError, ArithmeticError):
