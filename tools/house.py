@@ -64,7 +64,7 @@ LIMITS = {
     "lines of code": 71_233,
     "lines of docstrings": 19_665,
     "files": 598,
-    "functions of the road in one plain fill": 90,
+    "functions of the road in one plain fill": 91,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
