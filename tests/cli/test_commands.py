@@ -299,7 +299,7 @@ def test_a_shape_that_does_not_show_is_told_with_what_would_do(
 
 
 def test_the_number_of_items_may_be_found(folder: Path, packwork: Command) -> None:
-    result = packwork(f"fill circle star -n auto {QUICK} -o out.geojson")
+    result = packwork(f"fill circle square -n auto {QUICK} -o out.geojson")
     assert item_count(folder / "out.geojson") == 20
     assert "auto chose 20 items" in result.stdout
 

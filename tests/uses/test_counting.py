@@ -92,6 +92,13 @@ def test_all_different_items_are_there() -> None:
     assert found == max(len(items), items_needed(round_container()).count)
 
 
+def test_thin_and_branched_items_are_more() -> None:
+    room, auto = KnownContainer(round_container()), recipe(count="auto")
+    by_name = {one.name: one for one in uses.read(recipe(), container=round_container()).items}
+    few, many = (room.needed(auto, [by_name[name]]) for name in ("apple", "anchor"))
+    assert LEAST <= few < 1.5 * LEAST < 2 * LEAST < many
+
+
 def test_without_a_container_there_is_nothing_to_count_by() -> None:
     with pytest.raises(RecipeError, match="count: auto needs a container"):
         KnownContainer(None).needed(make_recipe(container="none", count="auto"), ())
@@ -107,7 +114,7 @@ def test_a_heap_leaves_room_above_it() -> None:
 
 def test_auto_runs_and_says_what_it_chose() -> None:
     runs = [
-        uses.fill(make_recipe(container="circle", items=["star"], count="auto", **QUICK))
+        uses.fill(make_recipe(container="circle", items=["square"], count="auto", **QUICK))
         for _ in range(2)
     ]
     assert [len(run.layout.items) for run in runs] == [LEAST, LEAST]

@@ -11,9 +11,10 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.quadratic import cheapest
+from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
-from packwork.pipeline.plan.counts import TYPICAL_RATIO, items_needed, no_container
+from packwork.pipeline.plan.counts import LEAST, TYPICAL_RATIO, items_needed, no_container
 from packwork.pipeline.read import AUTO, Material, drawn_first, read_named
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.raster.coverage import coverage
@@ -85,9 +86,11 @@ class KnownContainer:
         return self.known
 
     def needed(self, recipe: Recipe, items: Sequence[Item]) -> int:
-        """Number of items at which the container's shape shows."""
+        """Number of items at which the container's shape shows: more of thin and branched ones."""
         needed = items_needed(self.known, recipe.sizes, recipe.size_ratio or TYPICAL_RATIO).count
-        return max(needed, len(items))
+        outlines = [item.outline for item in items]
+        solidity = np.mean([one.area for one in outlines] / hull_areas(outlines))
+        return max(needed, math.ceil(LEAST / solidity), len(items))
 
 
 def suited_first(
