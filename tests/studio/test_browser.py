@@ -51,6 +51,25 @@ def test_a_drag_is_followed_settles_and_is_undone(open_desk: Callable[..., Desk]
     desk.settled()
 
 
+def test_each_move_of_the_pointer_is_told_at_once(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    x, y = desk.place(0)
+    desk.page.mouse.move(x, y)
+    desk.page.mouse.down()
+    told = desk.page.evaluate(
+        "([x, y]) => { const { connection, canvas } = studio, told = [];"
+        " connection.send = (message) => told.push(message.command?.kind);"
+        " for (const clientX of [x + 10, x + 20, x + 30]) canvas.dispatchEvent(new PointerEvent("
+        "'pointermove', { clientX, clientY: y, pointerId: 1, pointerType: 'mouse' }));"
+        " delete connection.send; return told; }",
+        [x, y],
+    )
+    desk.page.keyboard.press("Escape")
+    desk.page.mouse.up()
+    desk.settled()
+    assert told == ["grab", "move", "move", "move"]
+
+
 def test_the_badge_has_two_states_and_no_more(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.certified()

@@ -22,6 +22,10 @@ from packwork.studio.workspace import MOST_LINES, News, Workspace
 STATE_SECONDS = 0.1
 """Time between two states of which only the covered share differs. Chosen."""
 
+MOST_AHEAD = 3
+"""Frames that a page has not heard of yet at most. With 1 a page that draws gets the next one only
+once it has answered; more are older where the network is slow. Tried."""
+
 MOST_KEPT = 1_000
 """Looks that a page keeps of items that are not there any more: undo may bring them back. More
 take memory, of fewer more is sent again. Chosen."""
@@ -99,7 +103,7 @@ class Tab:
         """Send where items are, if the page does not know; whether that has to wait."""
         if view.poses is None or self._is_seen(view.poses, done):
             return False
-        if self._acked != self._frame:
+        if self._frame - self._acked >= MOST_AHEAD:
             return True
         self._frame += 1
         self._seen = (view.poses, done)

@@ -20,9 +20,6 @@ export class Hand {
     this.began = new Map();
     /** @type {Map<number, number>} scale that the studio was told */
     this.sizes = new Map();
-    /** @type {null | (() => object | null)} */
-    this.waiting = null;
-    this.timer = 0;
   }
 
   get isFull() {
@@ -53,7 +50,7 @@ export class Hand {
    */
   move(x, y) {
     for (const [id, from] of this.began) this.put(id, { ...from, x: from.x + x, y: from.y + y });
-    this.later(() => together([...this.began.keys()].map((id) => this.moved(id))));
+    this.tell([...this.began.keys()].map((id) => this.moved(id)));
   }
 
   /**
@@ -69,7 +66,7 @@ export class Hand {
       const [x, y] = [from.x - about.x, from.y - about.y];
       this.put(id, { ...from, x: about.x + cos * x - sin * y, y: about.y + sin * x + cos * y, angle: this.collage.allowed(id, from.angle + step) });
     }
-    this.later(() => together([...this.began.keys()].flatMap((id) => this.turned(id))));
+    this.tell([...this.began.keys()].flatMap((id) => this.turned(id)));
   }
 
   /**
@@ -82,18 +79,15 @@ export class Hand {
       const [x, y] = [about.x + factor * (from.x - about.x), about.y + factor * (from.y - about.y)];
       this.put(id, { ...from, x, y, scale: factor * from.scale });
     }
-    this.later(() => together([...this.began.keys()].flatMap((id) => this.scaled(id))));
+    this.tell([...this.began.keys()].flatMap((id) => this.scaled(id)));
   }
 
   drop() {
-    if (!this.isFull) return;
-    this.sendWaiting();
-    this.letGo("drop");
+    if (this.isFull) this.letGo("drop");
   }
 
   /** Have all that this drag has moved, neighbours too, as it was before. */
   cancel() {
-    this.waiting = null;
     for (const [id, pose] of this.began) this.put(id, pose);
     this.letGo("cancel");
   }
@@ -143,22 +137,12 @@ export class Hand {
   }
 
   /**
-   * Send what the pointer does: the first at once, then the newest once a frame.
-   * @param {() => object | null} make
+   * Have all of it done at once: browsers tell of a pointer once a frame.
+   * @param {object[]} commands
    */
-  later(make) {
-    this.waiting = make;
-    if (!this.timer) this.sendWaiting();
-  }
-
-  sendWaiting() {
-    cancelAnimationFrame(this.timer);
-    this.timer = 0;
-    const command = this.waiting?.();
-    this.waiting = null;
-    if (!command) return;
-    this.connection.do(command);
-    this.timer = requestAnimationFrame(() => this.sendWaiting());
+  tell(commands) {
+    const command = together(commands);
+    if (command) this.connection.do(command);
   }
 }
 

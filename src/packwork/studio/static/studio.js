@@ -113,7 +113,6 @@ export class Studio {
     this.isEasing = false;
     this.isDirty = false;
     this.last = 0;
-    this.unacked = 0;
     this.listen();
   }
 
@@ -220,16 +219,10 @@ export class Studio {
     // What is said of the last layout is not true of this one.
     if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, busy: "Making room", polishing: false, certified: false, entangled: [] });
     this.isEasing = true;
-    this.unacked = frame.number;
     // The next one may come while this one is drawn: of several the newest is shown.
-    this.ack();
+    this.connection.send({ type: "ack", frame: frame.number });
     if (isFirst) this.refresh();
     this.redraw();
-  }
-
-  ack() {
-    if (this.unacked) this.connection.send({ type: "ack", frame: this.unacked });
-    this.unacked = 0;
   }
 
   /** @param {boolean} isOpen @param {boolean} isStranger */
@@ -237,8 +230,7 @@ export class Studio {
     if (isOpen) this.outage.over();
     else this.outage.tell(isStranger, this.connection.isTaken);
     this.badge.connected(isOpen);
-    if (isOpen) this.unacked = 0;
-    else this.lost();
+    if (!isOpen) this.lost();
   }
 
   /** Forget what the hand has: the studio may come back without it. */
