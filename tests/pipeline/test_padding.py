@@ -85,17 +85,35 @@ def test_wide_paddings_work_on_coarse_outlines() -> None:
     assert run.metrics.exact.min_gap >= 60
 
 
-def test_neighbours_of_one_colour_that_touch_are_told(tmp_path: Path) -> None:
+@pytest.fixture
+def one_colour(tmp_path: Path) -> Path:
+    """A folder of two drawings in black."""
     for name, path in (("bar", "M0 0H9V3H0Z"), ("block", "M0 0H5V5H0Z")):
         svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><path d="{path}"/></svg>'
         (tmp_path / f"{name}.svg").write_text(svg, encoding="utf-8")
+    return tmp_path
 
-    def told(**more: object) -> bool:
-        recipe = make_recipe(
-            container="circle", items=[str(tmp_path)], count=12, effort="draft", levels="50", **more
-        )
-        return any("one colour and touch" in one for one in fill(recipe).advice)
 
-    assert told()
-    assert not told(padding="1%")
-    assert not told(palette="okabe-ito")
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ({}, "stand"),
+        ({"padding": "0"}, "touch"),
+        ({"padding": "1%"}, ""),
+        ({"palette": "okabe-ito"}, ""),
+    ],
+)
+def test_neighbours_of_one_colour_do_not_touch_unasked(
+    one_colour: Path, more: dict[str, str], told: str
+) -> None:
+    recipe = make_recipe(
+        container="circle", items=[str(one_colour)], count=12, effort="draft", levels="50", **more
+    )
+    run = fill(recipe)
+    assert run.certified
+    sentences = {
+        word: any(f"one colour {word}" in one for one in (*run.remarks, *run.advice))
+        for word in ("stand", "and touch")
+    }
+    assert sentences == {"stand": told == "stand", "and touch": told == "touch"}
+    assert (run.metrics.exact.min_gap > 3) == (told == "stand" or more == {"padding": "1%"})

@@ -129,6 +129,11 @@ class Sentence(Enum):
         "so many {what} stand {gap:.2g} {unit} apart, not {usual:g} {unit}; "
         "another --padding is kept",
     )
+    APART = (
+        Told.REMARK,
+        "drawings of one colour stand {gap:.2g} {unit} apart, not to run together; "
+        "--padding 0 lets them touch",
+    )
     FULLEST_PART = (
         Told.REMARK,
         "{part} is the fullest: without it all marks could be {factor:.2g} times as wide",

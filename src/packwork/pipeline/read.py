@@ -29,7 +29,7 @@ from packwork.readers.options import AS_DRAWN
 from packwork.readers.photos import read_photos
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
-from packwork.recipe import Recipe
+from packwork.recipe import AUTO, Recipe
 from packwork.recipe.order import FROM_TEXT
 from packwork.scene.container import Container, inside_margin, on_canvas
 from packwork.scene.item import Item
@@ -78,10 +78,6 @@ def _common(region: polygon.Region, container: Container) -> Outline | None:
         return Outline.from_region(intersection(region, container.outline.region))
     except ShapeError:
         return None
-
-
-AUTO = "auto"
-"""What people write for a number of items that is found."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

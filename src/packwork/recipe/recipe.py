@@ -27,6 +27,7 @@ from packwork.recipe.presets import parse_levels
 from packwork.recipe.reading import ReadingOptions
 from packwork.recipe.refusals import length_of, parsed_by, validated
 from packwork.recipe.rules import (
+    AUTO,
     MAX_COUNT,
     ItemCount,
     Rotation,
@@ -70,7 +71,6 @@ Seconds: TypeAlias = Annotated[float, Field(gt=0, le=MAX_SECONDS, allow_inf_nan=
 
 DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
-
 
 _COLLAGES = Offer(verbs=Verbs.COLLAGES)
 _CANVAS = parsed_by(canvas_size)
@@ -160,9 +160,9 @@ class Recipe(
     the fewer, unless 180 is asked), none, 30 (within 30 degrees of upright, as upright) or 0,90
     (only these angles); also horizontal, vertical (read upwards), mixed (one in four vertical)."""
 
-    padding: Annotated[str | float, length_of("padding", may_be_zero=True)] = "0"
+    padding: Annotated[str | float, length_of("padding", may_be_zero=True, word=AUTO)] = AUTO
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,
-    0.5cm, 0.1in, or 1% of the canvas' longer side."""
+    0.5cm, 0.1in, or 1% of the canvas' longer side; auto: none but between icons of one colour."""
 
     margin: Annotated[str | float, length_of("margin", may_be_zero=True), _SAFE] = "0"
     """Free edge of the sheet, in which nothing is placed, a length as for the padding: what a
@@ -368,12 +368,12 @@ class Recipe(
     def layout_file(self) -> str | None:
         """The earlier layout that ``start`` names; None if it names a method."""
         start = self.start or ""
-        is_layout = start.startswith(MEMORY) or Path(start).suffix.lower() in LAYOUTS
-        return start if is_layout else None
+        return start if start.startswith(MEMORY) or Path(start).suffix.lower() in LAYOUTS else None
 
     def padding_cu(self, container: Container) -> float:
         """Gap asked for, in units of the container's canvas."""
-        return length_asked("padding", self.padding, container.unit, container.side)
+        asked = "0" if self.padding == AUTO else self.padding
+        return length_asked("padding", asked, container.unit, container.side)
 
     @property
     def fills_gaps(self) -> bool:
@@ -383,7 +383,7 @@ class Recipe(
 
     def smallest_cu(self, container: Container) -> float:
         """Longer side of the smallest copy put into a void, canvas units."""
-        asked = DEFAULT_SMALLEST if self.smallest is None else self.smallest
+        asked = self.smallest or DEFAULT_SMALLEST
         return length_asked("smallest", asked, container.unit, container.side)
 
 

@@ -149,11 +149,11 @@ def _model_in(annotation: Any) -> type[BaseModel] | None:
     return next((found for a in get_args(annotation) if (found := _model_in(a))), None)
 
 
-def length_of(key: str, *, may_be_zero: bool = False) -> AfterValidator:
-    """Validator of a length, or None."""
+def length_of(key: str, *, may_be_zero: bool = False, word: str | None = None) -> AfterValidator:
+    """Validator of a length, or None, or a word."""
 
     def check(value: str | float | None) -> str | float | None:
-        if value is None or length_asked(key, value, "px", 1.0) > 0 or may_be_zero:
+        if value in {None, word} or length_asked(key, value, "px", 1.0) > 0 or may_be_zero:
             return value
         raise RecipeError(key, f"must be more than nothing, not {value}")
 

@@ -18,6 +18,9 @@ from packwork.errors import RecipeError
 from packwork.options import Offer, Options, number_or_auto
 from packwork.units import parse_length
 
+AUTO = "auto"
+"""Word for what the run finds."""
+
 MAX_COUNT = 100_000
 """Most items in one run; more would not be seen on any sheet. Chosen."""
 

@@ -55,3 +55,13 @@ class RemarkGap(RunStep):
             usual=state.job.recipe.padding_cu(container),
             unit=container.unit,
         )
+
+
+@final
+class RemarkApart(RunStep):
+    """A sentence about a gap that was not asked for, between drawings of one colour."""
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the remark."""
+        job = state.job
+        return state.with_finding(Sentence.APART, gap=job.plan.gap, unit=job.container.unit)

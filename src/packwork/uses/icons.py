@@ -15,16 +15,18 @@ from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import LEAST, TYPICAL_RATIO, items_needed, no_container
-from packwork.pipeline.read import AUTO, Material, drawn_first, read_named
+from packwork.pipeline.read import Material, drawn_first, read_named
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.raster.coverage import coverage
-from packwork.recipe import Recipe
+from packwork.recipe import AUTO, Recipe
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item, PhotoArt
+from packwork.scene.recolour import are_of_one_colour
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture, blurred
+from packwork.steps.close_gap import RemarkApart
 from packwork.steps.control import BestOf, Replan, Retry
 from packwork.steps.starts import fits_first, may_rearrange
 from packwork.uses.collage import filling, jamming, placing, reporting
@@ -61,6 +63,10 @@ STRIDE = 1_000_003
 AS_FULL = 0.75
 """Share of a plain layout's cover from which one of items alike and upright is better. Larger
 leaves more of them on their heads, smaller leaves room bare. By eye."""
+
+ONE_COLOUR_GAP = 0.04
+"""Gap between drawings of one colour, over the side of an item's share of the container. Larger
+covers less, smaller runs lines of drawings together. By eye, of 40 and 200 icons in lines."""
 
 FULL = 0.6
 """Share of the container that is covered well enough not to ask what a plain layout covers, which
@@ -150,6 +156,12 @@ class IconsUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """Places, levels, finish; voids if asked; measures and looks."""
+        if not runs_together(job):
+            return self._listed(job)
+        gap = ONE_COLOUR_GAP * math.sqrt(job.container.outline.area / len(job.items))
+        return [Replan(gap=gap), *self._listed(job.replanned(gap=gap)), RemarkApart()]
+
+    def _listed(self, job: Job) -> list[RunStep]:
         if job.plan.sizes == "shared":
             placed = jamming(job) or placing(
                 job, suits_first_fit=fits_first(job), bounds=separation(job)
@@ -165,6 +177,15 @@ class IconsUse(Use):
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
         return reporting(job, is_dressed=False)
+
+
+def runs_together(job: Job) -> bool:
+    """Whether neighbours that touch would be read as one, and the run finds the padding."""
+    plan = job.plan
+    if job.recipe.padding != AUTO or plan.sizes == "fixed" or not plan.is_exact:
+        return False
+    has_others = plan.palette or job.target is not None or any(one.values for one in job.asked)
+    return not has_others and are_of_one_colour(job.items)
 
 
 def alike_upright(job: Job) -> list[list[RunStep]]:

@@ -14,7 +14,7 @@ from packwork.pipeline.plan.counts import MOST
 from packwork.pipeline.plan.limits import given_scales
 from packwork.pipeline.read import read_room
 from packwork.readers.svg.curve import walled_container
-from packwork.recipe import Recipe
+from packwork.recipe import AUTO, Recipe
 from packwork.recipe.piles import PileOptions
 from packwork.scene.container import Container, on_canvas
 from packwork.scene.item import Item
@@ -51,7 +51,8 @@ class PileRoom(KnownContainer):
         """The container of a recipe, or the one that was given in its place."""
         size = recipe.canvas_size
         if given is None and recipe.container == NO_CONTAINER:
-            return cls(None, size, options, padding=recipe.padding)
+            padding = "0" if recipe.padding == AUTO else recipe.padding
+            return cls(None, size, options, padding=padding)
         if given is None and Path(recipe.container).suffix.lower() in {".svg", ".svgz"}:
             walled = walled_container(
                 recipe.container, None if size is None else size.side, recipe.read_options

@@ -14,11 +14,10 @@ from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import items_needed
-from packwork.pipeline.read import AUTO
 from packwork.readers.tables.cells import written_numbers
 from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import WordOptions
-from packwork.recipe import Recipe
+from packwork.recipe import AUTO, Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.uses.icons import KnownContainer

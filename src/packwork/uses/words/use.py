@@ -16,13 +16,13 @@ from packwork.pipeline.findings import Sentence, Unplaced, WordsFound
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.plan.vectors import ItemVectors
-from packwork.pipeline.read import AUTO, Material, read_named
+from packwork.pipeline.read import Material, read_named
 from packwork.pipeline.result import Run
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.vectors import Vectors
 from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
 from packwork.readers.words.options import Word, WordOptions
-from packwork.recipe import Recipe
+from packwork.recipe import AUTO, Recipe
 from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
