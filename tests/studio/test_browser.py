@@ -88,6 +88,14 @@ def test_the_badge_has_two_states_and_no_more(open_desk: Callable[..., Desk]) ->
     assert working == "working: making room"
     # Whether there is a hint is said with it, not later.
     assert certified.startswith("certified: covered · certified"), certified
+    # Nor what was missed: it comes and goes while gaps are closed, and is told after that.
+    told = "document.querySelector('#badge .word').textContent"
+    missed = "studio.stated({ ...studio.collage.state, polishing: %s, unmet: { 0: 'is off' } })"
+    desk.look(missed % "true")
+    assert "not as asked" not in desk.look(told)
+    desk.look(missed % "false")
+    assert "1 not as asked" in desk.look(told)
+    desk.look("studio.stated({ ...studio.collage.state, unmet: {} })")
     desk.page.keyboard.press("Control+z")
     desk.settled()
 

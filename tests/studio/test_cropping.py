@@ -80,13 +80,32 @@ def test_two_fingers_zoom_the_photograph_and_not_the_page(open_desk: Callable[..
     desk.page.mouse.dblclick(x, y)
     zoom = desk.look("studio.view.zoom")
     touch = desk.page.context.new_cdp_session(desk.page)
-    for kind, off in (("touchStart", 10), ("touchMove", 16), ("touchMove", 22)):
-        points = [{"x": x - off, "y": y, "id": 0}, {"x": x + off, "y": y, "id": 1}]
-        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    def pinch(x: float, y: float) -> None:
+        first = {"x": x - 10, "y": y, "id": 0}
+        touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [first]})
+        for kind, off in (("touchStart", 10), ("touchMove", 16), ("touchMove", 22)):
+            points = [{**first, "x": x - off}, {"x": x + off, "y": y, "id": 1}]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    pinch(x, y)
     desk.until("studio.cropping.now.zoom > 1.5")
-    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    # Beside it, too; one finger there keeps the crop.
+    edge = desk.look("studio.canvas.getBoundingClientRect().bottom")
+    pinch(x, edge - 120)
+    desk.until("studio.cropping.now.zoom > 3")
     assert desk.look("studio.view.zoom") == zoom
     assert desk.look("studio.cropping.isOn")
+    assert desk.look(CROP) == WHOLE
+    for kind, points in (("touchStart", [{"x": x, "y": edge - 120}]), ("touchEnd", [])):
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    desk.until(f"!studio.cropping.isOn && {CROP} !== '{WHOLE}'")
+    desk.settled()
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"{CROP} === '{WHOLE}'")
+    desk.page.mouse.dblclick(x, y)
+    desk.page.keyboard.press("+")
     desk.page.keyboard.press("Enter")
     desk.until(f"{CROP} !== '{WHOLE}'")
     desk.settled()

@@ -30,8 +30,20 @@ def test_items_are_found_by_name_without_a_mouse(open_desk: Callable[..., Desk])
     assert desk.look("studio.choice.ids.size") == desk.look(
         "studio.collage.items.filter(item => item.name === 'moon').length"
     )
+    # Keys are then for what was found; Escape leaves a field as it was.
+    assert desk.look("document.activeElement.id") == "canvas"
     desk.page.locator("#find").fill("")
     assert desk.look(ROWS) == ["heart", "moon", "star"]
+    desk.page.keyboard.type("sta")
+    desk.page.keyboard.press("Escape")
+    assert desk.look(ROWS) == ["heart", "moon", "star"]
+    title = desk.page.locator("#title")
+    name = title.input_value()
+    title.press("x")
+    title.press("Escape")
+    assert title.input_value() == name
+    assert desk.look("document.activeElement.id") == "canvas"
+    assert desk.look("studio.choice.ids.size") > 1
 
 
 def test_each_of_those_that_look_alike_has_a_row(open_desk: Callable[..., Desk]) -> None:

@@ -167,6 +167,42 @@ def test_by_keys_alone(desk: Desk, drawing: Path, pictures: list[Path]) -> None:
     is_certified_pdf(desk, downloaded(desk, lambda: keys.press("Enter")))
 
 
+def test_yesterdays_file_is_recoloured_on_a_new_ground_and_exported(
+    desk: Desk, tmp_path: Path
+) -> None:
+    yesterday = tmp_path / "yesterday.packwork"
+    yesterday.write_bytes(downloaded(desk, lambda: desk.page.keyboard.press("Control+s")))
+    page, document = desk.page, desk.look("studio.document")
+    page.keyboard.press("Shift+N")
+    with page.expect_file_chooser() as waiting:
+        page.get_by_role("button", name="Open a file …").click()
+    waiting.value.set_files(yesterday)
+    desk.until(f"studio.document !== {document}")
+    desk.settled()
+    page.locator("#tab-look").click()
+    page.get_by_label("tol-muted").click()
+    desk.answered()
+    palette = desk.look("studio.collage.scene.palette")
+    shown = desk.look("studio.collage.items.map(({ id }) => studio.collage.colour(id))")
+    assert len(palette) > 1
+    assert set(shown) <= set(palette)
+    desk.page.locator("#panel [data-ground='#faf7f0']").click()
+    desk.answered()
+    assert desk.look("studio.collage.scene.ground") == "#faf7f0"
+    desk.picture("walk-recoloured")
+    page.locator("#export").click()
+    page.locator("dialog.export input[value=pdf]").check()
+    data = downloaded(desk, lambda: page.locator("dialog.export button[type=submit]").click())
+    is_certified_pdf(desk, data)
+    # The same by keys: a field of the panel is left by Escape.
+    keys = page.keyboard
+    keys.press("6")
+    keys.press("6")
+    page.locator("#panel select").first.focus()
+    keys.press("Escape")
+    assert desk.look("document.activeElement.id") == "canvas"
+
+
 def downloaded(desk: Desk, ask: Any) -> bytes:
     """Bytes of what is handed to the person."""
     with desk.page.expect_download() as waiting:

@@ -85,6 +85,8 @@ export class Gestures {
     const { cropping } = this.stage;
     if (cropping?.isOn) {
       if (this.stage.itemAt(at.x, at.y) === cropping.id) return { act: "crop", from: at, at, kind };
+      // A finger beside it may be one of two that zoom.
+      if (kind === "touch") return { act: "beside", from: at, at, kind };
       cropping.end(true);
     }
     const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
@@ -180,7 +182,7 @@ export class Gestures {
       if (isFree) this.stage.snapping.guides = [];
       this.hand.move(snaps && !alongX ? 0 : dx, snaps && alongX ? 0 : dy);
     }
-    else this.pull(doing, at, snaps);
+    else if (doing.act !== "beside") this.pull(doing, at, snaps);
     this.hears.changed();
   }
 
@@ -232,7 +234,8 @@ export class Gestures {
     if (this.pointers.size || !doing) return;
     this.doing = null;
     this.stage.marquee = null;
-    if (!doing.moves) this.clicked(doing);
+    if (doing.act === "beside") this.stage.cropping?.end(true);
+    else if (!doing.moves) this.clicked(doing);
     this.end();
     this.choice.changed();
   }
@@ -380,7 +383,7 @@ export class Gestures {
 }
 
 /**
- * @typedef {{act: "pan" | "draw" | "crop" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ * @typedef {{act: "pan" | "draw" | "crop" | "beside" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, before?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */

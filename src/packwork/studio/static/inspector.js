@@ -179,10 +179,6 @@ export class Inspector {
   /** @param {KeyboardEvent} event @param {HTMLInputElement} field */
   step(event, field) {
     const steps = { ArrowUp: FAR, ArrowDown: -FAR }[event.key];
-    if (event.key === "Escape") {
-      showAgain(field);
-      this.studio.canvas.focus();
-    }
     if (!steps || !event.shiftKey) return;
     event.preventDefault();
     field.value = String((field.valueAsNumber || 0) + steps);

@@ -46,8 +46,10 @@ export class ItemList {
     const { choice, canvas } = this.studio;
     const ids = this.found.map((one) => one.id);
     const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (event.key === "Escape" && !this.query.value) canvas.focus();
-    if (event.key === "Enter") choice.set(ids);
+    if (event.key === "Enter") {
+      choice.set(ids);
+      canvas.focus();
+    }
     if (!way || !ids.length) return;
     event.preventDefault();
     const at = ids.findIndex((id) => choice.has(id));

@@ -4,8 +4,8 @@
 /** @typedef {import("./actions.js").Action} Action */
 
 const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
-/** Keys that mean nothing in a field, and do there what they do elsewhere. */
-const ANYWHERE = new Set(["Mod+E", "Mod+S", "F6", "Shift+F6"]);
+/** Keys that mean nothing in a field, and do there what they do elsewhere; Escape leaves it as it was. */
+const ANYWHERE = new Set(["Mod+E", "Mod+S", "F6", "Shift+F6", "Escape"]);
 /** Keys of undo and redo. */
 const LEAPS = new Set(["Mod+Z", "Mod+Shift+Z", "Mod+Y"]);
 /** @type {Record<string, string>} */
@@ -53,6 +53,7 @@ export function listenToKeys(actions, hears) {
     if (!action || action.isNative || (event.repeat && !action.repeats) || isTaken(event)) return;
     event.preventDefault();
     closeMenu();
+    if (event.key === "Escape") giveUp(event.target);
     if (!action.when || action.when()) action.run();
   });
   addEventListener("keyup", (event) => {
@@ -61,14 +62,13 @@ export function listenToKeys(actions, hears) {
   addEventListener("blur", () => hears.pans(false));
 }
 
-/** What number fields held before that is being typed in them. @type {WeakMap<EventTarget, string>} */
+/** What fields of one line held before that is being typed in them. @type {WeakMap<EventTarget, string>} */
 const before = new WeakMap();
 
-/** Note what is being typed in number fields, until it is asked for or left. */
+/** Note what is being typed in fields of one line, until it is asked for or left. */
 function listenToTyping() {
-  const isNumber = (/** @type {EventTarget | null} */ one) => one instanceof HTMLInputElement && one.type === "number";
   addEventListener("beforeinput", ({ target }) => {
-    if (target && isNumber(target) && !before.has(target)) before.set(target, /** @type {HTMLInputElement} */ (target).value);
+    if (target instanceof HTMLInputElement && !before.has(target)) before.set(target, target.value);
   }, true);
   for (const kind of ["change", "focusout"]) addEventListener(kind, ({ target }) => target && before.delete(target), true);
 }
@@ -76,6 +76,13 @@ function listenToTyping() {
 /** Whether something is being typed in a field, and not asked for yet. @param {HTMLInputElement} field */
 export function isTypedIn(field) {
   return before.has(field);
+}
+
+/** Have in a field what it held before that was typed which nobody asked for. @param {EventTarget | null} field */
+function giveUp(field) {
+  if (!(field instanceof HTMLInputElement) || !before.has(field)) return;
+  field.value = field.type === "search" ? "" : before.get(field) ?? "";
+  field.dispatchEvent(new Event("input", { bubbles: true }));
 }
 
 /**

@@ -178,6 +178,8 @@ export class Studio {
   /** @param {import("./wire.js").State} state */
   stated(state) {
     const before = this.collage.state;
+    // What was missed is told when gaps are closed: meanwhile it comes and goes.
+    if (state.polishing && before && !before.busy) state = { ...state, unmet: before.unmet };
     this.collage.state = state;
     if (state.document !== this.document) this.opened(state.document ?? 0);
     if (state.fresh && !this.wasOffered) this.start.open();
@@ -383,7 +385,7 @@ export class Studio {
       return this.redraw();
     }
     if (this.gestures.cancel()) return;
-    if (byId("panel").contains(document.activeElement)) this.canvas.focus();
+    if (document.activeElement?.closest("#panel, #title")) this.canvas.focus();
     else if (this.room.isOn) this.editRoom();
     else this.choice.set([]);
   }
