@@ -161,10 +161,21 @@ def test_every_command_has_a_summary() -> None:
     assert set().union(*map(commands_of, modules)) == set(SUMMARIES)
 
 
-def test_a_run_waits_for_no_library_that_only_some_need() -> None:
+@pytest.mark.parametrize("more", [[], ["--effort", "draft"]])
+def test_a_plain_fill_waits_for_no_library_that_only_some_need(
+    more: list[str], tmp_path: Path
+) -> None:
+    heavy = {"scipy.spatial", "scipy.ndimage", "scipy.optimize", "scipy.special", "scipy.linalg"}
+    heavy |= {"contourpy", "pandas", "packwork.readers.fonts.face", "packwork.readers.photos"}
+    heavy |= {"packwork.readers.layouts.geojson"}
+    heavy |= {"packwork.start.first_fit.first_fit", "packwork.separation.discs"}
+    line = ["packwork", "fill", "bear", "-n", "5", *more, "-o", str(tmp_path / "bear.svg")]
     script = (
-        "import sys, packwork.cli.running\n"
-        "sys.exit(', '.join({'scipy.optimize', 'contourpy', 'pandas'} & set(sys.modules)) or 0)\n"
+        "import sys, packwork.cli\n"
+        f"sys.argv = {line!r}\n"
+        "try:\n    packwork.cli.app()\n"
+        "except SystemExit as end:\n    assert not end.code\n"
+        f"sys.exit(', '.join({heavy!r} & set(sys.modules)) or 0)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=False

@@ -19,14 +19,12 @@ from packwork.pipeline.plan.copies import Cast, ItemRules, rules_by_source, shar
 from packwork.pipeline.plan.own_losses import check_ablations, losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.vectors import ItemVectors, Key, key_of, read_item_vectors
-from packwork.pipeline.region_labels import labelled
 from packwork.pipeline.registration import registered
 from packwork.readers.container import read_container
 from packwork.readers.folders import Sample
 from packwork.readers.items import is_several, read_items
 from packwork.readers.layouts.read import is_drawn, read_written
 from packwork.readers.options import AS_DRAWN
-from packwork.readers.photos import read_photos
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
 from packwork.recipe import AUTO, Recipe
@@ -177,6 +175,8 @@ def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:
     has_data = recipe.embeddings is not None or recipe.weights is not None
     sample = None if is_chosen or has_data else sample_of(recipe)
     if recipe.photos is not None:
+        from packwork.readers.photos import read_photos
+
         threshold = recipe.alpha_threshold
         photos = read_photos(
             recipe.photos, strict=recipe.strict, threshold=threshold, sample=sample
@@ -229,6 +229,8 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         clock=clock,
     )
     if recipe.label_regions:
+        from packwork.pipeline.region_labels import labelled
+
         job = labelled(job)
     if recipe.hero is not None:
         job = placed_hero(job)

@@ -20,7 +20,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from scipy.spatial import cKDTree
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
@@ -314,6 +313,9 @@ class DiscSearch:
         trapped = np.flatnonzero(scales < TRAPPED * self._jammed)
         if not len(trapped):
             return
+        # Takes longer to load than all else; most runs have none that is trapped.
+        from scipy.spatial import cKDTree
+
         usual = self._scale * float(self._radii.mean())
         left = np.empty((0, 2))
         # Once one of a crowd has left it, the next round tells whether the others have room.

@@ -33,7 +33,6 @@ from packwork.scene.pose import Limits, Poses, turn_sides
 from packwork.scene.target import TargetPicture, blurred
 from packwork.start.angles_and_sizes import spread_angles
 from packwork.start.erosion import is_thread, scales_within, spread_along
-from packwork.start.first_fit.first_fit import first_fit
 from packwork.start.first_fit.preferences import Homes
 from packwork.start.first_poses import (
     container_image,
@@ -204,6 +203,8 @@ class ByFirstFit(Start):
 
     def find(self, setting: Setting) -> RunState | None:
         """Poses in which nothing overlaps; None where no size is found."""
+        from packwork.start.first_fit.first_fit import first_fit
+
         job, plan = setting.job, setting.job.plan
         limits, scales = setting.limits(setting.angles)
         few_steps = is_only_refined(job)

@@ -22,7 +22,6 @@ from packwork.steps.assign_in_order import AssignInOrder
 from packwork.steps.control import BestOf, Replan, UnlessTight
 from packwork.steps.exchanges import ExchangeByForces, KindsApart
 from packwork.steps.finish import Finish, finished
-from packwork.steps.jam_discs import JamDiscs, jams_discs
 from packwork.steps.levels import Levels
 from packwork.steps.line_weights import EvenLines, FinishThinner, TellLineWeights
 from packwork.steps.measure import Measure, RemarkCount, TellCoarse
@@ -78,7 +77,11 @@ def solving(job: Job, *, suits_first_fit: bool, place: RunStep | None = None) ->
 
 def jamming(job: Job) -> list[RunStep]:
     """Steps of many discs of one common scale, in place of :func:`placing`; nothing of all else."""
-    if job.plan.sizes != "shared" or not jams_discs(job):
+    if job.plan.sizes != "shared":
+        return []
+    from packwork.steps.jam_discs import JamDiscs, jams_discs
+
+    if not jams_discs(job):
         return []
     return [*([StartRecording()] if job.is_recorded else []), JamDiscs()]
 

@@ -20,8 +20,6 @@ from packwork.metrics.exact import PORTION
 from packwork.metrics.measure import exact_of
 from packwork.phrasing import number_of
 from packwork.readers.gate.door import MAX_BYTES
-from packwork.readers.layouts.agreement import differences, shapes_of_svg
-from packwork.readers.layouts.pdf import printed_page
 from packwork.readers.layouts.read import ENDINGS, read_content
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.coordinates import Page
@@ -94,6 +92,9 @@ def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]
 
 def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str]) -> tuple[str, ...]:
     """Warning of paint in a PDF that the SVG that it was made of lacks, a sentence or none."""
+    from packwork.readers.layouts.agreement import differences, shapes_of_svg
+    from packwork.readers.layouts.pdf import printed_page
+
     try:
         page, drawn = shapes_of_svg(drawing)
         printed = printed_page(data)

@@ -10,5 +10,8 @@ if TYPE_CHECKING:
 
     from packwork.scene.layout import Layout
 
+MAX_LAYOUT_BYTES = 200_000_000
+"""Size of a layout file: 9,000 items with hundreds of vertices each. Chosen."""
+
 HANDED_IN: dict[str, Callable[[str | Path], Layout]] = {}
 """Readers of files that only packages above this one know, by their endings."""

@@ -17,6 +17,7 @@ from packwork.errors import ReadError, RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.json_text import opened_collection, parsed
+from packwork.readers.layouts import MAX_LAYOUT_BYTES
 from packwork.readers.reading import UnfitError, read_text, reading_file
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
@@ -26,9 +27,6 @@ from packwork.scene.item import Datum, FlatArt, Item, Label
 from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
 from packwork.units import UNITS, Unit
-
-MAX_LAYOUT_BYTES = 200_000_000
-"""Size of a layout file: 9,000 items with hundreds of vertices each. Chosen."""
 
 WIDEST_STRETCH = 1e4
 """Width over height, or height over width, of an item against its own shape at most.

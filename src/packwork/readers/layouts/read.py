@@ -8,10 +8,8 @@ from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.gate.door import MAX_BYTES, parse_xml
-from packwork.readers.layouts import HANDED_IN
-from packwork.readers.layouts.dxf import APPLICATION, layout_of_dxf
+from packwork.readers.layouts import HANDED_IN, MAX_LAYOUT_BYTES
 from packwork.readers.layouts.foreign_svg import group_named
-from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
 from packwork.readers.layouts.svg import layout_of_svg
 from packwork.readers.reading import UnfitError, read_bytes, reading_file, stem
 from packwork.scene.layout import Layout
@@ -23,10 +21,6 @@ which paths."""
 
 SESSION = ".packwork"
 """Ending of session files: layouts with all that undo leads to. Their reader is handed in."""
-
-
-_OURS = re.compile(rb"^1001\s+" + APPLICATION.encode() + rb"\s*$", re.MULTILINE)
-"""Tag in a DXF before what we say of a line."""
 
 
 def is_drawn(path: str | Path) -> bool:
@@ -54,7 +48,11 @@ def is_session(path: str | Path) -> bool:
 def holds_layout(path: str | Path) -> bool:
     """Whether an SVG or DXF is one of ours, a layout, and no drawing to be packed."""
     if Path(path).suffix.lower() == ".dxf":
-        return _OURS.search(read_bytes(path, MAX_LAYOUT_BYTES)) is not None
+        from packwork.readers.layouts.dxf import APPLICATION
+
+        # The tag before what we say of a line.
+        ours = rb"^1001\s+" + APPLICATION.encode() + rb"\s*$"
+        return re.search(ours, read_bytes(path, MAX_LAYOUT_BYTES), re.MULTILINE) is not None
     try:
         root = parse_xml(read_bytes(path, MAX_BYTES))
     except UnfitError:
@@ -79,6 +77,8 @@ def read_written(path: str | Path) -> Layout:
             path, "has no outlines to measure; give a .geojson, .svg, .dxf or .packwork"
         )
     if not is_drawn(path):
+        from packwork.readers.layouts.geojson import read_layout
+
         return read_layout(path)
     most = MAX_BYTES if ending == ".svg" else MAX_LAYOUT_BYTES
     return read_content(read_bytes(path, most), path)
@@ -94,7 +94,11 @@ def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) 
         if ending == ".svg":
             return layout_of_svg(data, stem(path), outlines_only=outlines_only)
         if ending == ".dxf":
+            from packwork.readers.layouts.dxf import layout_of_dxf
+
             # Only names may hold other letters than ASCII, and names are for showing.
             text = data.decode("cp1252", errors="replace")
             return layout_of_dxf(text, stem(path), outlines_only=outlines_only)
+        from packwork.readers.layouts.geojson import layout_of_geojson
+
         return layout_of_geojson(data.decode())

@@ -176,10 +176,11 @@ class _Drawings:
         self._outlines: dict[ET.Element, Outline] = {}
         self._letterings = LetteringOutlines(_SPECK)
         self._stated = 0
-        for one in drawn:
+        self.places = {one: place_and_art(self.source(one), one)[0] for one in drawn}
+        """Maps (2 x 3) from each item's units to where it lies."""
+        for one, place in self.places.items():
             source = self.source(one)
-            size = _size(place_and_art(source, one)[0])
-            self._largest[source] = max(size, self._largest.get(source, 0.0))
+            self._largest[source] = max(_size(place), self._largest.get(source, 0.0))
 
     def wall(self, group: ET.Element) -> Region:
         """Region of the container's paths, shown or not."""
@@ -296,7 +297,7 @@ def _found(
         if parts is None
         else parts.item(drawn, source, label, ink, arts, keeps_holes=keeps_holes)
     )
-    place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
+    place = affine.compose(to_canvas, drawings.places[drawn])
     return FoundItem(item.name, item, sound_weight(drawn.get("data-weight", "1")), place)
 
 
@@ -305,10 +306,10 @@ def _outline_of(
     to_canvas: FloatArray, keeps_holes: bool,
 ) -> FoundItem:  # fmt: skip
     """An item of which nothing but its outline is known."""
-    _, drawn, source = element
+    _, drawn, _ = element
     name = drawn.get("data-name", "item")
     outline = drawings.outline(drawn, keeps_holes)
-    place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
+    place = affine.compose(to_canvas, drawings.places[drawn])
     weight = sound_weight(drawn.get("data-weight", "1"))
     return FoundItem(name, Item(name, name, outline, outline, FlatArt()), weight, place)
 
@@ -339,7 +340,9 @@ def _place(element: ET.Element) -> FloatArray:
 
 
 def _size(matrix: FloatArray) -> float:
-    return float(np.linalg.norm(matrix[:, :2], 2))
+    """Largest singular value: by how much lengths grow at most."""
+    (a, b, _), (c, d, _) = matrix.tolist()
+    return (math.hypot(a + d, c - b) + math.hypot(a - d, b + c)) / 2
 
 
 def _drawn(element: ET.Element) -> ET.Element:

@@ -110,8 +110,8 @@ def parse_transform(text: str | None) -> FloatArray:
             return affine.identity()
         matrix = affine.compose(matrix, step)
         place = match.end()
-    for number in matrix.flat:
-        checked(float(number))
+    for number in matrix.ravel().tolist():
+        checked(number)
     return matrix if not plain[place:].strip() else affine.identity()
 
 
@@ -156,7 +156,9 @@ def _call(name: str, args: list[float]) -> FloatArray | None:
         return np.array([[args[0], args[2], args[4]], [args[1], args[3], args[5]]])
     if name == "rotate" and count in {1, 3}:
         turn = affine.similarity(0.0, 0.0, math.radians(args[0]), 1.0)
-        x, y = args[1:] if count == 3 else (0.0, 0.0)
+        if count == 1:
+            return turn
+        x, y = args[1:]
         return affine.compose(affine.compose(_shift(x, y), turn), _shift(-x, -y))
     if name == "scale" and count in {1, 2}:
         return np.array([[args[0], 0.0, 0.0], [0.0, args[-1], 0.0]])
