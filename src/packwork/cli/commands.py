@@ -12,13 +12,14 @@ import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final
 
 import typer
 import typer.main
 from typer.core import TyperCommand, TyperGroup
 
-from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors
+from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors, comma_hint
 from packwork.cli.terminal import prepare_streams, say
 from packwork.errors import ReadError
 from packwork.sources import noting_inputs
@@ -97,6 +98,7 @@ class HelpfulCommand(TyperCommand):
     """
 
     topic: str | None = None
+    typed: Mapping[str, Any] = MappingProxyType({})
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Read the arguments, of which the one after ``--help`` is a topic."""
@@ -105,7 +107,7 @@ class HelpfulCommand(TyperCommand):
         self.topic = next(iter(before[places[0] + 1 :]), None) if places else None
         if self.topic is not None:
             args = ["--help"]
-        _, _, given = self.make_parser(ctx).parse_args(args=list(args))
+        self.typed, _, given = self.make_parser(ctx).parse_args(args=list(args))
         for param in dict.fromkeys(given):
             if param.name in ONCE and given.count(param) > 1:
                 line = f"is given twice; {ONCE[param.name]}"
@@ -311,8 +313,15 @@ def _line(error: Any) -> str:
     said = " ".join(str(error.format_message()).replace("Value error, ", "").split()).rstrip(".")
     context = getattr(error, "ctx", None)
     said = _meant(error, context) or said
+    typed = getattr(getattr(context, "command", None), "typed", {})
+    met = typed.get(getattr(getattr(error, "param", None), "name", None))
+    if "Input should" in said and isinstance(met, str):
+        # Only a line that is wrong loads the words.
+        from packwork.recipe.refusals import plain_words
+
+        said = f"{plain_words(said)}, not {met[:60]!r}"
     if type(error).__name__ == "MissingParameter" and context is not None:
         pieces = " ".join(context.command.collect_usage_pieces(context)[1:])
         said = f"{said}; use {context.command_path} {pieces}"
     command = context.command_path if context is not None else "packwork"
-    return f"{said[0].lower()}{said[1:]}; see {command} --help"
+    return f"{said[0].lower()}{said[1:]}{comma_hint(said)}; see {command} --help"

@@ -7,6 +7,7 @@ does not. A thread hears of it at once, and answers where the program has not.
 from __future__ import annotations
 
 import os
+import re
 import signal
 import socket
 import sys
@@ -43,7 +44,7 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
             line = f"{recipe}: {line}"
         elif isinstance(error, RecipeError) and error.key not in _NO_FLAGS:
             line = _flag(error.key) + line.removeprefix(error.key)
-        say(line)
+        say(line + comma_hint(line))
         raise typer.Exit(BAD_INPUT) from None
     except MemoryError:
         say(
@@ -55,6 +56,31 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
         said = str(stop) or "stopped before there was anything to write"
         say(said)
         raise typer.Exit(INTERRUPTED) from None
+
+
+_COMMA = re.compile(
+    r"'((?:\w+=)?-?\d+,\d+ ?(?:[a-z]{1,3}|%)?(?: ?x ?\d+(?:,\d+)? ?[a-z]{0,3})?)'", re.IGNORECASE
+)
+"""A number with a decimal comma, a length or a sheet, in the words of an error."""
+
+
+def comma_hint(line: str) -> str:
+    """Advice, where an error names a number with a decimal comma; else nothing.
+
+    Examples
+    --------
+    >>> comma_hint("--unit: must be a number, not '0,5'")
+    '; write 0.5'
+    >>> comma_hint("--pixels: must be a whole number, not '1,000'"), comma_hint("no 'a,1.svg'")
+    ('; write 1000', '')
+    """
+    met = _COMMA.search(line)
+    if met is None:
+        return ""
+    groups = "whole number" in line
+    if groups and re.fullmatch(r"\d{1,3},\d{3}", met[1]) is None:
+        return ""
+    return f"; write {met[1].replace(',', '' if groups else '.')}"
 
 
 def _flag(key: str) -> str:

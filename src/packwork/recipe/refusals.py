@@ -82,14 +82,20 @@ def refusal(
     where = _where(within) if key in {"rules", "words", "chart", "film"} else ""
     if first["type"] == "missing":
         return RecipeError(key, f"{where}must be given")
-    message = re.sub(r"^(Value error, |Input )", "", first["msg"])
-    for said, meant in _PLAIN_WORDS.items():
-        message = message.replace(said, meant)
+    message = plain_words(first["msg"])
     met = ""
     if first["type"] != "value_error":
         message, met = message[:200], f", not {_said(first['input'])}"
     hint = _percent_meant(model, first)
     return RecipeError(key, f"{where}{message[0].lower()}{message[1:]}{met}{hint}")
+
+
+def plain_words(message: str) -> str:
+    """What pydantic says of a value, in the words of other messages."""
+    message = re.sub(r"(^|: )(Value error, |Input )", r"\1", message)
+    for said, meant in _PLAIN_WORDS.items():
+        message = message.replace(said, meant)
+    return message
 
 
 def _percent_meant(model: type[BaseModel], error: Mapping[str, Any]) -> str:
