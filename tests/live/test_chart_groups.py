@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,10 @@ import shapely
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.chart_groups import region_of_one
+from packwork.live.commands.command import Library
+from packwork.live.commands.container import PlaceContainer
+from packwork.live.document import Document
+from packwork.live.face.offers import columns_of, read_again
 from packwork.live.relayout import poured_again
 from packwork.live.session import Session
 
@@ -209,3 +214,27 @@ def test_groups_keep_all_islands_of_their_containers(tmp_path: Path) -> None:
         assert not any("belongs" in one for one in session.advice)
         x, y = (float(value[6]) for value in (session.document.poses.x, session.document.poses.y))
         assert island.contains(shapely.Point(x, y))
+
+
+def test_the_map_of_a_session_is_charted_again_where_its_file_is_gone(tmp_path: Path) -> None:
+    land, table, kept = (tmp_path / name for name in ("land.geojson", "t.csv", "c.packwork"))
+    bounds = {"Nord": (8, 52, 14, 54), "Süd": (8, 48, 14, 52)}
+    features = [
+        {"type": "Feature", "properties": {"name": name}, "geometry": shapely.box(*box)}
+        for name, box in bounds.items()
+    ]
+    whole = {"type": "FeatureCollection", "features": features}
+    land.write_text(json.dumps(whole, default=shapely.geometry.mapping), encoding="utf-8")
+    table.write_text("hof,land\nA,Nord\nB,Süd\n", encoding="utf-8")
+    asked = {"by": "land", "in_regions": True, "effort": "draft", "levels": "50,100", "seed": 1}
+    pw.chart(land, table, **asked).save(kept)
+    filled = Document.from_layout(pw.fill(land, ["star"], count=2, effort="draft", levels="50"))
+    land.unlink()
+    container = pw.Session.open(kept).layout.container
+    found = columns_of(str(table), container)["columns"]
+    assert [one["name"] for one in found if one["regions"]] == ["land"]
+    again = pw.chart(read_again(container), table, **asked)
+    assert {note.says for note in again.notes} >= set(bounds)
+    # What is moved has no parts where its file says.
+    assert filled.container.file is not None
+    assert PlaceContainer(x=5.0).applied(filled, Library()).container.file is None

@@ -187,6 +187,15 @@ def test_marks_lie_in_the_regions_of_a_map_that_was_dropped(
     layout = saved(desk, kept)
     assert layout.manifest["group_parts"] == [1, 1]
     assert {note.says for note in layout.notes} >= {"Nord", "Sued"}
+    # Opened again it has its map, for another chart.
+    document = desk.look("studio.document")
+    give(desk, kept)
+    desk.until(f"studio.document !== {document}")
+    desk.settled()
+    give(desk, farms)
+    asked.get_by_role("button", name="A chart").click()
+    assert asked.get_by_label("Each in its region of the map").is_checked()
+    asked.get_by_role("button", name="Cancel").click()
 
 
 def test_a_table_without_numbers_is_a_chart_of_its_rows(

@@ -34,10 +34,10 @@ from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.reading import (
     exists,
+    file_text,
     is_folder,
     notice,
     read_bytes,
-    read_text,
     reading_file,
     stem,
 )
@@ -123,23 +123,44 @@ def read_parts(
     None of any other. ``tell``, ``stop``: as of :func:`parts_of_svg`; ``asked`` as of
     :func:`parts_of_map`.
     """
-    path = Path(container.source)
-    if path.suffix.lower() in ENDINGS and exists(path):
-        return parts_of_map(read_text(path, MAX_MAP_BYTES), container, asked)
-    if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):
+    if container.file is None:
         return []
-    return parts_of_svg(read_bytes(path, MAX_BYTES), container, tell, stop)
+    if _is_map(container):
+        return parts_of_map(file_text(container.file, container.source), container, asked)
+    return parts_of_svg(container.file, container, tell, stop)
 
 
-def part_names(source: str) -> list[set[str]]:
+def part_names(container: Container) -> list[set[str]]:
     """Names that parts of a container's file have, as by :func:`region_key`, by what says them."""
-    path = Path(source)
-    if path.suffix.lower() in ENDINGS and exists(path):
-        return names_on_map(read_text(path, MAX_MAP_BYTES))
-    if path.suffix.lower() in {".svg", ".svgz"} and exists(path):
-        parts = named_parts(read_bytes(path, MAX_BYTES), lambda line: None)
-        return [{region_key(name) for name, _ in parts}]
-    return []
+    if container.file is None:
+        return []
+    if _is_map(container):
+        return names_on_map(file_text(container.file, container.source))
+    parts = named_parts(container.file, lambda line: None)
+    return [{region_key(name) for name, _ in parts}]
+
+
+def _is_map(container: Container) -> bool:
+    return Path(container.source).suffix.lower() in ENDINGS
+
+
+def read_again(container: Container) -> Container:
+    """The whole container of the file that one was read from, which a chart has made smaller."""
+    name, source, file = container.name, container.source, container.file or b""
+    with reading_file(source):
+        return closed_slits(_of_named_parts(file, name, source, None, ReadOptions()), GAPS_AUTO)
+
+
+def _of_named_parts(
+    data: bytes, name: str, source: str, side: float | None, reading: ReadOptions
+) -> Container:
+    """Container of a map or an SVG, which keeps it."""
+    if Path(source).suffix.lower() in ENDINGS:
+        text = file_text(data, source)
+        made = container_of_map(text, name, source, side or DEFAULT_SIDE)
+    else:
+        made = container_of_svg(data, name, source, side, reading)
+    return replace(made, file=data)
 
 
 def _container(
@@ -181,18 +202,15 @@ def _container_of_file(
     ending = path.suffix.lower()
     if is_folder(path):
         raise ReadError(source, f"is a folder; the container comes first, and is {_FORMS}")
-    if ending in {".svg", ".svgz"}:
-        data = read_bytes(path, MAX_BYTES)
-        return container_of_svg(data, stem(path), source, side, reading)
+    if ending in {".svg", ".svgz", *ENDINGS}:
+        data = read_bytes(path, MAX_MAP_BYTES if ending in ENDINGS else MAX_BYTES)
+        return _of_named_parts(data, stem(path), source, side, reading)
     if ending == ".dxf":
         # Loads what no other file needs.
         from packwork.readers.dxf.entities import MAX_DXF_BYTES
         from packwork.readers.dxf.item import container_of_dxf
 
         return container_of_dxf(read_bytes(path, MAX_DXF_BYTES), stem(path), source, side)
-    if ending in ENDINGS:
-        text = read_text(path, MAX_MAP_BYTES)
-        return container_of_map(text, stem(path), source, side or DEFAULT_SIDE)
     if ending in PICTURE_ENDINGS:
         mask = trace_mask(path, reading.alpha_threshold)
         with reading_file(source):

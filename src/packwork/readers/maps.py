@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -94,7 +95,7 @@ def parts_of_map(
     called by the property that has most of them, in either case; without, by that for people.
     """
     with reading_file(container.source):
-        features = list(_features(text))
+        features = _features(text)
         left, top, right, bottom = clean_union(*(one.region for one in features)).bounds
         wanted = {region_key(name) for name in asked}
         key = _key(features, wanted)
@@ -178,8 +179,9 @@ def _key(features: Collection[Feature], asked: Collection[str]) -> str:
     return best if asked or not best or CALLED.fullmatch(best) else ""
 
 
-def _features(text: str) -> Iterator[Feature]:
-    """Features with an area; others are left out."""
+@lru_cache(maxsize=1)
+def _features(text: str) -> tuple[Feature, ...]:
+    """Features with an area, of the last map once more; others are left out."""
     said = parsed(text)
     listed = said.get("features") if isinstance(said, dict) else None
     if not isinstance(listed, list):
@@ -208,9 +210,12 @@ def _features(text: str) -> Iterator[Feature]:
             name = next(iter(names.values()), "a feature")
             raise UnfitError(f"{name[:40]} is no region") from None
     Allowance(MAX_UNION_CROSSINGS).spend(rings)
-    for (names, _), region in zip(found, _on_plane(shapes, is_globe=is_globe), strict=True):
-        if region.area > 0:
-            yield Feature(names, region)
+    regions = _on_plane(shapes, is_globe=is_globe)
+    return tuple(
+        Feature(names, region)
+        for (names, _), region in zip(found, regions, strict=True)
+        if region.area > 0
+    )
 
 
 def _polygon(rings: list[FloatArray], *, is_globe: bool) -> Region:

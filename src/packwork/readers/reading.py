@@ -227,8 +227,13 @@ def _telling(path: str | Path) -> Iterator[None]:
 
 def read_text(path: str | Path, most: int) -> str:
     """Text of a UTF-8 file of at most ``most`` bytes, with or without a byte order mark."""
+    return file_text(read_bytes(path, most), path)
+
+
+def file_text(data: bytes, path: str | Path) -> str:
+    """The same of a file that was read."""
     try:
-        return read_bytes(path, most).decode("utf-8-sig")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise ReadError(path, "is not text in UTF-8; save it with that encoding") from None
 

@@ -59,6 +59,8 @@ class Container:
         Lines that are drawn of it, each ``(n, 2)``, where it has openings; None: its outline.
     lattice
         By which all repeats where it is a tile, whose outline is then no wall but the cell.
+    file
+        The map or drawing that it was read from, whose regions or shapes name parts of it.
 
     Raises
     ------
@@ -81,6 +83,7 @@ class Container:
     backdrop: Backdrop | None
     walls: tuple[FloatArray, ...] | None
     lattice: Lattice | None
+    file: bytes | None
 
     def __init__(
         self,
@@ -93,6 +96,7 @@ class Container:
         backdrop: Backdrop | None = None,
         walls: tuple[FloatArray, ...] | None = None,
         lattice: Lattice | None = None,
+        file: bytes | None = None,
     ) -> None:
         if outline is None:
             raise ShapeError("a container needs an outline, such as a Shapely polygon")
@@ -105,7 +109,7 @@ class Container:
         height = bottom if height is None else height
         if not (width > 0 and height > 0):
             raise ShapeError(f"a canvas needs a positive size, not {width:g} x {height:g}")
-        values = (name, source, shape, width, height, unit, backdrop, walls, lattice)
+        values = (name, source, shape, width, height, unit, backdrop, walls, lattice, file)
         for column, value in zip(fields(Container), values, strict=True):
             object.__setattr__(self, column.name, value)
 

@@ -97,9 +97,8 @@ class Studio:
     async def _table(self, request: Request) -> Response:
         try:
             file, shown = self._importer.file(request.path_params["batch"]), self._workspace.shown
-            source = "" if shown is None else shown.view.container.source
-            known = source if self._importer.is_sent(source) else ""
-            return JSONResponse(await asyncio.to_thread(columns_of, file, known))
+            container = None if shown is None else shown.view.container
+            return JSONResponse(await asyncio.to_thread(columns_of, file, container))
         except PackworkError as error:
             return refused(PackworkError(self._importer.without_folder(str(error))))
 

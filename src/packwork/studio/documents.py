@@ -13,7 +13,7 @@ from packwork.errors import ReadError
 from packwork.live.chart_groups import region_of_one
 from packwork.live.commands.command import made, named_container
 from packwork.live.commands.container import SetContainer
-from packwork.live.face.offers import container_of
+from packwork.live.face.offers import container_of, read_again
 from packwork.live.face.opening import Opening, chart_opening, opening_sent
 from packwork.live.face.templates import template
 from packwork.live.kinds import ChartKind
@@ -87,8 +87,6 @@ class BeginChart(PageRequest):
 
     def _begin(self, tab: Tab) -> None:
         file, container = tab.importer.file(self.source), _room(tab)
-        if self.in_regions and not tab.importer.is_sent(container.source):
-            raise ReadError("in_regions", "needs the map's file; drop it once more")
         columns = ("size_by", "color_by", "label_by", "by", "by_step", "in_regions")
         asked = {name: getattr(self, name) for name in columns}
         marks = () if self.mark is None else (self.mark,)
@@ -104,9 +102,9 @@ def _room(tab: Tab) -> Container:
     container = shown.view.container
     if not isinstance(shown.view.kind, ChartKind):
         return container
-    if tab.importer.is_sent(container.source):
+    if container.file is not None:
         size = CanvasSize(container.side, None, container.unit)
-        return on_canvas(container_of(container.source, None), size)
+        return on_canvas(read_again(container), size)
     region = region_of_one(owner.frame.document)
     left, top, right, bottom = region.bounds
     box = (left, top, right - left, bottom - top)

@@ -65,10 +65,6 @@ class Importer:
         """The one file of a batch."""
         return str(only_file(self.folder(asked)))
 
-    def is_sent(self, source: str) -> bool:
-        """Whether the file that a container names was sent: what sessions name may be any."""
-        return Path(source).is_relative_to(self._uploads.root) and Path(source).is_file()
-
     def container(self, asked: str) -> str:
         """Source of a container: as of items, but of one file, or ``text:WORD``."""
         if asked.startswith(FILES):

@@ -224,4 +224,5 @@ def _turned(document: Document, before: LiveOptions) -> Document:
 
 
 def _outlined(container: Container, outline: Outline) -> Container:
-    return replace(container, outline=outline, backdrop=None, walls=None)
+    # Parts of its file lie elsewhere.
+    return replace(container, outline=outline, backdrop=None, walls=None, file=None)

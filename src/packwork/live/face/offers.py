@@ -28,6 +28,7 @@ from packwork.readers.builtin import (
     icon_names,
 )
 from packwork.readers.container import part_names, read_container, read_parts
+from packwork.readers.container import read_again as read_again
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
 from packwork.readers.maps import region_key
@@ -162,13 +163,13 @@ MOST_COLUMNS = 60
 """Columns of a table that are offered; of tables with more, the first. Chosen."""
 
 
-def columns_of(path: str, source: str = "") -> dict[str, Any]:
+def columns_of(path: str, container: Container | None = None) -> dict[str, Any]:
     """Columns of a table, as a chart may stand for them, and its first rows, as plain values.
 
     ``numbers``: whether most cells that hold something are numbers; ``values``: how many differ;
-    ``regions``: whether most name parts of the container whose file is ``source``.
+    ``regions``: whether most name parts of the container.
     """
-    table, named = read_table(path), part_names(source) if source else []
+    table, named = read_table(path), part_names(container) if container else []
     columns, rows = list[dict[str, Any]](), list[list[str]]()
     for name in table.columns[:MOST_COLUMNS]:
         cells = [row.get(name) for row in table.with_numbers(name, None, whole=False).rows]
@@ -224,10 +225,7 @@ def container_of(source: str, canvas: str | None, font: str | None = None) -> Co
 
 
 def labels_of(container: Container, stop: Stop = never) -> tuple[list[PartLabel], list[str]]:
-    """Names of the parts of a container whose file was just read, and what has to be told of them.
-
-    Never of one that a session names: what stands there as its file may be any on this machine.
-    """
+    """Names of the parts of a container, and what has to be told of them."""
     short = list[str]()
     parts = read_parts(container, short.append, stop)
     labels, told = part_labels(parts, container.side)

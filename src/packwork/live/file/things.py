@@ -12,6 +12,7 @@ from pydantic import BaseModel, ValidationError
 
 from packwork.geometry.outline import Outline
 from packwork.live.file.records import (
+    MOST_FILE,
     BackdropRecord,
     ContainerRecord,
     DatumRecord,
@@ -174,7 +175,7 @@ def _parts_of(records: tuple[PartRecord, ...], shared: Shared) -> Parts:
 
 def container_record(container: Container) -> ContainerRecord:
     """A container as plain values."""
-    behind, walls = container.backdrop, container.walls
+    behind, walls, file = container.backdrop, container.walls, container.file or b""
     backdrop = None
     if behind is not None:
         across = float(np.hypot(*behind.matrix[:, 0]))
@@ -190,6 +191,7 @@ def container_record(container: Container) -> ContainerRecord:
         backdrop=backdrop,
         walls=None if walls is None else tuple(text_of(wall) for wall in walls),
         repeats=None if container.lattice is None else container.lattice.kind,
+        file=file.decode("latin-1") if 0 < len(file) <= MOST_FILE else None,
     )
 
 
@@ -205,6 +207,7 @@ def container_of(record: ContainerRecord, shared: Shared) -> Container:
         record.unit,
         None if behind is None else Backdrop(photo_of(behind.art), matrix_of(behind.matrix)),
         None if walls is None else tuple(points_of(wall) for wall in walls),
+        file=None if record.file is None else record.file.encode("latin-1", "replace"),
     )
     return made if record.repeats is None else repeating(made, record.repeats)
 
