@@ -102,7 +102,7 @@ def _nothing_by_chance() -> Iterator[None]:
     """What a test sees is not decided by time, by the order of tests or by other runs."""
     with pytest.MonkeyPatch.context() as patch:
         # Lines of progress come with time.
-        patch.setattr(bar, "SECONDS_BETWEEN_LINES", float("inf"))
+        patch.setattr(bar, "SECONDS_BEFORE_LINE", float("inf"))
         # Which test compiles the first kernel, and logs that, is chance.
         patch.setattr(compiled.listeners, "_tell_once", lambda: None)
         patch.setattr(cache, "DRAWINGS", _OfThisSession())

@@ -137,7 +137,7 @@ def test_a_file_in_place_of_the_terminal_stays_clean() -> None:
         "import sys, packwork as pw, packwork.compiled, packwork.display.bar as bars\n"
         "pw.compiled.listeners._tell_once = lambda: None\n"
         "for seconds in (1e9, 0.0):\n"
-        "    bars.SECONDS_BETWEEN_LINES = seconds\n"
+        "    bars.SECONDS_BEFORE_LINE = seconds\n"
         "    pw.fill('circle', 'star', count=2, epochs=30, levels='16', progress=True)\n"
         "    print('run', file=sys.stderr)"
     )
@@ -151,20 +151,20 @@ def test_a_file_in_place_of_the_terminal_stays_clean() -> None:
 
 
 def test_a_bar_never_goes_backwards(capsys: pytest.CaptureFixture[str]) -> None:
-    bar = TerminalBar()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bars, "SECONDS_BETWEEN_LINES", 0.0)
+        patch.setattr(bars, "SECONDS_BEFORE_LINE", 0.0)
+        bar = TerminalBar()
         bar.tell(0.5, "this")
         bar.tell(0.2, "that")
     assert capsys.readouterr().err == "packwork: 50 %: this\npackwork: 50 %: that\n"
-    # A run of half a minute leaves nothing in a log.
-    patient, now = TerminalBar(), time.monotonic()
+    # A short run leaves nothing in a log, a long one ever fewer lines.
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bars, "SECONDS_BETWEEN_LINES", 30.0)
-        for later in (1.0, 29.0, 31.0, 40.0):
+        patch.setattr(bars, "SECONDS_BEFORE_LINE", 4.0)
+        patient, now = TerminalBar(), time.monotonic()
+        for later in (1.0, 3.0, 5.0, 12.0, 14.0, 28.0, 31.0):
             patch.setattr(time, "monotonic", lambda later=later: now + later)
-            patient.tell(later / 60, "on")
-    assert capsys.readouterr().err == "packwork: 52 %: on\n"
+            patient.tell(later / 50, "on")
+    assert capsys.readouterr().err == "".join(f"packwork: {k} %: on\n" for k in (10, 28, 62))
     quiet = TerminalBar(is_quiet=True)
     with quiet.showing():
         quiet.tell(0.5, "this")

@@ -22,9 +22,10 @@ EPOCHS_BETWEEN = 20
 SECONDS_BETWEEN = 0.1
 """Least time between two pictures that a notebook is sent: more flood its page. Chosen."""
 
-SECONDS_BETWEEN_LINES = 30.0
-"""Time between two lines where there is no terminal to draw a bar on, and before the first: most
-runs leave none in a log. Smaller fills logs, larger looks dead. Chosen."""
+SECONDS_BEFORE_LINE = 4.0
+"""Time before the first line where there is no terminal to draw a bar on; every further one takes
+twice as long to come, so most runs leave none in a log and an hour leaves ten. Smaller fills logs,
+larger looks dead. Chosen."""
 
 BEFORE = "starting"
 
@@ -148,7 +149,7 @@ class TerminalBar:
         if console is None or not console.is_terminal:
             console = Console(stderr=True)
         self._lines = None if is_quiet or console.is_terminal else console
-        self._share, self._told = 0.0, time.monotonic()
+        self._share, self._told, self._wait = 0.0, time.monotonic(), SECONDS_BEFORE_LINE
         self._progress = Progress(
             TextColumn("{task.description}", markup=False),
             BarColumn(),
@@ -168,9 +169,9 @@ class TerminalBar:
         """Move the bar, never backwards."""
         self._share = max(self._share, share)
         self._progress.update(self._task, completed=self._share, description=text)
-        if self._lines is None or time.monotonic() - self._told < SECONDS_BETWEEN_LINES:
+        if self._lines is None or time.monotonic() - self._told < self._wait:
             return
-        self._told = time.monotonic()
+        self._told, self._wait = time.monotonic(), 2 * self._wait
         # A closed pipe is no reason to fail.
         with suppress(OSError, ValueError):
             line = f"packwork: {100 * self._share:.0f} %: {text}"
