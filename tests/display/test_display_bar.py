@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import subprocess
 import sys
 import time
@@ -10,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from packwork.api.verbs import fill
 from packwork.display import bar as bars
@@ -169,6 +171,21 @@ def test_a_bar_never_goes_backwards(capsys: pytest.CaptureFixture[str]) -> None:
     with quiet.showing():
         quiet.tell(0.5, "this")
     assert capsys.readouterr() == ("", "")
+
+
+def test_shares_that_nobody_is_told_are_not_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    measured: list[int] = []
+
+    def shares() -> tuple[float, float, float]:
+        measured.append(1)
+        return (0.25, 0.125, 0.0)
+
+    step = Step(1, 3, 200, 40, 0.5, Poses(NONE, NONE, NONE, NONE), shares)
+    monkeypatch.setattr(bars, "SECONDS_BETWEEN", 1e9)
+    monkeypatch.setattr(bars, "SECONDS_BEFORE_LINE", 1e9)
+    for console in (None, Console(force_terminal=True, file=io.StringIO())):
+        TerminalBar(console).on_step(step)
+    assert not measured
 
 
 def test_a_silent_run_loads_no_bar_and_no_notebook() -> None:

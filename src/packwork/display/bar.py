@@ -17,10 +17,11 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 EPOCHS_BETWEEN = 20
-"""Epochs between two moves of the bar: each costs about one epoch. Chosen."""
+"""Epochs between two moves of the bar at least: each costs about one epoch. Chosen."""
 
 SECONDS_BETWEEN = 0.1
-"""Least time between two pictures that a notebook is sent: more flood its page. Chosen."""
+"""Least time between two moves of the bar: more flood a notebook's page, and are as often as a
+terminal is drawn. Chosen."""
 
 SECONDS_BEFORE_LINE = 4.0
 """Time before the first line where there is no terminal to draw a bar on; every further one takes
@@ -100,8 +101,9 @@ class NotebookBar:
         self._sent = 0.0
 
     def on_step(self, step: Step) -> None:
-        """Move the bar, unless it has just been moved."""
-        self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
+        """Move the bar, unless it has just been moved: to measure the shares takes an epoch."""
+        if time.monotonic() - self._sent >= SECONDS_BETWEEN:
+            self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
 
     def tell(self, share: float, text: str) -> None:
         """Move the bar, unless it has just been moved."""
@@ -149,7 +151,8 @@ class TerminalBar:
         if console is None or not console.is_terminal:
             console = Console(stderr=True)
         self._lines = None if is_quiet or console.is_terminal else console
-        self._share, self._told, self._wait = 0.0, time.monotonic(), SECONDS_BEFORE_LINE
+        self._share, self._told = 0.0, time.monotonic()
+        self._wait = SECONDS_BETWEEN if self._lines is None else SECONDS_BEFORE_LINE
         self._progress = Progress(
             TextColumn("{task.description}", markup=False),
             BarColumn(),
@@ -162,16 +165,20 @@ class TerminalBar:
         self._task = self._progress.add_task(BEFORE, total=1.0)
 
     def on_step(self, step: Step) -> None:
-        """Move the bar."""
-        self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
+        """Move the bar, unless it has just been moved: to measure the shares takes an epoch."""
+        if time.monotonic() - self._told >= self._wait:
+            self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
 
     def tell(self, share: float, text: str) -> None:
         """Move the bar, never backwards."""
         self._share = max(self._share, share)
         self._progress.update(self._task, completed=self._share, description=text)
-        if self._lines is None or time.monotonic() - self._told < self._wait:
+        now, before = time.monotonic(), self._told
+        if self._lines is None:
+            self._told = now
+        if self._lines is None or now - before < self._wait:
             return
-        self._told, self._wait = time.monotonic(), 2 * self._wait
+        self._told, self._wait = now, 2 * self._wait
         # A closed pipe is no reason to fail.
         with suppress(OSError, ValueError):
             line = f"packwork: {100 * self._share:.0f} %: {text}"
