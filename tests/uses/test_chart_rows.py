@@ -96,6 +96,12 @@ def test_some_marks_of_a_chart_keep_what_they_say() -> None:
     ("cells", "options", "message"),
     [
         ([f"n{k}" for k in range(5_000)], {}, "5,000 groups; at most 60 .* column of fewer values"),
+        (
+            [f"n{k}" for k in range(96)],
+            {},
+            "96 groups; at most 60 .* a map of them by --in-regions",
+        ),
+        ([f"n{k}" for k in range(500)], {"in_regions": True}, "500 groups; at most 400 .* values$"),
         (list(range(3_000)), {}, "3,000 groups; .* use --by-step 100 or more"),
         ([0, 1e50], {"by_step": 1}, "by_step: 1 is too small for numbers up to 1e\\+50"),
         (
@@ -115,6 +121,10 @@ def test_bad_groups_are_one_clear_line(cells: list[Any], options: Any, message: 
         chart(cells, **options)
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 300
+
+
+def test_a_map_has_as_many_groups_as_a_country_has_districts() -> None:
+    assert len(chart([f"n{k}" for k in range(96)], in_regions=True).groups) == 96
 
 
 def test_the_step_that_is_offered_is_enough() -> None:
