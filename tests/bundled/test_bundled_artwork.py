@@ -18,6 +18,8 @@ from PIL import Image
 
 import packwork.bundled
 from each import for_each
+from packwork.geometry.overlay import polygon_parts
+from packwork.readers.container import read_container
 
 ROOT = Path(packwork.bundled.__file__).parent
 ICONS = sorted((ROOT / "icons").glob("*.svg"))
@@ -138,3 +140,12 @@ def test_holes_are_open(name: str) -> None:
     drawn = alpha(ROOT / f"{name}.svg", 200)
     row, column = (48, 151) if name == "icons/key" else (100, 100)
     assert drawn[row, column] == 0
+
+
+MARKED = dict.fromkeys("ãñõáéíóúàèìòùńśźåůÃẼÑÁÉÍÓÚ", 1) | {"ő": 2, "ặ": 2}
+
+
+@pytest.mark.parametrize("letter", MARKED)
+def test_marks_over_letters_stand_free_of_them(letter: str) -> None:
+    parts = polygon_parts(read_container(f"text:{letter}").outline.region)
+    assert len(parts) == 1 + MARKED[letter]
