@@ -66,6 +66,20 @@ def test_without_a_container_items_gather_round_the_centre() -> None:
     assert run.report()["pile"]["compact"] == run.pile["compact"]
 
 
+def test_many_icons_without_a_container_are_mixed_and_close() -> None:
+    names = ["leaf", "owl", "anchor", "kite"]
+    run = uses.fill(uses.pile_recipe("none", names, count=72, compact=True, seed=1))
+    assert run.certified
+    assert run.pile is not None
+    assert run.pile["compact"]["circle"] > 0.55
+    poses, side = run.layout.poses, run.layout.container.side
+    off = np.hypot(poses.x - side / 2, poses.y - side / 2)
+    kinds = np.array([item.name for item in run.layout.items])
+    means = [off[kinds == name].mean() for name in names]
+    # Rings of one kind each, the largest innermost, come to more than a half.
+    assert np.ptp(means) < 0.3 * off.max()
+
+
 BEST_OF_TEN = 0.6878
 """Share of a disc that ten equal ones cover at most, as far as is known."""
 

@@ -89,7 +89,8 @@ class Arrival:
 
     def centre(self, forces: Forces) -> FloatArray | None:
         """``(2,)`` of the circle that a round pack lies in; None for other piles."""
-        is_free = self.about is None and self.rounds is None and len(self.known) == 0
+        is_given = len(self.known) > 0 and self.keeps
+        is_free = self.about is None and self.rounds is None and not is_given
         return forces.common_point() if self.is_round and is_free else None
 
 
@@ -200,7 +201,7 @@ class _Pile:
         lifted = np.setdiff1d(all_items, standing)
         sizes = self._order_sizes(arrangement)
         lifted = lifted[np.lexsort((-sizes[lifted], self._ranks[lifted]))]
-        if self._gather_round(arrangement):
+        if len(known) == 0 and self._gather_round(arrangement):
             left = np.arange(0)
         else:
             heights = self._heights(arrangement)

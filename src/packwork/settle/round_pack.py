@@ -12,10 +12,12 @@ local minima are those of squared overlaps under a pressure, found by L-BFGS.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
 from packwork.progress import Stop
 from packwork.settle.bottom_left import AROUND_GAP
 from packwork.settle.kernels import circle_packing as kernels
@@ -31,6 +33,19 @@ MOST_ITEMS = 4_000
 NEARLY_DISC = 0.88
 """Share of the disc about it that an item covers to be taken for one: its first place is then
 as good as any. Chosen."""
+
+
+def begin_as_discs(outlines: Sequence[Outline], scales: FloatArray) -> bool:
+    """Whether a round pack is closest from places of the discs about its items.
+
+    So it is of what is nearly round, and of few items, for which several such places are tried.
+    """
+    radii, areas = np.array([(one.radius, one.area) for one in outlines]).T * (scales, scales**2)
+    return 2 * len(radii) <= ITEMS or _are_nearly_discs(areas, radii)
+
+
+def _are_nearly_discs(areas: FloatArray, radii: FloatArray) -> bool:
+    return bool((areas > NEARLY_DISC * math.pi * radii**2).all())
 
 
 def start_round_pack(
@@ -72,10 +87,10 @@ def start_round_pack(
 
 
 def _tries(settling: Settling) -> int:
-    discs = math.pi * settling.arrangement.radii**2
-    if (settling.areas > NEARLY_DISC * discs).all():
+    radii = settling.arrangement.radii
+    if _are_nearly_discs(settling.areas, radii):
         return 1
-    return max(min(MOST_TRIES, ITEMS // len(discs)), 1)
+    return max(min(MOST_TRIES, ITEMS // len(radii)), 1)
 
 
 def _placed(settling: Settling, gap: float, rng: np.random.Generator) -> FloatArray | None:

@@ -159,7 +159,7 @@ class Settling:
 
     def _stirred(self, trust: float) -> IntArray:
         """Items that went down in the last round, and those that they might touch."""
-        if self._forces.bonds or self.centre is not None:
+        if self._forces.bonds:
             return self.all_items
         went = np.append(self._drops > STILL * trust * self._spacing, False)
         pairs = self.arrangement.pairs(self._gap + trust * self._spacing)
@@ -180,8 +180,8 @@ class Settling:
         )
         found = blocks(self.arrangement.places[items, :2], turn, MOST_IN_BLOCK)
         found = sorted((items[b] for b in found), key=lambda block: float(low[block].mean()))
-        # What draws together, or all in one circle, is moved one block after another.
-        is_apart = not self._forces.bonds and self.centre is None
+        # What draws together is moved one block after another.
+        is_apart = not self._forces.bonds
         bound = trust * self._spacing
         reach = self._gap + 2 * TRAVEL * bound if is_apart else np.inf
         for group in disjoint_groups(found, self.arrangement.board.boxes, reach):

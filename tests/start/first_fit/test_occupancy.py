@@ -11,7 +11,7 @@ from scipy.ndimage import binary_dilation
 from packwork.arrays import BoolArray
 from packwork.fields.distance_transform import distance_inside
 from packwork.geometry.outline import Outline
-from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.kernels import row_bits
 from packwork.start.first_fit.occupancy import TALLEST, Occupancy, Stencil, covered, cut, stencil_of
 
 REACH = 2
@@ -143,7 +143,7 @@ def test_boxes_cover_a_mask_and_nothing_else(seed: int) -> None:
     rng = np.random.default_rng(seed)
     mask = rng.random(rng.integers(1, 40, size=2)) < rng.choice([0.5, 0.95, 1.0])
     found = np.zeros_like(mask)
-    for row, first, tall, wide, j, k in _kernels.boxes_of(mask, TALLEST, 4):
+    for row, first, tall, wide, j, k in row_bits.boxes_of(mask, TALLEST, 4):
         found[row : row + tall, first : first + wide] = True
         # Two of these heights and widths cover the box.
         assert 2**j <= tall <= 2 ** (j + 1)
@@ -170,6 +170,23 @@ def test_a_margin_takes_what_is_near_the_outline(margin: float, is_quick: bool) 
     grown[down : down + height, along : along + width] = want.mask
     assert not (grown & ~mask).any()
     assert np.count_nonzero(mask) <= 1.1 * np.count_nonzero(grown)
+
+
+@pytest.mark.parametrize("width", [20, 64, 130, 400])
+def test_whole_rows_are_cleared_as_parts_of_them_are(width: int) -> None:
+    rng = np.random.default_rng(width)
+    free = rng.random((row_bits.BLOCK * 3 + 5, width)) < 0.995
+    free[40:80] = False
+    mask = rng.random((7, min(width // 2, 90))) < 0.5
+    mask[0, 0] = True
+    occupancy, stencil = Occupancy(free, REACH), _stencil(mask)
+    for top, bottom in ((0, len(free)), (3, 60), (90, len(free)), (5, 9)):
+        found = occupancy.free_places(stencil, top, bottom)
+        want = np.full((bottom - top, found.shape[1] - 1), row_bits.ALL)
+        row_bits.clear_taken(occupancy._rows, stencil.boxes, 7, top, bottom, 0, want)
+        assert (found[:, :-1] == want).all()
+        assert not found[:, -1].any()
+    assert occupancy.free_places(stencil).any()
 
 
 def test_clearance_is_kept_up() -> None:

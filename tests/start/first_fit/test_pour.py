@@ -16,7 +16,7 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.progress import never
 from packwork.scene.container import Container
-from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.kernels import ways
 from packwork.start.first_fit.lowest_fit import Falling, lowest_fit
 from packwork.start.first_fit.occupancy import Bits
 from packwork.start.first_fit.pour import Poured, Source, pour
@@ -150,7 +150,7 @@ def test_a_flood_fills_what_hangs_together(width: int, share: float) -> None:
         seeds = (rng.random(mask.shape) < 0.003) & mask
         numbers, _ = label(mask)
         reached = _bits(seeds)
-        _kernels.flood(_bits(mask), reached)
+        ways.flood(_bits(mask), reached)
         expected = mask & np.isin(numbers, np.unique(numbers[seeds]))
         assert (reached == _bits(expected)).all()
 
@@ -162,7 +162,7 @@ def test_costs_of_ways_are_those_of_shortest_paths() -> None:
     price[3, 4] = 1.0
     costs = np.full(price.shape, np.inf)
     costs[3, 4] = 0.0
-    _kernels.spread_costs(price, costs)
+    ways.spread_costs(price, costs)
     rows, columns = np.indices(price.shape)
     edges = []
     for y in (-1, 0, 1):

@@ -20,7 +20,7 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
-from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.kernels import row_bits
 from packwork.start.first_fit.occupancy import (
     NOISE,
     REACH,
@@ -227,7 +227,7 @@ class GreedyBoard:
         turned = np.abs([[np.cos(angle), np.sin(angle)], [np.sin(angle), np.cos(angle)]])
         across, down = np.rint(turned @ apart * scale * self._px_per_cu).astype(int).tolist()
         if across or down:
-            mask = _kernels.spread(mask, down, across)
+            mask = row_bits.spread(mask, down, across)
         return stencil_of(mask, (origin[0] + down, origin[1] + across), REACH)
 
     def _is_larger(self, outline_px: Outline) -> bool:

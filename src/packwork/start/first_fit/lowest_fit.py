@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +31,7 @@ from packwork.scene.pose import Poses
 from packwork.start.first_fit.first_fit import heights_on
 from packwork.start.first_fit.occupancy import NOISE, REACH, Bits, Occupancy, Stencil, cut
 from packwork.start.first_poses import container_image
+from packwork.threads import at_once
 
 SIDE_PX = 1_000
 """Pixels of the image's longer side, as far as ``LEAST_EACH`` and ``MOST_EACH`` allow. Tried."""
@@ -199,12 +201,10 @@ class FallingBoard:
         kind = self._falling.outlines[item], float(self._falling.scales[item])
         if kind in self._full:
             return None
-        found, worth = [], self.worth(item)
-        for angle in self._falling.angles[item]:
-            stencil = self.stencil(item, angle)
-            place = self.occupancy.best_place(stencil, worth, rows=rows, keep=keep)
-            if place is not None:
-                found.append(FreePlace(*place, float(angle)))
+        angles = self._falling.angles[item].tolist()
+        look = partial(self.occupancy.best_place, worth=self.worth(item), rows=rows, keep=keep)
+        places = at_once(look, [(self.stencil(item, angle),) for angle in angles])
+        found = [FreePlace(*p, a) for p, a in zip(places, angles, strict=True) if p is not None]
         if rows is None and not found:
             self._full.add(kind)
         return max(found, default=None)

@@ -16,7 +16,7 @@ from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.raster.coverage import TOUCHED, Rasteriser
-from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.kernels import row_bits
 
 Bits: TypeAlias = NDArray[np.uint64]
 """Rows of pixels, 64 in a word, the lowest bit leftmost."""
@@ -59,7 +59,7 @@ class Stencil:
     @cached_property
     def fringe(self) -> IntArray:
         """``(m, 2)`` rows and columns of the pixels round it; asked for where it has a place."""
-        return np.asarray(_kernels.fringe_of(self.mask, self.reach))
+        return np.asarray(row_bits.fringe_of(self.mask, self.reach))
 
 
 def cut(outline_px: Outline, reach: int, margin_px: float = 0.0) -> Stencil:
@@ -95,7 +95,7 @@ def covered(
         wide = grown(outline_px, margin_px)
         points, starts = wide.points, wide.starts
     elif margin_px > 0 and not reach:
-        points = _kernels.offset(points, starts, margin_px)
+        points = row_bits.offset(points, starts, margin_px)
     x, y = points.T.copy()  # in one piece each, which is faster
     column, row = math.floor(x.min() - reach), math.floor(y.min() - reach)
     right, bottom = math.ceil(x.max() + reach), math.ceil(y.max() + reach)
@@ -105,7 +105,7 @@ def covered(
     rasteriser.sweep(here, starts)
     mask = rasteriser.density() > TOUCHED
     if reach:
-        _kernels.mark_near(here, starts, reach, mask)
+        row_bits.mark_near(here, starts, reach, mask)
     if not mask.any():
         mask[height // 2, width // 2] = True
     return mask, (-row, -column)
@@ -113,7 +113,7 @@ def covered(
 
 def stencil_of(mask: BoolArray, origin: tuple[int, int], reach: int) -> Stencil:
     """Stencil of pixels; ``reach`` is the width of its fringe."""
-    boxes = _kernels.boxes_of(mask, TALLEST, WIDEST)
+    boxes = row_bits.boxes_of(mask, TALLEST, WIDEST)
     boxes = boxes[np.argsort(-boxes[:, 2] * boxes[:, 3], kind="stable")]
     return Stencil(mask, origin, boxes, reach)
 
@@ -155,8 +155,7 @@ class Occupancy:
         self.taken[margin : margin + height, margin : margin + width] = ~free
         self._words = -(-width // 64)
         boxes = TALLEST + 1, WIDEST + 1
-        self._rows = np.full((*boxes, height, self._words + 1), _kernels.ALL, dtype=np.uint64)
-        self._free = np.empty((height, self._words), dtype=np.uint64)
+        self._rows = np.full((*boxes, height, self._words + 1), row_bits.ALL, dtype=np.uint64)
         self._clearance: NearestTaken | None = None
         self._refresh(0, height, 0, width)
 
@@ -169,7 +168,7 @@ class Occupancy:
         bits[:, : inner.shape[1]] = inner
         words = np.packbits(bits, axis=1, bitorder="little").view("<u8")
         self._rows[0, 0, top:bottom, first:end] = words
-        _kernels.smear(self._rows, self._words, top, bottom, first, end)
+        row_bits.smear(self._rows, self._words, top, bottom, first, end)
 
     def best_place(
         self,
@@ -192,11 +191,8 @@ class Occupancy:
         ``keep``: clears bits of free places, of all rows, that are out of the question.
         """
         top, bottom = rows or (0, self.shape[0])
-        free = self._free[top:bottom]
-        free[...] = _kernels.ALL
-        is_left = _kernels.clear_taken(
-            self._rows, stencil.boxes, stencil.mask.shape[0], top, bottom, 0, free
-        )
+        free = self.free_places(stencil, top, bottom)
+        is_left = free.any()
         if is_left and keep is not None:
             keep(stencil, free)
             is_left = free.any()
@@ -207,17 +203,22 @@ class Occupancy:
             fringe = fringe[:: -(-len(fringe) // self._most_fringe)]
         width = self.taken.shape[1]
         steps, begin = fringe[:, 0] * width + fringe[:, 1], self._margin * (width + 1)
-        score, row, column = _kernels.best_touching(
+        score, row, column = row_bits.best_touching(
             free, self.taken[top:], begin, steps, worth[top:],
             worth[top:] if field is None else field[top:], 0.0 if field is None else float(pull),
             np.array(stencil.origin), is_everywhere,
         )  # fmt: skip
         return (float(score), int(row) + top, int(column)) if row >= 0 else None
 
-    def free_places(self, stencil: Stencil) -> Bits:
-        """``(rows, words)`` bits of the places at which a stencil's box meets nothing."""
-        free = np.full_like(self._free, _kernels.ALL)
-        self.clear(stencil.boxes, stencil.mask.shape[0], free)
+    def free_places(self, stencil: Stencil, top: int = 0, bottom: int | None = None) -> Bits:
+        """``(rows, words + 1)`` bits of the places at which a stencil's box meets nothing.
+
+        ``top``, ``bottom``: first row and end of those that its box may take; None for all.
+        """
+        bottom = self.shape[0] if bottom is None else bottom
+        free = np.full((bottom - top, self._words + 1), row_bits.ALL)
+        height = stencil.mask.shape[0]
+        row_bits.clear_rows(self._rows, stencil.boxes, height, top, bottom, free)
         return free
 
     def clear(self, boxes: IntArray, height: int, free: Bits, top: int = 0, word: int = 0) -> bool:
@@ -227,7 +228,7 @@ class Occupancy:
         Returns whether any is left.
         """
         bottom = self.shape[0]
-        return bool(_kernels.clear_taken(self._rows, boxes, height, top, bottom, word, free))
+        return bool(row_bits.clear_taken(self._rows, boxes, height, top, bottom, word, free))
 
     def take(self, mask: BoolArray, row: int, column: int) -> None:
         """Take the pixels of a mask put there; what of it lies off the image is not kept."""

@@ -21,7 +21,7 @@ from packwork.progress import Stop
 from packwork.raster.coverage import TOUCHED
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.kernels import ways
 from packwork.start.first_fit.lowest_fit import Falling, FallingBoard, FreePlace
 from packwork.start.first_fit.occupancy import Bits, Occupancy, Stencil
 from packwork.start.first_poses import container_image
@@ -173,7 +173,7 @@ class _Pouring:
             reached[0] = free[0]
         if bottom < self.board.occupancy.shape[0]:
             reached[len(free) - tall] = free[len(free) - tall]
-        _kernels.flood(free, reached)
+        ways.flood(free, reached)
         free[...] = reached
         self._within.clear(stencil.boxes, tall, free, top)
 
@@ -214,7 +214,7 @@ class _Pouring:
         height = (height - height.min()) / max(float(np.ptp(height)), 1e-300)
         price = np.where(is_free, LOW + height, np.inf)
         costs = np.where(is_seed, 0.0, np.inf)
-        _kernels.spread_costs(price, costs)
+        ways.spread_costs(price, costs)
         row, column = place.row, place.column
         if costs[row, column] == np.inf:
             return None

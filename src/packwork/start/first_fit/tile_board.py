@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from packwork.arrays import BoolArray, IntArray
 from packwork.fields.distance_transform import distance_inside
-from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.kernels import row_bits
 from packwork.start.first_fit.occupancy import (
     NOISE,
     NearestTaken,
@@ -99,7 +99,7 @@ class TileBoard:
     def put(self, stencil: Stencil, down: int, across: int, area: float) -> tuple[int, int] | None:
         """Take the pixels of an item, with room round it, at its best place; the corner there."""
         down, across = min(down, self._pad), min(across, self._pad)
-        wide = stencil_of(_kernels.spread(stencil.mask, down, across), (down, across), REACH)
+        wide = stencil_of(row_bits.spread(stencil.mask, down, across), (down, across), REACH)
         boxes = wide.boxes + np.array([self._pad - down, self._pad - across, 0, 0, 0, 0])
         lowest = self._pad - down + len(wide.mask)
         fringe = (wide.fringe - wide.origin)[:: -(-len(wide.fringe) // MOST_FRINGE)]
@@ -159,7 +159,7 @@ class TileBoard:
     ) -> tuple[float, int, int] | None:
         """Score and corner of the best place in a tile; None if there is none."""
         free = self._free[:, : min(TILE_WORDS, self._words - tile.word)]
-        free[...] = _kernels.ALL
+        free[...] = row_bits.ALL
         if not self._items.clear(boxes, lowest, free, *tile):
             return None
         is_inner = self._is_inside(tile, *stencil.mask.shape)
@@ -172,7 +172,7 @@ class TileBoard:
             field, pull, corner = np.zeros_like(self._noise), 1.0, np.array(stencil.origin)
             part = self._part(self._clearance.distances, *tile)
             field[: part.shape[0], : part.shape[1]] = part
-        score, row, column = _kernels.best_touching(
+        score, row, column = row_bits.best_touching(
             free, self._taken, begin, steps, self._noise, field, pull, corner, pull > 0.0
         )
         return float(score), tile.top + int(row), 64 * tile.word + int(column)

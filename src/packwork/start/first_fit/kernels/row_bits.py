@@ -90,6 +90,53 @@ def clear_taken(rows, boxes, height, top, bottom, before, free):
     return is_left
 
 
+BLOCK = 32
+"""Rows that are cleared together. Larger goes on with the next box though nothing is left in most
+of them, smaller begins loops more often. Tried."""
+
+
+@kernel
+def clear_rows(rows, boxes, height, top, bottom, free):
+    """The same of whole rows: one loop goes over many of them, which is three times as fast.
+
+    ``free``: ``(h, words + 1)``; the last word of each row is no place.
+    """
+    across, words = 0, rows.shape[3]
+    for r in range(len(boxes)):
+        across = max(across, boxes[r, 1] + boxes[r, 3])
+    free[:, max(words - -(-across // 64), 0) :] = np.uint64(0)
+    high = max(min(free.shape[0], bottom - top - height + 1), 0)
+    free[high:] = np.uint64(0)
+    flat = free.reshape(free.size)
+    for y in range(0, high, BLOCK):
+        here = flat[y * words : min(y + BLOCK, high) * words]
+        for r in range(len(boxes)):
+            row, first, tall, wide, j, k = boxes[r]
+            taken = rows[j, k].reshape(rows.shape[2] * words)[(top + y) * words :]
+            last, lowest = first + wide - (1 << k), row + tall - (1 << j)
+            left = _without_all(taken[row * words :], first, last, here)
+            if lowest != row and left != np.uint64(0):
+                left = _without_all(taken[lowest * words :], first, last, here)
+            if left == np.uint64(0):
+                break
+
+
+@leaf
+def _without_all(taken, first, last, free):
+    """Clear bits of many rows of ``free`` as of one; what is left of them."""
+    one, other = taken[first >> 6 :], taken[last >> 6 :]
+    near, far = np.uint64(first & 63), np.uint64(last & 63)
+    left = np.uint64(0)
+    # In the last words of the last row nothing is free.
+    for i in range(min(len(free), len(other) - 1)):
+        met = (one[i] >> near) | ((one[i + 1] << ONE) << (LAST - near))
+        met |= (other[i] >> far) | ((other[i + 1] << ONE) << (LAST - far))
+        here = free[i] & ~met
+        free[i] = here
+        left |= here
+    return left
+
+
 @leaf
 def _without(rows, at, j, k, first, last, before, free, y, begin, end):
     """Clear bits of a row of ``free`` where a box from ``at`` on meets one; what is left of them.
@@ -174,76 +221,6 @@ def _edge_of(free, y, i):
     above = free[y - 1, i] if y > 0 else zero
     below = free[y + 1, i] if y + 1 < height else zero
     return word & ~(left & right & above & below)
-
-
-@kernel
-def flood(free, reached):
-    """Spread the bits of ``reached`` over all free places that hang together with them."""
-    height, words = free.shape
-    zero = np.uint64(0)
-    is_new = True
-    while is_new:
-        is_new = False
-        for step in (1, -1):
-            for n in range(height):
-                y = n if step == 1 else height - 1 - n
-                beside = y - step
-                carry = zero
-                for i in range(words):
-                    run, old = free[y, i], reached[y, i]
-                    seeds = old | (carry & ONE)
-                    if 0 <= beside < height:
-                        seeds |= reached[beside, i]
-                    seeds &= run
-                    # A carry runs up through the ones of each run.
-                    total = run + seeds
-                    carry = ONE if total < run else zero
-                    found = ((total ^ run) | seeds) & run
-                    is_new = is_new or found != old
-                    reached[y, i] = found
-                carry = zero
-                for n_word in range(words):
-                    i = words - 1 - n_word
-                    run, old = free[y, i], reached[y, i]
-                    found = old | (carry & run)
-                    for shift in (1, 2, 4, 8, 16, 32):
-                        found |= run & (found >> np.uint64(shift))
-                        run &= run >> np.uint64(shift)
-                    is_new = is_new or found != old
-                    reached[y, i] = found
-                    carry = (found & ONE) << LAST
-
-
-@kernel
-def spread_costs(price, costs):
-    """Lower costs to those of the cheapest ways over pixels, diagonals too, from where they are 0.
-
-    ``price``: ``(rows, columns)`` of a way through each pixel; infinite where none leads.
-    """
-    height, width = price.shape
-    diagonal = math.sqrt(2.0)
-    is_new = True
-    while is_new:
-        is_new = False
-        for step in (1, -1):
-            for n in range(height):
-                y = n if step == 1 else height - 1 - n
-                for m in range(width):
-                    x = m if step == 1 else width - 1 - m
-                    if price[y, x] == np.inf:
-                        continue
-                    least = costs[y, x]
-                    if 0 <= x - step < width:
-                        least = min(least, costs[y, x - step] + price[y, x])
-                    if 0 <= y - step < height:
-                        least = min(least, costs[y - step, x] + price[y, x])
-                        for across in (-1, 1):
-                            if 0 <= x + across < width:
-                                here = costs[y - step, x + across] + diagonal * price[y, x]
-                                least = min(least, here)
-                    if least < costs[y, x]:
-                        costs[y, x] = least
-                        is_new = True
 
 
 @kernel
