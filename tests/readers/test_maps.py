@@ -121,6 +121,13 @@ def test_polygons_of_a_collection_are_a_region(tmp_path: Path) -> None:
     file = tmp_path / "land.geojson"
     file.write_text(json.dumps({"type": "FeatureCollection", "features": [one]}), encoding="utf-8")
     assert [name for name, _ in read_parts(read_container(file))] == ["Peru"]
+    area = read_container(file).outline.area
+    for alone in (one, geometry, shape):
+        file.write_text(json.dumps(alone), encoding="utf-8")
+        assert is_map(file)
+        assert read_container(file).outline.area == pytest.approx(area)
+    file.write_text(json.dumps(one), encoding="utf-8")
+    assert [name for name, _ in read_parts(read_container(file), asked=["PERU"])] == ["Peru"]
 
 
 def test_a_feature_that_crosses_itself_without_end_is_refused(tmp_path: Path) -> None:
@@ -170,6 +177,9 @@ def test_features_that_are_called_alike_are_one_part(tmp_path: Path) -> None:
         ('{"features": [{"geometry": {"type": ["Polygon"]}}]}', "holds no regions"),
         ('{"features": [{"geometry": {"type": "Polygon", "coordinates": [[[0]]]}}]}', "rings of"),
         ('{"features": [{"geometry": {"type": "Polygon", "coordinates": [[[0, "x"]]]}}]}', "rings"),
+        ('{"type": "Polygon", "coordinates": [[[0,0],[1,0],["1",1],[0,0]]]}', "rings of four"),
+        ('{"type": "Polygon", "coordinates": [[[0,0],[1,0],[1,true],[0,0]]]}', "rings of four"),
+        ('{"type": "Point", "coordinates": [0,0]}', "holds no regions"),
         (json.dumps({"features": [0] * (MOST_REGIONS + 1)}), "more than 2,000"),
         ("{", "is not JSON"),
     ],

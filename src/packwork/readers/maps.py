@@ -60,6 +60,7 @@ CALLED = re.compile(r"name|name_?\w{2,3}|\w*_?name(_?\d)?|title|label|id", re.IG
 """Properties that name a feature for people, where nothing else says which."""
 
 _EQUAL_EARTH = (1.340264, -0.081106, 0.000893, 0.003796)
+_TYPE = re.compile(rb'"(Feature|FeatureCollection|Polygon|MultiPolygon|GeometryCollection)"')
 _OURS = re.compile(rb'"role"\s*:\s*"container"')
 
 
@@ -72,9 +73,9 @@ class Feature:
 
 
 def is_map(path: Path) -> bool:
-    """Whether GeoJSON holds features, and is no layout of ours."""
+    """Whether GeoJSON holds features or areas, and is no layout of ours."""
     data = read_bytes(path, MOST_BYTES)
-    return b'"FeatureCollection"' in data and _OURS.search(data) is None
+    return _TYPE.search(data) is not None and _OURS.search(data) is None
 
 
 def container_of_map(text: str, name: str, source: str, side: float) -> Container:
@@ -155,10 +156,8 @@ def names_on_map(text: str) -> list[set[str]]:
     >>> names_on_map('{"features": [{"properties": {"name": "Peru"}}]}')
     [{'peru'}]
     """
-    said = parsed(text)
-    listed = said.get("features") if isinstance(said, dict) else None
     found = dict[str, set[str]]()
-    for one in listed if isinstance(listed, list) else ():
+    for one in _listed(text) or ():
         for key, name in (_names(one) if isinstance(one, dict) else {}).items():
             found.setdefault(key, set()).add(region_key(name))
     return list(found.values())
@@ -179,12 +178,24 @@ def _key(features: Collection[Feature], asked: Collection[str]) -> str:
     return best if asked or not best or CALLED.fullmatch(best) else ""
 
 
+def _listed(text: str) -> list[Any] | None:
+    """Features of GeoJSON; a feature or a geometry by itself is the only one (RFC 7946, 2)."""
+    said = parsed(text)
+    if not isinstance(said, dict):
+        return None
+    if said.get("type") == "Feature":
+        return [said]
+    if "coordinates" in said or "geometries" in said:
+        return [{"geometry": said}]
+    listed = said.get("features")
+    return listed if isinstance(listed, list) else None
+
+
 @lru_cache(maxsize=1)
 def _features(text: str) -> tuple[Feature, ...]:
     """Features with an area, of the last map once more; others are left out."""
-    said = parsed(text)
-    listed = said.get("features") if isinstance(said, dict) else None
-    if not isinstance(listed, list):
+    listed = _listed(text)
+    if listed is None:
         raise UnfitError("is no GeoJSON FeatureCollection; give a map whose features are regions")
     if len(listed) > MOST_REGIONS:
         raise UnfitError(f"holds {len(listed):,} features, more than {MOST_REGIONS:,}")
@@ -284,7 +295,9 @@ def _polygons(feature: Any, where: str) -> list[list[FloatArray]]:
             for each in polygons
         ]
         flat = [ring for each in rings for ring in each]
-        is_sound = all(
+        # Texts and booleans would be read as numbers.
+        kinds = {type(k) for each in polygons for ring in each for point in ring for k in point[:2]}
+        is_sound = kinds <= {int, float} and all(
             ring.ndim == 2 and ring.shape[1] == 2 and len(ring) > 3
             and np.abs(ring).max() <= MAX_COORDINATE
             for ring in flat
