@@ -661,19 +661,68 @@ def test_what_is_drawn_anew_while_dragging_is_all_that_has_changed(browser: Any)
         share = step / 15
         desk.page.mouse.move(*(a + share * (b - a) for a, b in zip(start, end, strict=True)))
         desk.page.wait_for_timeout(15)
-    off, was_partial = desk.look(
-        "(() => { const { stage, canvas } = studio; const seen = () => stage.pen.getImageData(0, 0,"
-        " canvas.width, canvas.height).data; stage.draw(true); const now = seen();"
-        " const { region } = stage.backdrop; stage.backdrop.key = []; stage.draw(true);"
-        " const anew = seen(); return [now.filter((value, k) => Math.abs(value - anew[k]) > 90)"
-        ".length / now.length, region !== null]; })()"
-    )
+    off, was_partial = desk.look(_OFF % ("true", "true", 90))
     desk.page.mouse.up()
     desk.settled()
     assert was_partial
     assert off < 1e-3
+    # At rest too, and there to the last shade.
+    desk.until("!studio.stage.backdrop.loose.includes(1)")
+    off, was_partial = desk.look(_OFF % ("false", "false", 8))
+    assert was_partial
+    assert off < 1e-4
     desk.page.close()
     server.stop()
+
+
+_OFF = (
+    "(() => { const { stage, canvas } = studio; const seen = () => stage.pen.getImageData(0, 0,"
+    " canvas.width, canvas.height).data; stage.draw(%s); const now = seen();"
+    " const { regions } = stage.backdrop; stage.backdrop.key = []; for (const _ of [1, 2])"
+    " stage.draw(%s); const anew = seen(); return [now.filter((value, k) => Math.abs(value -"
+    " anew[k]) > %d).length / now.length, regions !== null]; })()"
+)
+"""Share of what is seen that is another once all is drawn anew; whether only parts had been."""
+
+
+def test_what_moves_by_less_than_can_be_seen_is_drawn_once_it_rests(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    looked = desk.look(
+        "(() => { const { stage, collage } = studio, { backdrop } = stage, drawn = [];"
+        " for (const _ of [1, 2]) stage.draw(); const { isStale } = backdrop;"
+        " backdrop.isStale = (k, part) => { const is = isStale.call(backdrop, k, part);"
+        " if (is) drawn.push(k); return is; };"
+        " collage.shown[0] += 0.02 / studio.view.zoom; stage.draw(true); const whileMoving ="
+        " drawn.length; stage.draw(false); const atRest = [...new Set(drawn)];"
+        " const [was] = backdrop.drawn; drawn.length = 0; stage.draw(false);"
+        " delete backdrop.isStale; return [whileMoving, atRest.includes(0), atRest.length <"
+        " collage.items.length, was === collage.shown[0], drawn.length]; })()"
+    )
+    assert looked == [0, True, True, True, 0]
+
+
+def test_numbers_follow_a_drag_now_and_then_and_its_end_at_once(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    start = desk.place(0)
+    desk.page.mouse.move(*start)
+    desk.page.mouse.down()
+    desk.page.mouse.move(start[0] + 30, start[1], steps=3)
+    field = "studio.panels.items.inspector.field('x')"
+    is_there = f"Math.abs({field}.value - studio.collage.target(0).x) < 0.06"
+    desk.until(is_there)
+    changed = desk.look(
+        "(() => { const { inspector } = studio.panels.items, follow = inspector.follow; let n = 0;"
+        " inspector.follow = () => n++; for (let k = 0; k < 5; k++) studio.draw(studio.last);"
+        " delete inspector.follow; return n; })()"
+    )
+    desk.page.mouse.up()
+    desk.settled()
+    assert changed == 0
+    assert desk.look(is_there)
 
 
 def test_a_page_is_waited_for_and_left_as_new(browser: Any, server: Server) -> None:

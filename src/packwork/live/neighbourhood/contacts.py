@@ -88,6 +88,26 @@ def _reach_of(document: Document) -> float:
     return REACH * float(np.sqrt(np.median(areas) / np.pi)) if len(areas) else 0.0
 
 
+def others_near(poses: Poses, radii: FloatArray, items: IntArray, margin: float) -> IntArray:
+    """Rows of others whose boxes are within a margin of the box about items ``(m,)``.
+
+    ``radii``: ``(n,)``, canvas units as ``margin``, infinite for all others.
+
+    Examples
+    --------
+    >>> row = Poses(np.array([0.0, 4.0, 9.0]), *np.ones((3, 3)))
+    >>> others_near(row, np.ones(3), np.array([0]), 2.5).tolist()
+    [1]
+    """
+    found = np.ones(len(poses), dtype=bool)
+    for along in (poses.x, poses.y):
+        low, high = along - radii, along + radii
+        found &= high >= low[items].min(initial=np.inf) - margin
+        found &= low <= high[items].max(initial=-np.inf) + margin
+    found[items] = False
+    return np.flatnonzero(found)
+
+
 def places_of(container: Container, poses: Poses) -> FloatArray:
     """``(n, 4)`` x, y, turn and logarithm of growth of poses, from upright and scale 1."""
     poses = container.brought_in(poses)

@@ -18,7 +18,7 @@ from packwork.geometry.overlay import valid
 from packwork.live.document import Document
 from packwork.live.neighbourhood.allowance import ranges
 from packwork.live.neighbourhood.caches import LevelCache
-from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
+from packwork.live.neighbourhood.contacts import RINGS, ContactGraph, others_near
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Limits, Poses
 from packwork.solve.free_space import FreeSpace
@@ -141,6 +141,9 @@ class Flow:
         self._ring: IntArray = np.zeros(count, dtype=np.int64)
         areas = document.areas
         self._share = float(np.sqrt(np.median(areas))) if count else document.container.side
+        stretch = np.sqrt(document.poses.stretch)
+        radii = np.array([item.outline.radius for item in document.items])
+        self._radii = radii * np.maximum(stretch, 1 / stretch)
         self.moved: BoolArray = np.zeros(count, dtype=bool)
         """``(n,)`` which items were given other places, or have flowed, since the last turn."""
 
@@ -348,8 +351,7 @@ class Flow:
     def _room(self, active: IntArray, resolution: int) -> FreeSpace:
         """Room that the items that stand still leave free."""
         free_space = self._levels.free_space(self._region, resolution)
-        still = np.setdiff1d(np.arange(len(self.document)), active)
-        if len(still) == 0:
+        if len(still := self._met(active)) == 0:
             return free_space
         ensemble = Ensemble(self._seen_of(still, resolution))
         rasteriser = Rasteriser(free_space.room.shape)
@@ -357,6 +359,15 @@ class Flow:
         points = ensemble.place(poses, resolution / self.document.container.side)
         rasteriser.sweep(points, ensemble.ring_starts)
         return free_space.less(rasteriser.density())
+
+    def _met(self, active: IntArray) -> IntArray:
+        """Items that stand still and what is active may meet till the next review, ``(m,)``."""
+        document, epochs = self.document, REVIEW if self._may is None else LINGER
+        moved = epochs * STEP * self._share + document.options.padding
+        # Evenness sees gaps at any distance.
+        margin = np.inf if document.options.evenness else moved
+        radii = self._radii * document.poses.scale * np.exp(SIZE_STEP * epochs)
+        return others_near(document.poses, radii, active, margin)
 
     def _limits(self, active: IntArray) -> Limits:
         document, count, held = self.document, len(active), self._is_held

@@ -9,6 +9,10 @@ const QUIET = 20;
 const NEAR = 2.5;
 /** Share of the items that may be drawn anew for nothing. */
 const SLACK = 0.2;
+/** How far an item may move and still be taken to lie where it is in the picture, px: nobody sees it, and at rest nothing is off. */
+const NEARLY = 0.1;
+
+/** @typedef {[number, number, number, number]} Box left, top, right, bottom, canvas units */
 
 export class Backdrop {
   /** @param {Collage} collage */
@@ -19,6 +23,7 @@ export class Backdrop {
     /** What the picture is of, beside poses. @type {unknown[]} */
     this.key = [];
     this.isWhole = false;
+    /** Where each item was when it was last seen to move. */
     this.last = new Float32Array(0);
     /** Pictures since each item has moved. */
     this.still = new Uint8Array(0);
@@ -26,23 +31,26 @@ export class Backdrop {
     this.loose = new Uint8Array(0);
     /** Where each is in it. */
     this.drawn = new Float32Array(0);
-    /** Part of it that is stale, canvas units: left, top, right, bottom; all of it unless one is told. @type {number[] | null} */
-    this.region = null;
+    /** Parts of it that are stale; all of it unless some are told. @type {Box[] | null} */
+    this.regions = null;
+    /** Rows of the items that these are about. @type {number[]} */
+    this.changed = [];
   }
 
   /**
    * Look what has moved; whether the picture is of what is to be seen, or has to be made first.
    * @param {unknown[]} key all that it depends on beside poses
    * @param {boolean} isMoving
+   * @param {number} perUnit pixels of a canvas unit
    * @returns {"good" | "stale" | "new"}
    */
-  look(key, isMoving) {
-    const moved = this.follow();
+  look(key, isMoving, perUnit) {
+    const moved = this.follow(perUnit);
     if (key.length !== this.key.length || key.some((one, k) => one !== this.key[k])) {
       [this.key, this.picture] = [key, null];
       return "new";
     }
-    const wants = isMoving ? moved.some((k) => !this.loose[k]) || this.isSlack : moved.length || this.loose.includes(1);
+    const wants = isMoving ? moved.some((k) => !this.loose[k]) || this.isSlack : this.loose.includes(1) || this.drawn.some((value, k) => value !== this.collage.shown[k]);
     if (this.picture && this.isWhole && !wants) return "good";
     this.loosen(moved, isMoving);
     return "stale";
@@ -55,8 +63,8 @@ export class Backdrop {
     return count > SLACK * this.loose.length;
   }
 
-  /** Rows of the items that have moved since the last picture. */
-  follow() {
+  /** Rows of the items that have moved by more than can be seen. @param {number} perUnit pixels of a canvas unit */
+  follow(perUnit) {
     const { items, shown, hand } = this.collage;
     if (this.last.length !== shown.length) {
       this.last = new Float32Array(shown.length);
@@ -64,12 +72,12 @@ export class Backdrop {
     }
     const moved = [];
     for (let k = 0; k < items.length; k++) {
-      if (hand.has(items[k].id) || differ(this.last, shown, 4 * k)) {
+      if (hand.has(items[k].id) || away(this.last, shown, 4 * k, this.extent(k) / 2) * perUnit > NEARLY) {
         moved.push(k);
+        this.last.set(shown.subarray(4 * k, 4 * k + 4), 4 * k);
         this.still[k] = 0;
       } else if (this.still[k] < QUIET) this.still[k]++;
     }
-    this.last.set(shown);
     return moved;
   }
 
@@ -81,54 +89,55 @@ export class Backdrop {
   loosen(moved, isMoving) {
     const { items, shown, hand } = this.collage;
     const before = this.loose.slice();
-    this.region = null;
     for (let k = 0; k < items.length; k++) this.loose[k] = Number(isMoving && this.still[k] < QUIET);
-    if (!isMoving) {
-      this.still.fill(QUIET);
-      return;
-    }
-    const held = moved.filter((k) => hand.has(items[k].id));
-    for (const m of held) {
-      const look = this.collage.looks.get(items[m].shape);
-      const reach = NEAR * (look ? look.extent : 1) * shown[4 * m + 3];
+    if (!isMoving) this.still.fill(QUIET);
+    for (const m of isMoving ? moved.filter((k) => hand.has(items[k].id)) : []) {
+      const reach = NEAR * this.extent(m) * shown[4 * m + 3];
       for (let k = 0; k < items.length; k++) {
         const isNear = Math.abs(shown[4 * k] - shown[4 * m]) < reach && Math.abs(shown[4 * k + 1] - shown[4 * m + 1]) < reach;
         if (isNear) this.loose[k] = 1;
       }
     }
     // What repeats is in several places.
-    if (!this.collage.tiling.repeat && this.picture && this.isWhole && this.drawn.length === shown.length) this.region = this.changed(before);
+    const isPartial = !this.collage.tiling.repeat && this.picture && this.isWhole && this.drawn.length === shown.length;
+    this.changed = [...items.keys()].filter((k) => before[k] !== this.loose[k] || (!isMoving && away(this.drawn, shown, 4 * k, 1)));
+    this.regions = isPartial ? apart(this.changed.flatMap((k) => this.boxes(k, before[k] === 1))) : null;
+  }
+
+  /** @param {number} k */
+  extent(k) {
+    return this.collage.looks.get(this.collage.items[k].shape)?.extent ?? 1;
   }
 
   /**
-   * Box about the items that are in the picture and no longer are to be, or the other way round.
-   * @param {Uint8Array} before which were not in it
+   * Boxes about an item where it is in the picture, and where it is to be.
+   * @param {number} k
+   * @param {boolean} wasLoose whether it is not in the picture
    */
-  changed(before) {
-    const box = [Infinity, Infinity, -Infinity, -Infinity];
-    this.collage.items.forEach((item, k) => {
-      if (before[k] === this.loose[k]) return;
-      const [x, y, , scale] = (this.loose[k] ? this.drawn : this.collage.shown).subarray(4 * k, 4 * k + 4);
-      const reach = scale * (this.collage.looks.get(item.shape)?.extent ?? 1);
-      [x - reach, y - reach].forEach((value, axis) => (box[axis] = Math.min(box[axis], value)));
-      [x + reach, y + reach].forEach((value, axis) => (box[axis + 2] = Math.max(box[axis + 2], value)));
-    });
-    return box;
+  boxes(k, wasLoose) {
+    const places = [...(wasLoose ? [] : [this.drawn]), ...(this.loose[k] ? [] : [this.collage.shown])];
+    return places.map((poses) => this.box(k, poses));
   }
 
-  /** Whether an item is to be in the stale part of the picture. @param {number} k */
-  isStale(k) {
-    if (this.loose[k]) return false;
-    const { items, looks, shown } = this.collage;
-    const [x, y, , scale] = shown.subarray(4 * k, 4 * k + 4);
-    const [reach, box] = [scale * (looks.get(items[k].shape)?.extent ?? 1), this.region];
-    return !box || (x + reach > box[0] && y + reach > box[1] && x - reach < box[2] && y - reach < box[3]);
+  /** @param {number} k @param {Float32Array} poses @returns {Box} */
+  box(k, poses) {
+    const [x, y, , scale] = poses.subarray(4 * k, 4 * k + 4);
+    const reach = scale * this.extent(k);
+    return [x - reach, y - reach, x + reach, y + reach];
+  }
+
+  /** Whether an item is to be in a part of the picture. @param {number} k @param {Box} [part] all of it unless told */
+  isStale(k, part) {
+    return !this.loose[k] && (!part || meet(this.box(k, this.collage.shown), part));
   }
 
   /** Note that the picture shows what is to be in it. @param {boolean} isWhole */
   done(isWhole) {
+    const { shown } = this.collage;
     this.isWhole = isWhole;
-    this.drawn = this.collage.shown.slice();
+    // What lies near by was drawn in part.
+    if (this.regions) for (const k of this.changed) this.drawn.set(shown.subarray(4 * k, 4 * k + 4), 4 * k);
+    else this.drawn = shown.slice();
   }
 
   /**
@@ -145,13 +154,32 @@ export class Backdrop {
 }
 
 /**
+ * How far the edge of an item is from where it was at most, or nearly so, canvas units.
  * @param {Float32Array} one
  * @param {Float32Array} other
  * @param {number} at
+ * @param {number} radius item units
  */
-function differ(one, other, at) {
-  return (
-    one[at] !== other[at] || one[at + 1] !== other[at + 1] ||
-    one[at + 2] !== other[at + 2] || one[at + 3] !== other[at + 3]
-  );
+function away(one, other, at, radius) {
+  const edge = radius * Math.max(Math.abs(other[at + 2] - one[at + 2]) * other[at + 3], Math.abs(other[at + 3] - one[at + 3]));
+  return Math.max(Math.abs(other[at] - one[at]), Math.abs(other[at + 1] - one[at + 1]), edge);
+}
+
+/** @param {Box} one @param {Box} other */
+function meet(one, other) {
+  return one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3];
+}
+
+/** Boxes that hold all of some, and do not meet. @param {Box[]} boxes */
+function apart(boxes) {
+  /** @type {Box[]} */
+  let found = [];
+  for (let box of boxes) {
+    for (let met = found.filter((one) => meet(one, box)); met.length; met = found.filter((one) => meet(one, box))) {
+      found = found.filter((one) => !met.includes(one));
+      box = [box, ...met].reduce(([l, t, r, b], one) => [Math.min(l, one[0]), Math.min(t, one[1]), Math.max(r, one[2]), Math.max(b, one[3])]);
+    }
+    found.push(box);
+  }
+  return found;
 }

@@ -17,6 +17,8 @@ const DIGITS = { px: 1, pt: 1, mm: 2, cm: 3, in: 3 };
 const TURN = 0.5;
 /** Steps of an arrow key with shift. */
 const FAR = 10;
+/** Time between two looks at where things are while they move, ms. */
+const PAUSE = 100;
 
 export class Inspector {
   /** @param {import("./studio.js").Studio} studio */
@@ -26,6 +28,7 @@ export class Inspector {
     this.items = [];
     /** Numbers of the commands by which fields were asked for. @type {Map<HTMLInputElement, number>} */
     this.sent = new Map();
+    this.timer = 0;
     this.numbers = new Map(NUMBERS.map(([name, label, title]) => [name, this.number(name, label, title)]));
     this.name = h("input", { type: "text", maxlength: "200", "aria-label": "Name", onchange: () => this.rename() });
     this.weight = h("input", { type: "number", min: "0.01", step: "any", onchange: () => this.weigh() });
@@ -120,6 +123,14 @@ export class Inspector {
       const text = value === null || value === undefined ? "" : String(Number(value.toFixed(this.digits)));
       if (!this.awaits(field)) showNumber(field, text);
     }
+  }
+
+  /** The same a little later, and no more often: nobody reads faster, and each change lays the page out anew. */
+  followSoon() {
+    this.timer ||= setTimeout(() => {
+      this.timer = 0;
+      this.follow();
+    }, PAUSE);
   }
 
   /**

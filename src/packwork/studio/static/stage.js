@@ -94,7 +94,7 @@ export class Stage {
     const { width, height } = this.canvas;
     if (!width || !height) return true;
     const key = [view.zoom, view.x, view.y, width, height, this.ratio, collage.scene, this.colours, this.room?.preview, this.showsFaults, collage.tiling.isPreview];
-    const found = collage.hasPoses ? backdrop.look(key, isMoving) : "new";
+    const found = collage.hasPoses ? backdrop.look(key, isMoving, view.zoom * this.ratio) : "new";
     if (found === "new") this.drawGround(() => true, isMoving);
     else {
       if (found === "stale") this.drawBackdrop(width, height);
@@ -116,12 +116,22 @@ export class Stage {
     const { backdrop, pen, sprites } = this;
     this.pen = backdrop.pen(width, height);
     sprites.lacks = false;
-    this.pen.save();
-    if (backdrop.region) this.clip(backdrop.region);
-    this.drawGround((k) => backdrop.isStale(k), false);
-    this.pen.restore();
+    for (const part of backdrop.regions ?? [undefined]) {
+      this.pen.save();
+      if (part) this.clip(this.whole(part));
+      this.drawGround((k) => backdrop.isStale(k, part), false);
+      this.pen.restore();
+    }
     this.pen = pen;
     backdrop.done(!sprites.lacks);
+  }
+
+  /** A box made larger to whole pixels: along half of one, what is drawn twice would shine through. @param {import("./backdrop.js").Box} box */
+  whole([left, top, right, bottom]) {
+    const { view, ratio } = this;
+    const [from, to] = [view.toScreen(left, top), view.toScreen(right, bottom)];
+    const [a, b] = [view.toCanvas(Math.floor(ratio * from.x) / ratio, Math.floor(ratio * from.y) / ratio), view.toCanvas(Math.ceil(ratio * to.x) / ratio, Math.ceil(ratio * to.y) / ratio)];
+    return [a.x, a.y, b.x, b.y];
   }
 
   /** Have nothing drawn but in a box. @param {number[]} box canvas units */

@@ -289,7 +289,8 @@ export class Studio {
     const lacks = this.sprites.begin();
     const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving);
     const isLast = this.stage.draw(isMoving);
-    this.panels.items.inspector.follow();
+    if (isMoving) this.panels.items.inspector.followSoon();
+    else this.panels.items.inspector.follow();
     if (moves || glides || lacks || this.sprites.left < 0 || !(isLast || isMoving)) this.redraw();
   }
 
