@@ -16,7 +16,7 @@ from packwork.live.commands.items import Duplicate
 from packwork.live.commands.placing import Move
 from packwork.live.commands.together import COMMANDS, Together
 from packwork.live.document import counted_weight
-from packwork.live.face.offers import container_of, labels_of
+from packwork.live.face.offers import container_of, labels_of, told_of_map
 from packwork.live.macros import brought, labelled, labels_in
 from packwork.live.relayout import poured_again
 from packwork.pipeline.region_labels import PartLabel
@@ -418,6 +418,8 @@ def test_names_of_parts_follow_the_sheet_and_are_there_once(tmp_path: Path) -> N
     land = container_of(str(source), None)
     labels, told = labels_of(land)
     assert not told
+    # Shapes of a drawing are named for other ends.
+    assert told_of_map(land) == ""
     session = pw.fill("circle", ["star"], count=3, **QUICK).edit()
     of_group = replace(labels[0].item, name="warm", source="label:warm")
     session.apply(next(brought(session, [of_group])))

@@ -338,6 +338,41 @@ def test_escape_closes_the_menu_and_leaves_what_is_chosen(open_desk: Callable[..
     desk.settled()
 
 
+def test_a_finger_that_stays_has_the_menu_and_one_on_what_is_small_drags_it(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk(PHONE)
+    desk.page.keyboard.press("Escape")
+    touch = desk.page.context.new_cdp_session(desk.page)
+
+    def finger(kind: str, *points: tuple[float, float]) -> None:
+        at = [{"x": x, "y": y} for x, y in points]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+
+    number = desk.look("studio.collage.items[0].id")
+    x, y = desk.place(number)
+    sent = desk.look("studio.connection.count")
+    finger("touchStart", (x, y))
+    desk.until(MENU_IS_OPEN)
+    finger("touchEnd")
+    desk.page.wait_for_timeout(100)
+    # What lies under the finger that asked for it is not pressed.
+    assert desk.look(MENU_IS_OPEN)
+    assert desk.look("studio.connection.count") == sent
+    desk.page.keyboard.press("Escape")
+    desk.look(f"studio.choice.set([{number}])")
+    # Its handles are all within a finger's reach.
+    desk.look("studio.view.zoomAt(0.2, 195, 400)")
+    x, y = desk.place(number)
+    finger("touchStart", (x, y))
+    finger("touchMove", (x + 12, y))
+    assert desk.look("studio.gestures.doing.act") == "item"
+    finger("touchEnd")
+    desk.answered()
+    desk.page.keyboard.press("Control+z")
+    desk.answered()
+
+
 def test_the_menu_stays_when_the_button_is_let_go_and_closes_at_the_next_press(
     open_desk: Callable[..., Desk],
 ) -> None:

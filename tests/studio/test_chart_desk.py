@@ -163,6 +163,7 @@ def test_marks_lie_in_the_regions_of_a_map_that_was_dropped(
     farms.write_text(FARMS, encoding="utf-8")
     desk = open_desk()
     give(desk, land)
+    desk.page.get_by_text("to fill its regions, drop a table", exact=False).wait_for()
     desk.until("studio.collage.scene?.name === 'land'")
     desk.settled()
     give(desk, farms)

@@ -149,16 +149,17 @@ def _apart(regions: list[Region]) -> list[Region]:
 
 
 def names_on_map(text: str) -> list[set[str]]:
-    """Names that features of a map have, those of each property, as by :func:`region_key`.
+    """Names that regions of a map have, those of each property, as by :func:`region_key`.
 
     Examples
     --------
-    >>> names_on_map('{"features": [{"properties": {"name": "Peru"}}]}')
+    >>> shape = '{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
+    >>> names_on_map('{"features": [{"properties": {"name": "Peru"}, "geometry": %s}]}' % shape)
     [{'peru'}]
     """
     found = dict[str, set[str]]()
-    for one in _listed(text) or ():
-        for key, name in (_names(one) if isinstance(one, dict) else {}).items():
+    for one in _features(text):
+        for key, name in one.names.items():
             found.setdefault(key, set()).add(region_key(name))
     return list(found.values())
 

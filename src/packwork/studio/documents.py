@@ -13,7 +13,7 @@ from packwork.errors import ReadError
 from packwork.live.chart_groups import region_of_one
 from packwork.live.commands.command import made, named_container
 from packwork.live.commands.container import SetContainer
-from packwork.live.face.offers import container_of, read_again
+from packwork.live.face.offers import container_of, read_again, told_of_map
 from packwork.live.face.opening import Opening, chart_opening, opening_sent
 from packwork.live.face.templates import template
 from packwork.live.kinds import ChartKind
@@ -57,6 +57,8 @@ class Open(PageRequest):
             return
         # GeoJSON that is no layout is a map.
         container = container_of(tab.importer.file(self.source), tab.workspace.canvas)
+        if line := told_of_map(container):
+            tab.workspace.say(line, is_error=False)
         tab.workspace.pour(0, lambda session: [
             made(SetContainer, asset=named_container(session.library, container))
         ])  # fmt: skip

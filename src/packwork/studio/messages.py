@@ -17,7 +17,7 @@ from packwork.live.commands.command import Command, ItemIds, made, named_contain
 from packwork.live.commands.container import DrawContainer, SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import AnyCommand, of_the_hand
-from packwork.live.face.offers import TileWay, container_of, items_of, labels_of
+from packwork.live.face.offers import TileWay, container_of, items_of, labels_of, told_of_map
 from packwork.live.face.opening import opening_sent
 from packwork.live.macros import brought, labelled, labels_in
 from packwork.live.owner import Leap
@@ -209,7 +209,9 @@ class Room(PageRequest):
         container = self._container(tab)
         is_sent = self.names and self.source.startswith(FILES)
         labels, told = labels_of(container, tab.workspace.is_stopped) if is_sent else ([], [])
-        for line in told:
+        if self.source.startswith(FILES):
+            told = [*told, told_of_map(container)]
+        for line in filter(None, told):
             tab.workspace.say(tab.importer.without_folder(line), is_error=False)
 
         def make(session: Session) -> list[Command]:

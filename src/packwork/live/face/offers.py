@@ -31,7 +31,7 @@ from packwork.readers.container import part_names, read_container, read_parts
 from packwork.readers.container import read_again as read_again
 from packwork.readers.engraving import Engraving
 from packwork.readers.items import ItemsRead, read_items
-from packwork.readers.maps import region_key
+from packwork.readers.maps import ENDINGS, region_key
 from packwork.readers.photo_options import PhotoOptions
 from packwork.readers.photos import read_photo
 from packwork.readers.tables.cells import any_number, cell_text, is_missing
@@ -232,6 +232,16 @@ def labels_of(container: Container, stop: Stop = never) -> tuple[list[PartLabel]
     none = f"{container.name} names no parts: a map in GeoJSON does, or an SVG by titles or ids"
     lines = [f"{container.name}: {line}" for line in short]
     return labels, [*lines, *map(str, told)] if parts else [*lines, none]
+
+
+def told_of_map(container: Container) -> str:
+    """Line on what fills the regions of a map by themselves; empty for any other container."""
+    if Path(container.source).suffix.lower() not in ENDINGS or not part_names(container):
+        return ""
+    return (
+        f"items fill {container.name} as one; to fill its regions, drop a table with a row for "
+        "each mark and a column of regions, and choose a chart: its marks can be an icon"
+    )
 
 
 def picture_of(source: str, *, is_behind: bool = False) -> Item:

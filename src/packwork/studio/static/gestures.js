@@ -36,6 +36,8 @@ export class Gestures {
     this.hears = hears;
     this.isPanning = false;
     this.timer = 0;
+    /** Whether a finger has stayed, and has the menu. */
+    this.isLong = false;
     /** @type {Map<number, Point>} */
     this.pointers = new Map();
     /** @type {null | Doing} */
@@ -49,6 +51,8 @@ export class Gestures {
     canvas.addEventListener("pointermove", (event) => this.moved(event));
     canvas.addEventListener("pointerup", (event) => this.up(event));
     canvas.addEventListener("pointercancel", (event) => this.up(event));
+    // The browser would press what of the menu lies under the finger that asked for it.
+    canvas.addEventListener("touchend", (event) => this.isLong && event.preventDefault(), { passive: false });
     canvas.addEventListener("pointerleave", () => this.hover(null));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     canvas.addEventListener("dblclick", (event) => this.stage.cropping?.begin(this.stage.itemAt(event.offsetX, event.offsetY)) && this.hears.changed());
@@ -58,6 +62,7 @@ export class Gestures {
   /** @param {PointerEvent} event */
   down(event) {
     const at = point(event);
+    this.isLong = false;
     this.stage.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, at);
     if (this.pointers.size === 2) this.pinch();
@@ -342,7 +347,8 @@ export class Gestures {
   /** @param {Point} at */
   waitForMenu(at) {
     this.timer = setTimeout(() => {
-      if (this.pointers.size === 1) this.menuAt(at);
+      this.isLong = this.pointers.size === 1;
+      if (this.isLong) this.menuAt(at);
     }, LONG);
   }
 

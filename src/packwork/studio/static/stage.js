@@ -559,7 +559,11 @@ export class Stage {
    * @param {number} reach px
    */
   handleAt(x, y, reach) {
-    return this.handles().find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= reach) ?? null;
+    const frame = this.frame() ?? [];
+    // Handles of what is small are all within reach of a finger on its middle, which drags it.
+    const middle = [0, 1].map((axis) => frame.reduce((sum, at) => sum + at[axis] / frame.length, 0));
+    const far = Math.min(reach, Math.hypot(middle[0] - x, middle[1] - y));
+    return this.handles().find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= far) ?? null;
   }
 }
 
