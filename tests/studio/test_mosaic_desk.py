@@ -115,10 +115,14 @@ def test_its_colours_become_a_palette_and_it_lies_behind_all(desk: Desk, halves:
 def test_a_gradient_is_behind_all_on_the_page_and_in_files(desk: Desk) -> None:
     desk.page.keyboard.press("6")
     desk.page.get_by_label("Colour 1 of the gradient").fill("#ff0000")
-    desk.page.get_by_label("Colour 2 of the gradient").fill("#0000ff")
+    # An answer to the first, that comes when the second is asked for, takes nothing back.
+    desk.answered()
+    late = "(ground.shown = '', ground.refresh(), ground.ends[1].value)"
+    asked = "Object.assign(ground.ends[1], {value: '#0000ff'}).dispatchEvent(new Event('change'))"
+    assert desk.look(f"(ground => ({asked}, {late}))(studio.panels.look.ground)") == "#0000ff"
     desk.page.get_by_label("Way of the gradient").select_option(label="across")
-    desk.until("studio.collage.scene.under.length === 1")
-    desk.settled()
+    desk.answered()
+    assert desk.look("studio.collage.scene.under.length") == 1
     desk.picture("gradient")
     for edge in ("none", "as of a print"):
         left, right = corners_of_export(desk, edge)

@@ -25,6 +25,8 @@ export class Ground {
     this.plain = grounds((colour) => this.set(colour));
     /** Gradient that the fields show. */
     this.shown = "";
+    /** Number of the command that asked for it last. */
+    this.sent = 0;
     this.elements = [
       h("div", { class: "row wrap" }, h("span", {}, "Background"), ...this.plain, this.colour.element),
       h("div", { class: "row wrap", role: "group", "aria-label": "A gradient or a picture behind all" }, this.gradient, ...this.ends, this.way, this.picture),
@@ -41,6 +43,8 @@ export class Ground {
     for (const one of this.plain) one.setAttribute("aria-pressed", String(one.dataset.ground === now));
     this.gradient.setAttribute("aria-pressed", String(Boolean(gradient)));
     this.picture.setAttribute("aria-pressed", String(isPicture));
+    // What the fields ask for is on its way: an answer to an earlier change takes none of it back.
+    if (this.sent > this.studio.collage.done) return;
     if (gradient && gradient !== this.shown) this.follow(gradient);
     this.shown = gradient;
   }
@@ -55,7 +59,7 @@ export class Ground {
 
   /** @param {string} colour as CSS writes it */
   set(colour) {
-    this.studio.connection.do({ kind: "background", colour });
+    this.sent = this.studio.connection.do({ kind: "background", colour });
   }
 
   /** Have the gradient of the fields. */
