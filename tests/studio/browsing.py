@@ -271,16 +271,3 @@ class Desk:
         if folder:
             Path(folder).mkdir(parents=True, exist_ok=True)
             self.page.screenshot(path=str(Path(folder) / f"{name}.png"))
-
-
-@contextmanager
-def own_desk(browser: Any, *inputs: str) -> Iterator[Desk]:
-    """A wide page of a server of its own, which has met no fault in the end."""
-    server = Server(*inputs).start()
-    context = browser.new_context(viewport=WIDE, accept_downloads=True)
-    desk = Desk(context.new_page(), server.address)
-    desk.settled()
-    yield desk
-    assert desk.faults == []
-    context.close()
-    server.stop()

@@ -193,15 +193,63 @@ def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
     return context.new_page()
 
 
+class KeptServer:
+    """A studio that serves one module after another, from the document that it began with.
+
+    To start one for each takes it seconds, and a browser loads the programs of another place anew.
+    """
+
+    AS_IT_LIES = (
+        "(c => JSON.stringify([c.scene.name, c.items.map(one => one.shape), [...c.poses]]))"
+        "(studio.collage)"
+    )
+
+    def __init__(self) -> None:
+        self.server = Server("circle", "star", "heart", "moon", "-n", "14")
+        self._began = ""
+        self._is_looked_at = True
+
+    def lent(self) -> Server:
+        """The studio, which the next page looks at."""
+        if self.server.process is None or self.server.process.poll() is not None:
+            self.server.start()
+        self._is_looked_at = False
+        return self.server
+
+    def as_it_began(self, desk: PageDesk) -> None:
+        """Undo what modules before have left; where that is not all, it is started anew."""
+        if self._is_looked_at or not desk.page.url.startswith(self.server.address):
+            return
+        self._is_looked_at = True
+        if desk.look("studio.collage.state.can_undo"):
+            desk.undo_all()
+            desk.page.reload()
+            desk.settled()
+        lies = desk.look(self.AS_IT_LIES)
+        if lies != (self._began or lies):
+            self.server.stop()
+            self.server.start()
+            desk.page.goto(self.server.address)
+            desk.settled()
+        self._began = self._began or lies
+
+
+@pytest.fixture(scope="session")
+def kept_server() -> Iterator[KeptServer]:
+    kept = KeptServer()
+    yield kept
+    kept.server.stop()
+
+
 @pytest.fixture(scope="module")
-def server() -> Iterator[Server]:
-    made = Server("circle", "star", "heart", "moon", "-n", "14").start()
-    yield made
-    made.stop()
+def server(kept_server: KeptServer) -> Server:
+    return kept_server.lent()
 
 
 @pytest.fixture
-def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., PageDesk]]:
+def open_desk(
+    browser: Any, server: Server, kept_server: KeptServer
+) -> Iterator[Callable[..., PageDesk]]:
     """Opens a page, by default a wide one, all one person's; at the end none has met a fault."""
     desks: list[PageDesk] = []
 
@@ -213,6 +261,7 @@ def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., PageDesk]]
         desk = PageDesk(page, address or server.address)
         desks.append(desk)
         desk.settled()
+        kept_server.as_it_began(desk)
         return desk
 
     yield opened

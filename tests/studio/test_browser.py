@@ -84,10 +84,12 @@ def test_the_badge_has_two_states_and_no_more(open_desk: Callable[..., Desk]) ->
     desk.certified()
     # What is won back while nobody touches anything is no work.
     desk.settled()
-    working, certified = desk.look("log")
-    assert working == "working: making room"
+    log = desk.look("log")
+    # Where a hand is slow, all may rest on its way too; nothing else is ever said.
+    assert [one.partition(": ")[0] for one in log] == ["working", "certified"] * (len(log) // 2)
+    assert log[-2] == "working: making room"
     # Whether there is a hint is said with it, not later.
-    assert certified.startswith("certified: covered · certified"), certified
+    assert log[-1].startswith("certified: covered · certified"), log
     # Nor what was missed: it comes and goes while gaps are closed, and is told after that.
     told = "document.querySelector('#badge .word').textContent"
     missed = "studio.stated({ ...studio.collage.state, polishing: %s, unmet: { 0: 'is off' } })"
@@ -265,15 +267,15 @@ def test_an_export_is_shown_as_it_will_be(open_desk: Callable[..., Desk]) -> Non
     desk.until(f"{corner} === '23 23 23 255'")
     desk.page.get_by_label("Transparent").click()
     desk.until(f"{corner} === '0 0 0 0'")
-    desk.page.get_by_label("Size by name").select_option("A3, 300 dpi")
+    desk.page.get_by_label("Size by name").select_option("A5, 300 dpi")
     desk.page.get_by_label("Free edge").select_option("5%")
     with desk.page.expect_download() as waiting:
         desk.page.locator("dialog.export button[type=submit]").click()
     with Image.open(waiting.value.path()) as made:
-        assert max(made.size) == 4961
+        assert max(made.size) == 2480
         assert made.getpixel((2, made.height - 3))[3] == 0
         left, top, right, bottom = made.getbbox()
-        edge = 0.05 / 1.1 * 4961
+        edge = 0.05 / 1.1 * 2480
         assert min(left, top, made.width - right, made.height - bottom) > 0.98 * edge
         assert min(left, top, made.width - right, made.height - bottom) < 1.2 * edge
 
@@ -565,13 +567,13 @@ def test_a_page_that_does_not_know_the_token_sees_nothing(browser: Any, server: 
     page.close()
 
 
-@pytest.mark.parametrize("port", [(), ("--port", "free")], ids=["any port", "a port"])
 def test_a_page_goes_on_by_itself_after_a_crash(
-    browser: Any, tmp_path: Path, monkeypatch: Any, port: tuple[str, ...]
+    browser: Any, tmp_path: Path, monkeypatch: Any
 ) -> None:
+    """At a port that was asked for; that it does at any other is shown with proofs."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
-        port = tuple(str(probe.getsockname()[1]) if one == "free" else one for one in port)
+        port = ("--port", str(probe.getsockname()[1]))
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
     first = Server("circle", "star", "-n", "6", *port).start()
     context = browser.new_context(viewport=WIDE)

@@ -227,9 +227,9 @@ def test_steps_of_a_field_are_kept_while_scenes_are_on_their_way(
         keys.press("Enter")
         desk.until(f"Math.abs({now} - 11) < 1e-3")
         desk.settled()
-        for value in range(12, 18):
+        for value in range(12, 15):
             keys.press("ArrowUp")
             assert field.input_value() == str(value)
-        desk.until(f"Math.abs({now} - 17) < 1e-3")
+        desk.until(f"Math.abs({now} - 14) < 1e-3")
         desk.settled()
-        assert field.input_value() == "17"
+        assert field.input_value() == "14"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from studio.browsing import PHONE, Desk, in_browser, own_desk
+from studio.browsing import PHONE, Desk, in_browser
 
 pytestmark = in_browser
 
@@ -20,10 +19,9 @@ WINDOW = (
 CHOSEN = "[...studio.choice.ids].sort((a, b) => a - b)"
 
 
-@pytest.fixture(scope="module")
-def desk(browser: Any) -> Iterator[Desk]:
-    with own_desk(browser, "circle", "star", "heart", "-n", "30") as made:
-        yield made
+@pytest.fixture
+def desk(open_desk: Callable[..., Desk]) -> Desk:
+    return open_desk()
 
 
 def wedge(places: np.ndarray) -> tuple[np.ndarray, list[int]]:

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from studio.browsing import PHONE, WIDE, Desk, in_browser, own_desk
+from studio.browsing import PHONE, WIDE, Desk, in_browser
 
 pytestmark = in_browser
 
 SHARE = "(([words, others]) => words / (words + others))(studio.words.mixing.weights)"
 
 
-@pytest.fixture(scope="module")
-def desk(browser: Any) -> Iterator[Desk]:
-    with own_desk(browser, "circle", "star", "heart", "-n", "16") as made:
-        yield made
+@pytest.fixture
+def desk(open_desk: Callable[..., Desk]) -> Desk:
+    return open_desk()
 
 
 def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) -> None:
@@ -33,7 +31,7 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
     page.get_by_label("Share of words, %").fill("40")
     assert page.get_by_text("put somewhere by hand").filter(visible=True).count() == 1
     page.get_by_role("button", name="Fill with words").click()
-    desk.until("studio.collage.items.length === 21")
+    desk.until("studio.collage.items.length === 19")
     desk.settled()
     assert desk.look(SHARE) == pytest.approx(0.4, abs=1e-3)
     assert desk.look("studio.collage.scene.options.sizes") == "shared"
@@ -66,7 +64,7 @@ def test_words_come_beside_icons_with_a_share_that_a_slider_changes(desk: Desk) 
     desk.resize(WIDE)
     for _ in range(3):
         page.locator("#bar [data-do=undo]").click()
-    desk.until("studio.collage.items.length === 16 && !studio.anyHeld")
+    desk.until("studio.collage.items.length === 14 && !studio.anyHeld")
 
 
 def test_a_pdf_has_marks_and_spot_inks_and_others_say_why_not(desk: Desk) -> None:
