@@ -183,7 +183,7 @@ def test_the_keyboard_alone_chooses_moves_holds_and_exports(open_desk: Callable[
     keys.press("n")
     assert desk.look("studio.choice.ids.size") == 1
     keys.press("ArrowRight")
-    desk.settled()
+    desk.answered()
     keys.press("h")
     desk.until("studio.areHeld")
     desk.picture("held")
@@ -585,7 +585,7 @@ def test_a_page_goes_on_by_itself_after_a_crash(
         desk.page.keyboard.press("n")
         # What was only just moved is settled by the server that comes after.
         desk.page.keyboard.press("ArrowRight")
-        desk.settled()
+        desk.answered()
         desk.page.keyboard.press("h")
         desk.until("studio.areHeld")
         first.kill()
