@@ -9,11 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from packwork.readers.gate.css.colours import plain_colour
+from packwork.readers.gate.css.colours import is_paint, plain_colour
 from packwork.readers.gate.css.declarations import parse_declarations
 from packwork.readers.gate.css.selectors import Node, UnknownSelectorError, parse_selector
 from packwork.readers.gate.css.sheets import StyleSheet
 from packwork.readers.gate.door import parse_untrusted
+from packwork.readers.svg.item import item_of_svg
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
 TREE = ET.fromstring(  # noqa: S314 - ours
@@ -125,7 +126,14 @@ def test_shorthands_are_parted(declared, values):
         ("lab(1e200 1e300 0)", "lab(1e200 1e300 0)"),
         ("color-mix(in nothing, red, blue)", "color-mix(in nothing, red, blue)"),
         ("color-mix(in hsl no hue, red, blue)", "color-mix(in hsl no hue, red, blue)"),
-        ("color-mix(red, blue)", "color-mix(red, blue)"),
+        ("color-mix(red, blue)", "#8c53a2"),
+        ("color-mix(in srgb, red 0%, blue 0%)", "#ff000000"),
+        ("rgb(calc(100 + 50) calc(60 / -3 * -1) 30)", "#96141e"),
+        ("hsl(calc(180deg / 2) 50% 50%)", "#80bf40"),
+        ("oklch(1.2 0.3 30)", "#ff9777"),
+        ("lab(-10 50 50)", "#420000"),
+        ("CURRENTCOLOR", "currentColor"),
+        ("#cd853f icc-color(press, 0.1, 0.2)", "#cd853f"),
         ("light-dark(oklab(100% 0 0), red)", "#ffffff"),
         ("hsl(120deg 100% 50%)", "#00ff00"),
         ("oklch(oops)", "oklch(oops)"),
@@ -134,6 +142,33 @@ def test_shorthands_are_parted(declared, values):
 )
 def test_new_colours_are_written_as_old_ones(colour, plain):
     assert plain_colour(colour) == plain
+
+
+@pytest.mark.parametrize(
+    "colour",
+    [
+        "notacolour",
+        "#12345",
+        "rgb(1 2)",
+        "rgb(calc(1 / 0) 2 3)",
+        "rgb(calc(9**9) 2 3)",
+        "rgb(calc(1% + 2) 2 3)",
+        "color-mix(in srgb, red 120%, blue)",
+        "color-mix(in srgb longer hue, red, blue)",
+    ],
+)
+@pytest.mark.parametrize("as_style", [True, False])
+def test_what_is_no_colour_leaves_the_one_outside(colour: str, as_style: bool) -> None:
+    # As browsers show it: the declaration before, else the group's.
+    said = f'style="fill:{colour}"' if as_style else f'fill="{colour}"'
+    rect = f'<g fill="#336699"><rect width="9" height="9" {said}/></g>'
+    markup = item_of_svg(f"<svg>{rect}</svg>".encode(), "item", "item.svg").art.markup
+    assert markup.count("fill=") == 1
+    assert not is_paint(colour)
+    both = rect.replace("fill:", "fill:#ff0000;fill:")
+    if as_style:
+        kept = item_of_svg(f"<svg>{both}</svg>".encode(), "item", "item.svg").art.markup
+        assert 'fill="#ff0000"' in kept
 
 
 LEFT_OUT = {

@@ -23,7 +23,7 @@ from io import BytesIO
 from PIL import Image, ImageOps
 
 from packwork.readers.budget.rendering import FILTER
-from packwork.readers.gate.css.colours import plain_colour
+from packwork.readers.gate.css.colours import is_paint, plain_colour
 from packwork.readers.gate.css.declarations import filled_in, parse_declarations, with_variables
 from packwork.readers.gate.css.selectors import Node
 from packwork.readers.gate.css.sheets import Cascade, StyleSheet
@@ -184,6 +184,14 @@ def safe_value(value: str) -> str | None:
     return f"url(#{local.group(2)}) {rest}".strip() if _calls_known(rest) else None
 
 
+def _safe(name: str, value: str) -> str | None:
+    """Plain form of a property's value; None if it is none, or could reach outside."""
+    if name not in COLOURS:
+        return safe_value(value)
+    safe = safe_value(plain_colour(value))
+    return safe if safe and is_paint(safe) else None
+
+
 def _calls_known(text: str) -> bool:
     """Whether every function the text calls is on the list, ``url`` not being there."""
     callers = [before.rstrip() for before in text.split("(")[:-1]]
@@ -278,8 +286,7 @@ def _plain_attributes(node: Node, found: _Context, variables: Mapping[str, str])
             continue
         elif key in ATTRIBUTES and (len(value) <= MAX_VALUE or key in _LISTS):
             text = filled_in(value, variables)
-            safe = safe_value(plain_colour(text) if key in COLOURS else text)
-            if safe:
+            if safe := _safe(key, text):
                 plain[key] = safe
     return plain
 
@@ -306,7 +313,7 @@ def _apply(
     kept: list[str] = []
     for name, value in declared.items():
         text = filled_in(value, variables) if "var(" in value else value
-        safe = safe_value(plain_colour(text) if name in COLOURS else text)
+        safe = _safe(name, text)
         if not safe or (len(safe) > MAX_VALUE and name not in _LISTS):
             if text and "(" in text:
                 found.lost.add(f"{name} as it is written")

@@ -1,14 +1,17 @@
 """CSS Color 4 and 5 values to sRGB, by coloraide.
 
-Colours outside sRGB are clipped, channel by channel.
+Colours outside sRGB are clipped, channel by channel, as browsers do.
 """
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import math
+import operator
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from packwork.readers.gate.css.selectors import split_outside
@@ -23,6 +26,34 @@ _NEW = frozenset({"hwb", "lab", "lch", "oklab", "oklch", "color", "color-mix", "
 _LONGEST = 300
 _MIXED_IN = {"xyz": "xyz-d65"}
 """Names of spaces, by those of CSS that differ."""
+_POLAR = frozenset({"hsl", "hwb", "lch", "oklch"})
+_LIGHTEST = {"lab": 100.0, "lch": 100.0, "oklab": 1.0, "oklch": 1.0}
+_WORDS = frozenset({
+    "none", "currentcolor", "inherit", "initial", "unset", "revert", "context-fill",
+    "context-stroke",
+})  # fmt: skip
+_CALC = re.compile(r"\bcalc((\((?:[^()]|\([^()]*\))*\)))", re.IGNORECASE)
+_UNIT = re.compile(r"(?<=[\d.])(%|[a-z]+)", re.IGNORECASE)
+_OPERATORS = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv
+}  # fmt: skip
+
+
+@lru_cache(maxsize=4096)
+def is_paint(value: str) -> bool:
+    """Whether CSS takes a value for a colour, or for what stands in its place.
+
+    >>> [is_paint(text) for text in ("red", "url(#g) red", "lab(50 0 9)", "#12", "rgb(1 2)")]
+    [True, True, True, False, False]
+    """
+    text = plain_colour(value).strip()
+    if text.lower() in _WORDS or text.lower().startswith("url("):
+        return True
+    try:
+        css_colour(text)
+    except ValueError:
+        return False
+    return True
 
 
 def plain_colour(value: str) -> str:
@@ -33,10 +64,15 @@ def plain_colour(value: str) -> str:
     >>> plain_colour("color-mix(in srgb, red, blue)"), plain_colour("hsl(0.5turn 50% 50%)")
     ('#800080', '#40bfbf')
     """
-    text = value.strip()
+    text = value.partition(" icc-color(")[0].strip()
+    if text.lower() == "currentcolor":
+        # Not all programs know it in another case.
+        return "currentColor"
     call = _CALL.fullmatch(text)
     if call is None or len(value) > _LONGEST or call[1].lower() not in _OLD | _NEW:
-        return value
+        return text
+    with contextlib.suppress(ValueError, SyntaxError, ArithmeticError):
+        text = _CALC.sub(_computed, text)
     if call[1].lower() in _OLD:
         # Most are read at once; turns and radians are not.
         with contextlib.suppress(ValueError):
@@ -66,21 +102,47 @@ def _colour(text: str) -> Color:
         return _mixed(split_outside(call[2], ","))
     if call is not None and name == "light-dark":
         return _colour(split_outside(call[2], ",")[0])
-    return Color(text.strip())
+    found = Color(text.strip())
+    if name in _LIGHTEST:
+        return found.set("lightness", min(max(found[0], 0.0), _LIGHTEST[name]))
+    return found
+
+
+def _computed(call: re.Match[str]) -> str:
+    """Value of a sum or product of numbers, with the one unit that they have."""
+    met = _UNIT.findall(call[1])
+    units, numbers = set(met), re.findall(r"[\d.]+", call[1])
+    if len(units) > 1 or (met and len(met) < len(numbers) and re.search(r"[+-]", call[1])):
+        raise ValueError("units are mixed")
+    return f"{_value(ast.parse(_UNIT.sub('', call[1]), mode='eval').body):.12g}{''.join(units)}"
+
+
+def _value(node: ast.expr) -> float:
+    if isinstance(node, ast.Constant) and type(node.value) in {int, float}:
+        return float(node.value)  # type: ignore[arg-type]
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        return -_value(node.operand)
+    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
+        return float(_OPERATORS[type(node.op)](_value(node.left), _value(node.right)))
+    raise ValueError("no number")
 
 
 def _mixed(parts: Sequence[str]) -> Color:
     """Two colours mixed, weighed by opacity, as ``in oklch longer hue, red 20%, blue`` says."""
-    space, *colours = parts
-    words = space.lower().split()
-    if len(colours) != 2 or len(words) < 2 or words[0] != "in":
+    *said, first_said, second_said = parts
+    words = said[0].lower().split() if said else ["in", "oklab"]
+    if len(said) > 1 or len(words) < 2 or words[0] != "in":
         raise ValueError("two colours are mixed")
-    (first, own), (second, other) = map(_weighted, colours)
+    if len(words) > 2 and words[1] not in _POLAR:
+        raise ValueError("hues of a space without any")
+    (first, own), (second, other) = map(_weighted, (first_said, second_said))
     if own is None:
         own = 0.5 if other is None else 1 - other
     other = 1 - own if other is None else other
-    if own + other <= 0:
-        raise ValueError("nothing is mixed")
+    if not 0 <= min(own, other) <= max(own, other) <= 1:
+        raise ValueError("a share of more than all")
+    if own + other == 0:
+        return first.set("alpha", 0.0)
     mixed = first.mix(
         second,
         other / (own + other),

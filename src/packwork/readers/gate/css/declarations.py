@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TypeAlias
 
+from packwork.readers.gate.css.colours import is_paint
 from packwork.readers.gate.css.selectors import split_outside
-from packwork.readers.svg_syntax.vocabulary import CUSTOM, PROPERTIES
+from packwork.readers.svg_syntax.vocabulary import COLOURS, CUSTOM, PROPERTIES
 
 MAX_VALUE = 200
 """Letters of a variable's value; longer ones are passed over, as they multiply. Chosen."""
@@ -191,6 +192,9 @@ def parse_declarations(text: str) -> Declarations:
                 continue
             for key, part in longhands.items():
                 found[key] = (part, is_important)
+        elif name in COLOURS and "var(" not in value and not is_paint(value):
+            if "(" in value:
+                lost.add(f"{name} as it is written")
         elif name in PROPERTIES or name.startswith(CUSTOM):
             found[name] = (value, is_important)
         elif name in LOST_PROPERTIES and value.lower() not in _HARMLESS:
