@@ -91,7 +91,7 @@ def refusal(
 
 
 def plain_words(message: str) -> str:
-    """What pydantic says of a value, in the words of other messages."""
+    """A message of pydantic in the words of other messages."""
     message = re.sub(r"(^|: )(Value error, |Input )", r"\1", message)
     for said, meant in _PLAIN_WORDS.items():
         message = message.replace(said, meant)
