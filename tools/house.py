@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 71_233,
-    "lines of docstrings": 19_665,
-    "files": 598,
+    "lines of code": 71_504,
+    "lines of docstrings": 19_720,
+    "files": 600,
     "functions of the road in one plain fill": 91,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 791,
+    "constants chosen by hand": 792,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

@@ -117,3 +117,30 @@ def test_neighbours_of_one_colour_do_not_touch_unasked(
     }
     assert sentences == {"stand": told == "stand", "and touch": told == "touch"}
     assert (run.metrics.exact.min_gap > 3) == (told == "stand" or more == {"padding": "1%"})
+
+
+@pytest.mark.parametrize("is_pinned", [False, True])
+def test_what_is_kept_apart_unasked_is_never_refused(
+    one_colour: Path, tmp_path: Path, is_pinned: bool
+) -> None:
+    where = tmp_path / "where"
+    where.mkdir()
+    zigzag = "M0 0" + "".join(f"H{600 * (k % 2 == 0)}v10" for k in range(9))
+    line = f'<path d="{zigzag}" fill="none" stroke="#000" stroke-width="3"/>'
+    svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-5 -5 610 110">{line}</svg>'
+    (where / "line.svg").write_text(svg, encoding="utf-8")
+    asked = (
+        {"container": "square", "count": 8, "hero": "bar=99%"}
+        if is_pinned
+        else {"container": str(where / "line.svg"), "count": 4}
+    )
+    run = fill(make_recipe(items=[str(one_colour)], effort="draft", levels="50", **asked))
+    assert run.certified
+
+
+def test_an_earlier_layout_keeps_its_gaps(one_colour: Path, tmp_path: Path) -> None:
+    asked = {"count": 12, "effort": "draft", "levels": "50"}
+    earlier = tmp_path / "earlier.geojson"
+    pw.fill("circle", str(one_colour), padding="0", **asked).save(earlier)
+    later = pw.fill("circle", str(one_colour), start=str(earlier), stay=True, **asked)
+    assert later.metrics["exact"]["min_gap"] < 1

@@ -192,6 +192,13 @@ def test_what_is_no_map_is_refused_in_one_line(tmp_path: Path, text: str, why: s
     assert "\n" not in str(refused.value)
 
 
+def test_members_of_no_meaning_hide_no_features(tmp_path: Path) -> None:
+    file = written(tmp_path, square(0, 10, 8), square(20, 10, 8))
+    said = json.loads(file.read_text(encoding="utf-8"))
+    file.write_text(json.dumps({"geometries": [], **said}), encoding="utf-8")
+    assert len(read_parts(read_container(file))) == 2
+
+
 def test_a_layout_of_ours_is_no_map(tmp_path: Path) -> None:
     ours = tmp_path / "layout.geojson"
     ours.write_text(

@@ -73,12 +73,16 @@ def comma_hint(line: str) -> str:
     '; write 0.5'
     >>> comma_hint("--pixels: must be a whole number, not '1,000'"), comma_hint("no 'a,1.svg'")
     ('; write 1000', '')
+    >>> comma_hint("--unit: must be a number, not '1,000'"), comma_hint("a level, not '5,5'")
+    ('', '')
     """
     met = _COMMA.search(line)
-    if met is None:
+    # Levels are a list, in which a comma stands between two numbers.
+    if met is None or "level" in line:
         return ""
     groups = "whole number" in line
-    if groups and re.fullmatch(r"\d{1,3},\d{3}", met[1]) is None:
+    # A comma before three digits may group thousands.
+    if groups != (re.search(r"(?<!\d)\d{1,3},\d{3}(?!\d)", met[1]) is not None):
         return ""
     return f"; write {met[1].replace(',', '' if groups else '.')}"
 

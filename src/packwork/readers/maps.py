@@ -186,10 +186,10 @@ def _listed(text: str) -> list[Any] | None:
         return None
     if said.get("type") == "Feature":
         return [said]
-    if "coordinates" in said or "geometries" in said:
-        return [{"geometry": said}]
     listed = said.get("features")
-    return listed if isinstance(listed, list) else None
+    if isinstance(listed, list):
+        return listed
+    return [{"geometry": said}] if "coordinates" in said or "geometries" in said else None
 
 
 @lru_cache(maxsize=1)

@@ -14,7 +14,7 @@ from packwork.assignment.quadratic import cheapest
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
-from packwork.pipeline.plan.counts import LEAST, TYPICAL_RATIO, items_needed, no_container
+from packwork.pipeline.plan.counts import LEAST, MOST, TYPICAL_RATIO, items_needed, no_container
 from packwork.pipeline.read import Material, drawn_first, read_named
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.raster.coverage import coverage
@@ -96,7 +96,7 @@ class KnownContainer:
         needed = items_needed(self.known, recipe.sizes, recipe.size_ratio or TYPICAL_RATIO).count
         outlines = [item.outline for item in items]
         solidity = np.mean([one.area for one in outlines] / hull_areas(outlines))
-        return max(needed, math.ceil(LEAST / solidity), len(items))
+        return max(needed, min(MOST, math.ceil(LEAST / solidity)), len(items))
 
 
 def suited_first(
@@ -158,7 +158,9 @@ class IconsUse(Use):
         """Places, levels, finish; voids if asked; measures and looks."""
         if not runs_together(job):
             return self._listed(job)
-        gap = ONE_COLOUR_GAP * math.sqrt(job.container.outline.area / len(job.items))
+        region = job.container.outline.region
+        width = 2.0 * region.area / region.length
+        gap = ONE_COLOUR_GAP * min(math.sqrt(region.area / len(job.items)), width)
         return [Replan(gap=gap), *self._listed(job.replanned(gap=gap)), RemarkApart()]
 
     def _listed(self, job: Job) -> list[RunStep]:
@@ -183,6 +185,9 @@ def runs_together(job: Job) -> bool:
     """Whether neighbours that touch would be read as one, and the run finds the padding."""
     plan = job.plan
     if job.recipe.padding != AUTO or plan.sizes == "fixed" or not plan.is_exact:
+        return False
+    # An earlier layout keeps its own gaps, and what is pinned was placed without one.
+    if plan.is_from_layout or job.recipe.hero is not None:
         return False
     has_others = plan.palette or job.target is not None or any(one.values for one in job.asked)
     return not has_others and are_of_one_colour(job.items)
