@@ -62,7 +62,7 @@ class Count(NamedTuple):
 
 LIMITS = {
     "lines of code": 71_504,
-    "lines of docstrings": 19_720,
+    "lines of docstrings": 19_717,
     "files": 600,
     "functions of the road in one plain fill": 91,
     "files of the road in one plain fill": 19,
