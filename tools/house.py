@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 71_504,
+    "lines of code": 71_505,
     "lines of docstrings": 19_717,
     "files": 600,
     "functions of the road in one plain fill": 91,

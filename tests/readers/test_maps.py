@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -197,6 +198,13 @@ def test_members_of_no_meaning_hide_no_features(tmp_path: Path) -> None:
     said = json.loads(file.read_text(encoding="utf-8"))
     file.write_text(json.dumps({"geometries": [], **said}), encoding="utf-8")
     assert len(read_parts(read_container(file))) == 2
+
+
+@pytest.mark.parametrize("spoilt", [b"", b"garbage", b'{"features": 3}', b"[" * 200_000])
+def test_a_spoilt_map_in_a_session_is_refused_in_one_line(tmp_path: Path, spoilt: bytes) -> None:
+    made = read_container(written(tmp_path, square(0, 10, 8), square(20, 10, 8)))
+    with pytest.raises(ReadError, match=r"land\.geojson: "):
+        part_names(replace(made, file=spoilt))
 
 
 def test_a_layout_of_ours_is_no_map(tmp_path: Path) -> None:

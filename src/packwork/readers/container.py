@@ -134,10 +134,11 @@ def part_names(container: Container) -> list[set[str]]:
     """Names that parts of a container's file have, as by :func:`region_key`, by what says them."""
     if container.file is None:
         return []
-    if _is_map(container):
-        return names_on_map(file_text(container.file, container.source))
-    parts = named_parts(container.file, lambda line: None)
-    return [{region_key(name) for name, _ in parts}]
+    with reading_file(container.source):
+        if _is_map(container):
+            return names_on_map(file_text(container.file, container.source))
+        parts = named_parts(container.file, lambda line: None)
+        return [{region_key(name) for name, _ in parts}]
 
 
 def _is_map(container: Container) -> bool:

@@ -60,6 +60,7 @@ export class Ground {
   /** @param {string} colour as CSS writes it */
   set(colour) {
     this.sent = this.studio.connection.do({ kind: "background", colour });
+    this.shown = colour;
   }
 
   /** Have the gradient of the fields. */

@@ -240,6 +240,7 @@ export class Studio {
     this.collage.state = null;
     this.hand.began.clear();
     this.panels.items.inspector.sent.clear();
+    this.panels.look.ground.sent = 0;
     this.collage.hand.clear();
     this.gestures.cancel();
   }
