@@ -64,7 +64,7 @@ LIMITS = {
     "lines of code": 71_505,
     "lines of docstrings": 19_717,
     "files": 600,
-    "functions of the road in one plain fill": 91,
+    "functions of the road in one plain fill": 93,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,

@@ -125,7 +125,7 @@ def test_an_empty_option_of_all_leaves_the_layout_as_it_is(saved: Path, tmp_path
         (("--force", ""), "--force: is empty"),
         (("--words", ""), "source: is empty"),
         (("--container", ""), "the container comes first"),
-        (("--count", "0"), "greater than or equal to 1"),
+        (("--count", "0"), "must be at least 1"),
         (("--cover", ""), "--cover: must be a share such as 70%, not ''"),
         (("--turn", "star#1=x"), "--turn: must be a number, not 'x'"),
         (("--turn", "star#1="), "--turn: must be ITEM=DEGREES, not 'star#1='"),

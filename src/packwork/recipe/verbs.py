@@ -145,7 +145,7 @@ def default_of(verb: Verbs, option: Offered) -> Any:
     --------
     >>> (padding,) = (o for o in options_of(Verbs.WORDS) if o.name == "padding")
     >>> default_of(Verbs.WORDS, padding), default_of(Verbs.FILL, padding)
-    ('0.3%', '0')
+    ('0.3%', 'auto')
     """
     return VERBS[verb].defaults.get(option.name, option.default)
 
