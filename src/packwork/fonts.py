@@ -41,6 +41,14 @@ _UNREADABLE = "\ufffd"
 _TAG = re.compile(r"<[^>]*>")
 _WISH = re.compile(r"""\bfont-family=("[^"]*"|'[^']*')""")
 _PLAIN_LETTERS = "\u024f"
+_LETTERS = {
+    "Latin": "a", "Greek": "α", "Cyrillic": "ж", "Armenian": "ա", "Georgian": "ა", "Hebrew": "א",
+    "Arabic": "ع", "Ethiopic": "ሀ", "Devanagari": "क", "Bengali": "ক", "Gujarati": "ક",
+    "Gurmukhi": "ਕ", "Tamil": "க", "Telugu": "క", "Kannada": "ಕ", "Malayalam": "ക", "Sinhala": "ක",
+    "Thai": "ก", "Lao": "ກ", "Khmer": "ក", "Myanmar": "က", "Tibetan": "ཀ", "Hangul": "한",
+    "Hiragana": "あ", "Katakana": "ア", "Han": "水",
+}  # fmt: skip
+"""A common letter of each script."""
 _GENERIC = {
     "serif": ("Times New Roman", "Times", "Liberation Serif", "DejaVu Serif", "Noto Serif"),
     "sans-serif": ("Arial", "Helvetica", "Liberation Sans", "DejaVu Sans", "Noto Sans"),
@@ -158,6 +166,18 @@ def installed_families() -> Mapping[str, tuple[str, ...]]:
     True
     """
     return _families_in(tuple(_folders()))
+
+
+def scripts_of(family: str) -> list[str]:
+    """Scripts of an installed family, by Unicode's names: those of which it has a common letter.
+
+    >>> scripts_of("inter display")
+    ['Latin', 'Greek', 'Cyrillic']
+    """
+    import uharfbuzz as hb
+
+    face = hb.Face(hb.Blob.from_file_path(installed_families()[family][0]))
+    return [script for script, letter in _LETTERS.items() if ord(letter) in face.unicodes]
 
 
 @cache

@@ -60,6 +60,7 @@ def test_what_the_program_writes_opens(play, five: pw.Layout, tmp_path: Path, en
         page.tell(type="bring", sources=[sent(page.tab, (f"five{ending}", data))])
         await page.until(lambda: len(page.last("scene")["items"]) == 5 and page.is_certified)
         assert page.last("scene")["name"] == ("five" if ending == ".dxf" else "star")
+        assert page.last("scene")["title"] == "five"
         assert desk.owner is not before
         # What the last session was told is answered once; commands go to this one.
         await page.until(lambda: page.done == 1)
@@ -78,6 +79,12 @@ def test_a_recipe_runs_with_what_was_sent_with_it(play) -> None:
         page.tell(type="open", source=source)
         await page.until(lambda: len(page.last("scene")["items"]) == 4 and page.is_certified)
         assert page.last("scene")["items"][0]["name"] == "tile"
+        assert page.last("scene")["title"] == "own"
+        # A document that has a title keeps it, whatever its file is called.
+        session = Session(desk.owner.frame.document)
+        session.do("entitle", title="Für Ada")
+        page.tell(type="open", source=sent(page.tab, ("a.packwork", kept_bytes(session.kept()))))
+        await page.until(lambda: page.last("scene")["title"] == "Für Ada")
 
     play(scenario)
 

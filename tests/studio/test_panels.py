@@ -85,10 +85,25 @@ def test_words_are_changed_in_place_in_a_font_of_the_machine(
     assert sorted(names) == ["Glück", "hope", "joy", "peace"]
     # What the words have now is asked for by its family, also in a page that did not choose it.
     font = desk.page.get_by_label("Font", exact=True)
-    family = desk.look("studio.panels.choices.fonts.find(one => /sans|serif/.test(one))")
-    font.select_option(family)
+    family = desk.look("studio.words.font.families.find(one => one.style.fontFamily).value")
+    # By keys: the list opens, and nothing is set until one of it is taken.
+    asked = desk.look("studio.connection.count")
+    font.focus()
+    row = desk.look(f"studio.words.font.families.findIndex(one => one.value === '{family}')")
+    for _ in range(row + 2):
+        desk.page.keyboard.press("ArrowDown")
+    assert desk.look("studio.connection.count") == asked
+    desk.page.keyboard.press("Enter")
     desk.until(f"studio.collage.scene.font === '{family}'")
     desk.settled()
+    # Families without letters of a text come last, unless none has them.
+    assert desk.look(
+        "studio.words.font.fill('\u0639 a').then(() => (({ families, lacking }, fonts) => {"
+        " const has = (one) => fonts[one].includes('Arabic') && fonts[one].includes('Latin');"
+        " return families.every(({ value, parentElement }) => (parentElement === lacking)"
+        " === (Object.keys(fonts).some(has) && !has(value))); })"
+        "(studio.words.font, studio.panels.choices.fonts))"
+    )
     desk.page.reload()
     desk.settled()
     desk.page.locator("#tab-words").click()

@@ -46,9 +46,12 @@ def test_words_are_counted_left_out_and_brought_back(
     counts = desk.page.get_by_label("How often: ")
     assert [one.input_value() for one in counts.all()][:4] == ["30", "28", "27", "26"]
     covered = desk.look("studio.collage.state.covered")
-    desk.page.get_by_role("button", name="Leave stone out").click()
+    desk.page.get_by_role("button", name="Leave stone out").press("Enter")
     desk.until("studio.collage.items.every(item => item.name !== 'stone')")
     desk.settled()
+    # Keys go on where they were, at the word that has come in its place.
+    label = "document.activeElement.getAttribute('aria-label')"
+    assert desk.look(label) == "Leave moss out"
     # What is left is as large as before, in the room of what has gone.
     assert desk.look("studio.collage.state.covered") > 0.9 * covered
     desk.picture("words-table")

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, get_args
 
 from packwork.errors import ReadError
-from packwork.fonts import families_of_face, installed_families
+from packwork.fonts import families_of_face, installed_families, scripts_of
 from packwork.geometry.outline import Outline
 from packwork.live import ground
 from packwork.live.face.exporting import missing
@@ -117,7 +117,7 @@ def offers() -> dict[str, Any]:
     return {
         "options": [asdict(one) for one in form_fields()],
         "containers": [_container(name) for name in containers if ":" not in name],
-        "fonts": offered_fonts(),
+        "fonts": {family: scripts_of(family) for family in offered_fonts()},
         "palettes": dict(PALETTES),
         "missing": missing(),
         "items": [

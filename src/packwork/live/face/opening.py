@@ -11,6 +11,7 @@ from packwork import uses
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk, lock_beside
+from packwork.live.file.records import kept_text
 from packwork.live.mosaic import MOST_PX, Mosaic
 from packwork.live.relayout import Shown, poured
 from packwork.live.session import Session
@@ -37,7 +38,7 @@ class Opening:
     """Opening of a studio: a recipe, a document or a session's file.
 
     ``container``: that is filled in place of the recipe's.
-    ``title``: of the document; empty for its container's name.
+    ``title``: of a document that has none; empty for its container's name.
     ``kept_in``: file in which the session is kept, with a journal; None to keep it nowhere.
     ``is_copied``: whether ``file`` is read once and never written.
     ``is_bare``: whether nothing was given.
@@ -97,7 +98,8 @@ def opening_sent(folder: Path) -> Opening | None:
                 f"names {elsewhere[:80]}, which was not sent with it; send both together, or run "
                 "packwork studio with the recipe",
             )
-        return Opening(recipe=make_recipe(**options | _drafted(None, {})))
+        recipe = make_recipe(**options | _drafted(None, {}))
+        return Opening(recipe=recipe, title=recipes[0].stem)
     documents = [one for one in files if _is_document(one)]
     if not documents:
         return None
@@ -122,10 +124,11 @@ def _is_document(path: Path) -> bool:
 
 def _of_file(path: Path, ending: str, count: int | None, options: dict[str, Any]) -> Opening:
     if ending == ".toml":
-        return Opening(recipe=make_recipe(**{**read_recipe(path), **_drafted(count, options)}))
+        recipe = make_recipe(**{**read_recipe(path), **_drafted(count, options)})
+        return Opening(recipe=recipe, title=path.stem)
     if ending == ENDING:
-        return Opening(file=path)
-    return Opening(document=Document.from_layout(read_written(path)))
+        return Opening(file=path, title=path.stem)
+    return Opening(document=Document.from_layout(read_written(path)), title=path.stem)
 
 
 def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:
@@ -147,6 +150,13 @@ def opened(path: Path) -> tuple[Session, Keeper]:
 
 def begun_with(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] | None:
     """Session of an opening, its run shown, and what keeps it; None where it is empty."""
+    begun = _begun(opening, shown)
+    if begun is not None and opening.title and not begun[0].document.manifest.get("title"):
+        begun[0].do("entitle", title=kept_text(opening.title))
+    return begun
+
+
+def _begun(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] | None:
     if opening.file is not None:
         return (read_once(opening.file), None) if opening.is_copied else opened(opening.file)
     document = opening.document
@@ -156,8 +166,6 @@ def begun_with(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] 
         if (picture := opening.recipe.picture) is not None:
             mosaic = Mosaic(kept_picture(picture, MOST_PX), opening.recipe.tint)
             document = replace(document, mosaic=mosaic)
-    if document is not None and opening.title:
-        document = replace(document, manifest={**document.manifest, "title": opening.title})
     return None if document is None else (Session(document), None)
 
 

@@ -1,7 +1,7 @@
 // @ts-check
 /** The field of a font: the bundled one, an installed family, or a file. */
 
-import { h } from "./dom.js";
+import { h, openList } from "./dom.js";
 
 const [BUNDLED, OWN] = ["inter display", "own"];
 
@@ -20,9 +20,13 @@ export class FontField {
     this.known = new Map();
     /** Name of the font that words have now. */
     this.seen = "";
-    this.field = h("select", { "aria-label": label, onchange: () => this.changed() }, option(BUNDLED, "Inter Display, bundled"), option(OWN, "A font file …"));
+    this.file = option(OWN, "A font file …");
+    this.lacking = h("optgroup", { label: "Without some of their letters" });
+    this.field = h("select", { "aria-label": label, onchange: () => this.changed(), onkeydown: openList }, option(BUNDLED, "Inter Display, bundled"), this.file);
     /** Stands for a font that words have by a file, which the studio takes from them. */
     this.other = h("option", {});
+    /** Options of families, each in its face. @type {HTMLOptionElement[]} */
+    this.families = [];
     this.element = h("label", { class: "row" }, label, this.field);
   }
 
@@ -54,12 +58,22 @@ export class FontField {
     this.show(name);
   }
 
-  async fill() {
-    const choices = await this.studio.panels.load();
-    const there = new Set([...this.field.options].map((one) => one.value));
-    const families = (choices?.fonts ?? []).filter((/** @type {string} */ one) => !there.has(one));
-    this.field.querySelector(`[value=${OWN}]`)?.before(...families.map((/** @type {string} */ one) => option(one, named(one))));
-    if (families.length && this.field.value === this.other.value) this.refused();
+  /** Offer what is installed, families that have all letters of a text first. @param {string} [text] */
+  async fill(text = "") {
+    /** @type {Record<string, string[]>} */
+    const fonts = (await this.studio.panels.load())?.fonts ?? {};
+    const isFirst = !this.families.length;
+    if (isFirst) this.families = Object.keys(fonts).filter((one) => one !== BUNDLED).map((one) => option(one, named(one), fonts[one]));
+    const asked = new Set(Object.values(fonts).flat().filter((script) => new RegExp(`\\p{Script=${script}}`, "u").test(text)));
+    const { value } = this.field;
+    for (const one of this.families) {
+      if ([...asked].every((script) => fonts[one.value].includes(script))) this.file.before(one);
+      else this.lacking.append(one);
+    }
+    if (this.lacking.childElementCount) this.file.before(this.lacking);
+    else this.lacking.remove();
+    this.field.value = value;
+    if (isFirst && value === this.other.value) this.refused();
   }
 
   changed() {
@@ -81,9 +95,12 @@ export class FontField {
   }
 }
 
-/** @param {string} value @param {string} label */
-function option(value, label) {
-  return h("option", { value }, label);
+/** @param {string} value @param {string} label @param {string[]} [scripts] of the family that it stands for */
+function option(value, label, scripts = []) {
+  const made = h("option", { value }, label);
+  // A name in signs that are no letters tells nobody anything.
+  if (scripts.includes("Latin")) made.style.fontFamily = `"${value}"`;
+  return made;
 }
 
 /** A family, told in lower case, as people write it. @param {string} family */

@@ -1,7 +1,7 @@
 // @ts-check
 /** Lines that words follow: limbs or the edge of the container, texts round it as on a badge. */
 
-import { h } from "./dom.js";
+import { h, openList } from "./dom.js";
 import { kindOf } from "./kinds.js";
 
 /** @typedef {"limbs" | "edge"} Along */
@@ -13,7 +13,7 @@ export class Lines {
   constructor(words) {
     this.words = words;
     const change = () => this.change();
-    this.along = h("select", { onchange: change }, ...LINES.map(([value, label]) => h("option", { value }, label)));
+    this.along = h("select", { onchange: change, onkeydown: openList }, ...LINES.map(([value, label]) => h("option", { value }, label)));
     const text = (/** @type {string} */ label, /** @type {string} */ example) => h("input", { type: "text", maxlength: "200", placeholder: example, "aria-label": label, onchange: change });
     this.ring = [text("Round the top of the container", "Round the top"), text("Round the bottom of the container", "Round the bottom")];
     this.element = h("section", {}, h("label", { class: "row" }, "Words lie", this.along), ...this.ring.map((one) => h("div", { class: "row" }, one)));

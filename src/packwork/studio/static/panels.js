@@ -1,7 +1,7 @@
 // @ts-check
 /** The panels at the side, and the one of containers. */
 
-import { byId, button, h, icon, vector } from "./dom.js";
+import { byId, button, h, icon, openList, vector } from "./dom.js";
 import { FontField } from "./fonts.js";
 import { ItemList } from "./items.js";
 import { kindOf } from "./kinds.js";
@@ -45,8 +45,9 @@ export class Panels {
    */
   async goTo(id) {
     if (this.current !== id || this.panel.contains(document.activeElement)) await this.toggle(id);
-    const first = this.current ? this.body?.querySelector("button, input, select, textarea") : this.studio.canvas;
-    if (first instanceof HTMLElement) first.focus();
+    const fields = /** @type {NodeListOf<HTMLElement> | undefined} */ (this.body?.querySelectorAll("button, input, select, textarea"));
+    const first = this.current ? [...(fields ?? [])].find((one) => one.checkVisibility()) : this.studio.canvas;
+    first?.focus();
   }
 
   /** @param {string} id */
@@ -154,7 +155,7 @@ export class Panels {
     const names = h("input", { type: "checkbox", checked: dropping.names, title: "Of a map in GeoJSON, or titles or ids of the shapes of an SVG", onchange: () => (dropping.names = names.checked) });
     const edit = h("button", { type: "button", class: "edit-room", "aria-pressed": String(this.studio.room.isOn), onclick: () => this.studio.editRoom() }, icon("shape"), "Edit its outline");
     const draw = (/** @type {string} */ label, /** @type {boolean} */ isHole) => h("button", { type: "button", onclick: () => this.studio.sketch.begin(isHole) }, icon("pencil"), label);
-    const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value) }, ...this.sheets().map(([value, label]) => h("option", { value }, label)));
+    const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value), onkeydown: openList }, ...this.sheets().map(([value, label]) => h("option", { value }, label)));
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseRoom() }, "Choose a file"),

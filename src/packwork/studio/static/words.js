@@ -43,7 +43,7 @@ export class Words {
     if (!this.palette.options.length) {
       this.palette.append(...Object.keys(choices?.palettes ?? {}).map((name) => h("option", { value: name, selected: name === "ink" }, name)));
     }
-    await this.font.fill();
+    await this.font.fill(this.letters());
   }
 
   /** Begin anew with another document. */
@@ -66,6 +66,10 @@ export class Words {
     this.mixing.refresh();
     this.lines.refresh();
     this.update.hidden = !this.studio.collage.items.some((item) => item.is_word);
+  }
+
+  letters() {
+    return this.list.things.map(({ name }) => name).join("");
   }
 
   /** Words that are there, heaviest first, as a table. */
@@ -124,7 +128,7 @@ export class Words {
   async take(file) {
     tell(`Reading ${file.name}`, { about: FONT });
     if (this.studio.panels.current !== "words") await this.studio.panels.toggle("words");
-    await this.font.fill();
+    await this.font.fill(this.letters());
     await this.studio.dropping.send([file], (batch) => this.font.own(batch, file.name));
   }
 

@@ -11,6 +11,23 @@ import { tell } from "./toasts.js";
 /** Rows at most. */
 const MOST = 400;
 
+/**
+ * What gives the focus back to a list that is made anew: to its row, or what comes in its place.
+ * @param {HTMLElement} list
+ */
+function heldFocus(list) {
+  const active = document.activeElement;
+  const row = active?.closest("li");
+  if (!row || !list.contains(row)) return () => {};
+  const across = [...row.children].indexOf(/** @type {Element} */ (active)), down = [...list.children].indexOf(row);
+  const nameOf = (/** @type {Element} */ one) => one.querySelector(".name")?.textContent;
+  return () => {
+    const rows = [...list.children];
+    const now = rows.find((one) => nameOf(one) === nameOf(row)) ?? rows[Math.min(down, rows.length - 1)];
+    /** @type {HTMLElement | undefined} */ (now?.children[across])?.focus();
+  };
+}
+
 export class WordTable {
   /** @param {import("./words.js").Words} words */
   constructor(words) {
@@ -49,7 +66,9 @@ export class WordTable {
     const key = JSON.stringify([things.map(({ id, name, held }) => [id, name, held[1], this.countOf(name, things), this.studio.collage.colour(id)]), [...this.without.keys()]]);
     if (key === this.listed || this.list.contains(document.activeElement?.closest("input:focus") ?? null)) return;
     this.listed = key;
+    const leave = heldFocus(this.list);
     this.list.replaceChildren(...things.slice(0, MOST).map((thing) => this.row(thing, things)));
+    leave();
     this.out.replaceChildren(...[...this.without.keys()].map((name) => h("button", { type: "button", title: "Bring it back", onclick: () => this.bringBack(name) }, h("s", {}, name), " ×")));
   }
 
