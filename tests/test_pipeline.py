@@ -76,7 +76,7 @@ def test_the_metrics_are_those_of_the_layout(three: pipeline.Run) -> None:
 
 
 def test_the_report_has_the_promised_keys(three: pipeline.Run) -> None:
-    report = three.report(write_seconds=1.0, start_up_seconds=2.0)
+    report = three.report({"write": 1.0}, start_up_seconds=2.0)
     assert report.keys() >= {
         "metrics", "seconds", "items", "placed", "unplaced", "certified", "seed",
     }  # fmt: skip

@@ -178,7 +178,10 @@ def test_a_report_has_the_promised_keys(folder: Path, packwork: Command) -> None
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     assert report["metrics"].keys() >= {"LC", "LC_ratio", "OO", "EA", "LnU"}
     assert report["metrics"]["exact"].keys() >= {"overlap_area", "outside_area", "min_gap"}
-    assert report["seconds"].keys() >= {"start-up", "read", "start", "levels", "write", "total"}
+    seconds = report["seconds"]
+    assert seconds.keys() >= {"start-up", "read", "start", "levels", "write", "check", "total"}
+    assert seconds.pop("total") == pytest.approx(sum(seconds.values()))
+    assert seconds["check"] > 0
     assert (report["items"], report["placed"], report["unplaced"]) == (3, 3, [])
     assert (report["certified"], report["seed"]) == (True, 11)
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from packwork.geometry.outline import Outline
 from packwork.scene.neighbours import NEAR, neighbour_pairs, side_by_side
 from scenes import disc, placed, poses
 from strategies import generators
@@ -49,6 +50,16 @@ def test_a_point_on_another_is_its_neighbour() -> None:
 def test_side_by_side_is_below_half_a_radius(gap: float, are_beside: bool) -> None:
     outlines = [disc(corners=400)] * 3
     where = poses([0.0, 2 + gap, 50.0], [0.0, 0.0, 1.0])
-    pairs = side_by_side(placed(outlines, where), where.x, where.y).tolist()
+    pairs = side_by_side(placed(outlines, where)).tolist()
     assert ([0, 1] in pairs) is are_beside
     assert [1, 2] not in pairs
+
+
+def test_long_items_are_beside_each_other_whatever_their_middles_say() -> None:
+    # Above and below the gap between two others, nearer by their middles than these.
+    boxes = [(0, 0, 10, 2), (10.3, 0, 20, 2), (6, -2.3, 14, -0.3), (6, 2.3, 14, 4.3)]
+    outlines = [
+        Outline.from_rings([np.array([[a, b], [c, b], [c, d], [a, d]], dtype=float)])
+        for a, b, c, d in boxes
+    ]
+    assert side_by_side(outlines).tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3]]

@@ -27,7 +27,7 @@ def limits(**changes: object) -> Limits:
 
 
 def beside_its_kind(outlines: list, where: object, kinds: np.ndarray) -> int:
-    pairs = side_by_side(placed(outlines, where), where.x, where.y)
+    pairs = side_by_side(placed(outlines, where))
     return int(np.count_nonzero(kinds[pairs[:, 0]] == kinds[pairs[:, 1]]))
 
 

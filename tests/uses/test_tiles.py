@@ -192,5 +192,5 @@ def test_a_preview_is_the_tile_side_by_side(tmp_path: Path) -> None:
 def test_neighbours_over_the_edge_take_other_colours_too() -> None:
     layout = drafted("square", 12, palette=("#111111", "#888888", "#dddddd"))
     pairs = beside(layout)
-    within = side_by_side(layout.outlines, layout.poses.x, layout.poses.y)
+    within = side_by_side(layout.outlines)
     assert {tuple(pair) for pair in pairs.tolist()} - {tuple(pair) for pair in within.tolist()}

@@ -86,15 +86,13 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             seed = run.layout.manifest["seed"]
             saved = outputs.saved_recipe(recipe.model_copy(update={"seed": seed}))
         written = [*drawn, *saved, *films, *sheet_of(tried, outputs.choosing)]
-        results = run.report(time.perf_counter() - began, START_UP.told())
-        if is_looked_at := not was_cut_short and (outputs.report is not None or not quiet):
-            # Looks at pictures of all items, for which nobody waits who wants it to end.
-            results["advice"] += _hard_to_see(run, outputs) + large_films(films)
-        results["advice"] += pipeline.coarse_photos(
-            run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
+        wrote, is_read = time.perf_counter(), outputs.report is not None or not quiet
+        advice, painted = _looked_at(
+            job, run, outputs, drawn, films, by_eye=is_read and not was_cut_short
         )
-        results["advice"] += on_trust_in(drawn, run.layout) if run.certified else []
-        results["painted"] = painting(run, drawn, outputs, results) if is_looked_at else None
+        seconds = {"write": wrote - began, "check": time.perf_counter() - wrote}
+        results = {**run.report(seconds, START_UP.told()), "painted": painted}
+        results["advice"] += advice
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         with saving(outputs.with_drawing(run.layout), outputs.files) as sessions:
@@ -324,17 +322,27 @@ def certify_files(
     return replace(run, certified=False, broken=(*run.broken, *faults)) if faults else run
 
 
-def painting(
+def _looked_at(
+    job: pipeline.Job,
     run: pipeline.Run,
-    drawn: Sequence[tuple[Path, bytes]],
     outputs: Outputs,
-    results: dict[str, Any],
-) -> dict[str, int] | None:
-    """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
+    drawn: Sequence[tuple[Path, bytes]],
+    films: Sequence[tuple[Path, bytes]],
+    *,
+    by_eye: bool,
+) -> tuple[list[str], dict[str, int] | None]:
+    """Advice on what was drawn, and pixels that the first SVG paints outside or twice.
+
+    ``by_eye`` looks at pictures of all items, for which nobody waits who wants it to end.
+    """
+    options, is_bounded = outputs.options, _bounds_resolution(job)
+    advice = [*_hard_to_see(run, outputs), *large_films(films)] if by_eye else []
+    advice += pipeline.coarse_photos(run.layout, options.dpi, is_bounded=is_bounded)
+    advice += on_trust_in(drawn, run.layout) if run.certified else []
     data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
-    if data is None or len(data) > verify.PAINTED_BYTES or outputs.options.svg.tiles > 1:
-        return None
+    if not by_eye or data is None or len(data) > verify.PAINTED_BYTES or options.svg.tiles > 1:
+        return advice, None
     painted = verify.painted_pixels(data, run.layout, is_own=True)
     if run.certified and (painted.outside or painted.double):
-        results["advice"].append(f"{painted}")
-    return asdict(painted)
+        advice.append(f"{painted}")
+    return advice, asdict(painted)

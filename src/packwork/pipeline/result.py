@@ -145,9 +145,11 @@ class Run:
         placed = len(self.layout.items) + self.left_out
         return max([placed, *(one.index + 1 for one in self.unplaced)])
 
-    def report(self, write_seconds: float = 0.0, start_up_seconds: float = 0.0) -> dict[str, Any]:
-        """Plain values for ``--report``."""
-        seconds = {"start-up": start_up_seconds, **self.seconds, "write": write_seconds}
+    def report(
+        self, since: Mapping[str, float] | None = None, start_up_seconds: float = 0.0
+    ) -> dict[str, Any]:
+        """Plain values for ``--report``; ``since`` is seconds of parts after the run's own."""
+        seconds = {"start-up": start_up_seconds, **self.seconds, **(since or {"write": 0.0})}
         seconds.setdefault("finish", 0.0)
         seconds["total"] = sum(seconds.values())
         return {

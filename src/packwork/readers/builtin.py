@@ -40,6 +40,20 @@ def _corners(count: int, inner: float = 1.0) -> str:
     return f"M{' '.join(places)}z"
 
 
+def _scalloped(count: int, inner: float) -> str:
+    """Path of ``count`` bows round the box, whose ends lie ``inner`` from its middle."""
+    half = math.pi / count
+    bow, up = inner * math.sin(half), inner * math.cos(half)
+    # A bow ends where it meets the next and comes out by what is left to the box.
+    out = _SIDE / 2 - up
+    radius = (bow**2 + out**2) / (2 * out)
+    ends = [
+        f"{50 + inner * math.sin(turn)!r} {50 - inner * math.cos(turn)!r}"
+        for turn in (half * (2 * k - 1) for k in range(count + 1))
+    ]
+    return f"M{ends[0]}" + "".join(f"A{radius!r} {radius!r} 0 0 1 {end}" for end in ends[1:]) + "z"
+
+
 def _disc(radius: float, ry: float | None = None) -> str:
     """Path round an ellipse in the middle of the box."""
     down = radius if ry is None else ry
@@ -71,6 +85,8 @@ PATHS: Mapping[str, str] = {
     "triangle": _corners(3),
     # Their places here are their colours, so new ones come last.
     "crescent": "M60 1A50 50 0 1 0 99 60A38 38 0 1 1 60 1z",
+    "badge": _scalloped(12, 44.0),
+    "shield": "M8 12C24 13 40 9 50 0C60 9 76 13 92 12V44C92 70 74 90 50 100C26 90 8 70 8 44z",
 }
 """Path data by name; holes by the even-odd rule."""
 
@@ -110,6 +126,20 @@ def _stripe(text: str) -> Region:
 
 ALL_ICONS = "icons"
 """Name that stands for every bundled icon."""
+
+_MEANT = {
+    "badge": "emblem seal rosette medal scallop sticker stamp",
+    "circle": "disc disk round ball dot",
+    "cross": "plus",
+    "diamond": "rhombus lozenge",
+    "drop": "teardrop water raindrop",
+    "ellipse": "oval egg",
+    "heart": "love",
+    "rectangle": "box banner",
+    "ring": "donut doughnut annulus",
+    "shield": "crest coat-of-arms",
+}
+"""Other words for shapes, by their names."""
 
 COLOURS = ("#ee6c4d", "#e9b341", "#1f6f78", "#7b3b5e", "#8fb48c", "#22304f", "#f5b7a4")
 """Fills of the plain shapes, given out in the order of their names."""
@@ -186,6 +216,8 @@ def unknown_name(name: str, known: Iterable[str], kind: str) -> ReadError:
     --------
     >>> print(unknown_name("hart", ["heart", "star"], "item"))
     hart: there is no such file and no built-in item of that name; did you mean heart?
+    >>> print(unknown_name("oval", ["ellipse", "star"], "container"))
+    oval: there is no such file and no built-in container of that name; did you mean ellipse?
     """
     names = list(known)
     if name.endswith(("/", os.sep)):
@@ -194,7 +226,8 @@ def unknown_name(name: str, known: Iterable[str], kind: str) -> ReadError:
         return ReadError(name, f"is no {kind}; -n {name} asks for so many")
     if name.lower().removesuffix("-landscape") in SHEETS:
         return ReadError(name, f"is a sheet; the whole of it is: page --canvas {name}")
-    close = difflib.get_close_matches(name, names, n=3, cutoff=0.6)
+    meant = [shape for shape, words in _MEANT.items() if name.lower() in words.split()]
+    close = meant or difflib.get_close_matches(name.lower(), names, n=3, cutoff=0.6)
     hint = f"did you mean {' or '.join(close)}?" if close else f"built in are {', '.join(names)}"
     return ReadError(name, f"there is no such file and no built-in {kind} of that name; {hint}")
 

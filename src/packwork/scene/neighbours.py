@@ -1,4 +1,4 @@
-"""Neighbouring items: Delaunay edges, and pairs with a small gap between them."""
+"""Neighbouring items: Delaunay edges of places, and pairs with a small gap between them."""
 
 from __future__ import annotations
 
@@ -7,16 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
-from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.outline import regions as regions_of
 
 NEAR = 0.5
 """Gap between two items that lie side by side at most, in radii of a disc as large as the
 typical item. Larger counts pairs that another item could nearly pass between. Chosen."""
-
-_PORTION = 3_000
-"""Pairs that are looked at together: what is prepared takes much memory. Chosen."""
 
 
 def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
@@ -55,31 +52,26 @@ def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
     return np.unique(np.sort(edges.astype(np.int64), axis=1), axis=0).reshape(-1, 2)
 
 
-def side_by_side(outlines: Sequence[Outline], x: FloatArray, y: FloatArray) -> IntArray:
-    """Pairs of items that lie side by side: Delaunay neighbours with a small gap.
+def side_by_side(outlines: Sequence[Outline]) -> IntArray:
+    """Pairs of items that lie side by side, with a small gap between them.
 
-    Small is below :data:`NEAR` of the radius of a disc as large as the median item.
+    Small is below :data:`NEAR` of the radius of a disc as large as the median item. By their
+    outlines: of long words the middles say little of which lie beside each other.
 
     ``outlines``: in place.
-    ``x``, ``y``: ``(n,)`` their centres.
+
+    Returns ``(m, 2)``, each pair once, the smaller index first, in order.
 
     Examples
     --------
     >>> def tile(at):
     ...     return Outline.from_rings([np.array([[at, 0.0], [at + 2, 0], [at + 2, 2], [at, 2]])])
-    >>> places = np.array([0.0, 2.1, 9.0])
-    >>> side_by_side([tile(at) for at in places], places + 1, np.ones(3)).tolist()
+    >>> side_by_side([tile(at) for at in (0, 2.1, 9)]).tolist()
     [[0, 1]]
     """
-    pairs = neighbour_pairs(x, y)
-    if len(pairs) == 0:
-        return pairs
+    if len(outlines) < 2:
+        return np.zeros((0, 2), dtype=np.int64)
     radius = float(np.sqrt(np.median([outline.area for outline in outlines]) / np.pi))
     regions = regions_of(outlines)
-    near = list[BoolArray]()
-    for part in np.array_split(pairs, -(-len(pairs) // _PORTION)):
-        first = regions[np.unique(part[:, 0])]
-        shapely.prepare(first)
-        near.append(shapely.dwithin(regions[part[:, 0]], regions[part[:, 1]], NEAR * radius))
-        shapely.destroy_prepared(first)
-    return np.asarray(pairs[np.concatenate(near)])
+    found = shapely.STRtree(regions).query(regions, "dwithin", NEAR * radius).T
+    return np.unique(found[found[:, 0] < found[:, 1]], axis=0).astype(np.int64)

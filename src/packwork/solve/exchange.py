@@ -65,7 +65,7 @@ def _order_apart(
     rng: np.random.Generator,
 ) -> IntArray:
     placed = [outline.mapped(poses.matrix(k)) for k, outline in enumerate(outlines)]
-    return min_conflicts_order(kinds, side_by_side(placed, poses.x, poses.y), groups, rng)
+    return min_conflicts_order(kinds, side_by_side(placed), groups, rng)
 
 
 def _order_by_forces(

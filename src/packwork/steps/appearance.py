@@ -37,17 +37,16 @@ from packwork.writers.recolour_drawings import in_palette, in_shades_of
 
 def beside(layout: Layout) -> IntArray:
     """``(m, 2)`` pairs of items that lie side by side, as ``scene.neighbours`` says."""
-    lattice, poses = layout.container.lattice, layout.poses
+    lattice = layout.container.lattice
     if lattice is None:
-        return side_by_side(layout.outlines, poses.x, poses.y)
+        return side_by_side(layout.outlines)
     # Over the edge of a tile lie neighbours too.
     shifts, count = np.concatenate([np.zeros((1, 2)), lattice.neighbours()]), len(layout.items)
-    x, y = (np.add.outer(shifts[:, k], (poses.x, poses.y)[k]).reshape(-1) for k in (0, 1))
     everywhere = [
         outline.mapped(affine.similarity(right, down, 0.0, 1.0))
         for right, down in shifts.tolist() for outline in layout.outlines
     ]  # fmt: skip
-    pairs = side_by_side(everywhere, x, y)
+    pairs = side_by_side(everywhere)
     pairs = np.sort(pairs[pairs[:, 0] < count] % count, axis=1)
     return np.unique(pairs[pairs[:, 0] < pairs[:, 1]], axis=0)
 

@@ -87,9 +87,18 @@ def test_texts_without_spaces_are_cut() -> None:
     ],
 )
 def test_the_language_is_guessed_and_its_function_words_left_out(text: str, language: str) -> None:
-    counts = Counter(word.casefold() for word in tokens(text))
-    assert guess_language(counts) == language
+    assert guess_language(Counter(tokens(text))) == language
     assert not set(counted(text)) & stop_words(language)
+
+
+@pytest.mark.parametrize("text", ["Mia Tom Per", "mia, tom, per", "Mia Per Tom Sara Lea Ben Mia"])
+def test_names_are_no_function_words(text: str) -> None:
+    assert {word.casefold() for word in counted(text)} >= {"mia", "tom", "per"}
+
+
+def test_a_short_sentence_has_a_language() -> None:
+    assert set(counted("The cat sat on the mat")) == {"cat", "sat", "mat"}
+    assert set(counted("THE CAT SAT ON THE MAT")) == {"CAT", "SAT", "MAT"}
 
 
 def test_forms_of_one_word_count_together_and_look_as_they_mostly_do() -> None:

@@ -228,10 +228,9 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         if options.regexp is None
         else matches(text, options.regexp)
     )
-    counts, _ = folded(count_forms(found))
     language = options.language
     if language == "auto":
-        language = guess_language(counts) or "none"
+        language = guess_language(count_forms(found)) or "none"
     codes = [code.strip().lower() for code in language.split(",")]
     if options.regexp is None:
         bare = [without_clitics(words, codes) for words in found]

@@ -34,6 +34,10 @@ LEAST_SHARE = 0.12
 """Share of a text's words that must be function words of a language for it to be that one. Larger
 misses lists of headings, smaller finds languages in lists of names. Chosen."""
 
+LEAST_FOUND = 3
+"""Function words from which a text has a language. More leave them in sentences of a few words,
+fewer take names for them. Chosen."""
+
 
 def stop_words(language: str) -> frozenset[str]:
     """Function words of languages given by code, case folded: ``en``, or ``en,de``.
@@ -71,26 +75,32 @@ def languages() -> tuple[str, ...]:
     return tuple(sorted({*stopwordsiso.langs(), ENGLISH}))
 
 
-def guess_language(counts: Counter[str]) -> str | None:
+def guess_language(forms: Counter[str]) -> str | None:
     """Language of a text, by the share of its words that are function words of one.
 
-    A function word that stands there once is of no language: lists of names have some ("Mia").
+    Three at least, one of them without a capital: lists of names have some ("Mia", "Per"). Words
+    are given as they are written.
 
     Examples
     --------
-    >>> guess_language(Counter("der bär und die biene in dem wald".split()))
+    >>> guess_language(Counter("der Bär und die Biene in dem Wald".split()))
     'de'
-    >>> guess_language(Counter(["bear", "honey"])) is None
-    True
-    >>> guess_language(Counter(["Tom", "mia", "Anna"])) is None
+    >>> guess_language(Counter(["Mia", "Tom", "Per", "Sara"])) is None
     True
     """
-    total = counts.total()
-    if not total:
+    small = {form.casefold() for form in forms if not form.istitle()}
+    counts, total = Counter[str](), forms.total()
+    for form, n in forms.items():
+        counts[form.casefold()] += n
+    shares = {
+        code: sum(counts[word] for word in _list(code)) / total
+        for code in languages()
+        if not small.isdisjoint(_list(code))
+    }
+    if not shares:
         return None
-    shares = {code: sum(counts[word] for word in _list(code)) / total for code in languages()}
     best = max(shares, key=lambda code: (shares[code], -len(_list(code))))
-    return best if shares[best] >= max(LEAST_SHARE, 2 / total) else None
+    return best if shares[best] >= max(LEAST_SHARE, LEAST_FOUND / total) else None
 
 
 def own_words(texts: Iterable[str]) -> frozenset[str]:
