@@ -5,8 +5,8 @@
 
 /** Pictures for which an item lies still until it is part of the backdrop again. */
 const QUIET = 20;
-/** How far about an item that begins to move others are taken out with it, in its extents. */
-const NEAR = 2.5;
+/** How far about an item that begins to move others are taken out with it, in its reaches. */
+const NEAR = 3.5;
 /** Share of the items that may be drawn anew for nothing. */
 const SLACK = 0.2;
 /** How far an item may move and still be taken to lie where it is in the picture, px: nobody sees it, and at rest nothing is off. */
@@ -31,7 +31,7 @@ export class Backdrop {
     this.loose = new Uint8Array(0);
     /** Where each is in it. */
     this.drawn = new Float32Array(0);
-    /** Parts of it that are stale; all of it unless some are told. @type {Box[] | null} */
+    /** Parts of it that are stale; all of it unless some are told, and so always at rest: parts of a curve differ by a shade from all of it. @type {Box[] | null} */
     this.regions = null;
     /** Rows of the items that these are about. @type {number[]} */
     this.changed = [];
@@ -72,7 +72,7 @@ export class Backdrop {
     }
     const moved = [];
     for (let k = 0; k < items.length; k++) {
-      if (hand.has(items[k].id) || away(this.last, shown, 4 * k, this.extent(k) / 2) * perUnit > NEARLY) {
+      if (hand.has(items[k].id) || away(this.last, shown, 4 * k, this.collage.reach(k) / shown[4 * k + 3]) * perUnit > NEARLY) {
         moved.push(k);
         this.last.set(shown.subarray(4 * k, 4 * k + 4), 4 * k);
         this.still[k] = 0;
@@ -92,21 +92,16 @@ export class Backdrop {
     for (let k = 0; k < items.length; k++) this.loose[k] = Number(isMoving && this.still[k] < QUIET);
     if (!isMoving) this.still.fill(QUIET);
     for (const m of isMoving ? moved.filter((k) => hand.has(items[k].id)) : []) {
-      const reach = NEAR * this.extent(m) * shown[4 * m + 3];
+      const reach = NEAR * this.collage.reach(m);
       for (let k = 0; k < items.length; k++) {
         const isNear = Math.abs(shown[4 * k] - shown[4 * m]) < reach && Math.abs(shown[4 * k + 1] - shown[4 * m + 1]) < reach;
         if (isNear) this.loose[k] = 1;
       }
     }
     // What repeats is in several places.
-    const isPartial = !this.collage.tiling.repeat && this.picture && this.isWhole && this.drawn.length === shown.length;
-    this.changed = [...items.keys()].filter((k) => before[k] !== this.loose[k] || (!isMoving && away(this.drawn, shown, 4 * k, 1)));
+    const isPartial = isMoving && !this.collage.tiling.repeat && this.picture && this.isWhole && this.drawn.length === shown.length;
+    this.changed = [...items.keys()].filter((k) => before[k] !== this.loose[k]);
     this.regions = isPartial ? apart(this.changed.flatMap((k) => this.boxes(k, before[k] === 1))) : null;
-  }
-
-  /** @param {number} k */
-  extent(k) {
-    return this.collage.looks.get(this.collage.items[k].shape)?.extent ?? 1;
   }
 
   /**
@@ -121,8 +116,8 @@ export class Backdrop {
 
   /** @param {number} k @param {Float32Array} poses @returns {Box} */
   box(k, poses) {
-    const [x, y, , scale] = poses.subarray(4 * k, 4 * k + 4);
-    const reach = scale * this.extent(k);
+    const [x, y] = poses.subarray(4 * k, 4 * k + 2);
+    const reach = this.collage.reach(k, poses);
     return [x - reach, y - reach, x + reach, y + reach];
   }
 

@@ -11,7 +11,7 @@ import { Tiling } from "./tiling.js";
 /** @typedef {import("./wire.js").State} State */
 /** @typedef {import("./connection.js").Frame} Frame */
 /** @typedef {{x: number, y: number, angle: number, scale: number}} Pose */
-/** @typedef {Shape & {outlinePath: Path2D, inkPath: Path2D | null, extent: number, points?: [number, number][]}} Look */
+/** @typedef {Shape & {outlinePath: Path2D, inkPath: Path2D | null, extent: number, half: [number, number], points: [number, number][]}} Look half: of a box about its middle that holds box and outline */
 
 /** Time in which what is shown comes most of the way to where it is, ms. */
 const EASE = 38;
@@ -48,7 +48,9 @@ export class Collage {
       const [left, top, right, bottom] = shape.box;
       const inkPath = shape.svg ? null : new Path2D(shape.ink);
       const extent = Math.max(right - left, bottom - top);
-      this.looks.set(shape.key, { ...shape, outlinePath: new Path2D(shape.outline), inkPath, extent });
+      const points = ringsOf(shape.outline).flat();
+      const half = /** @type {[number, number]} */ ([0, 1].map((axis) => points.reduce((most, one) => Math.max(most, Math.abs(one[axis])), Math.max(-shape.box[axis], shape.box[axis + 2]))));
+      this.looks.set(shape.key, { ...shape, outlinePath: new Path2D(shape.outline), inkPath, extent, half, points });
     }
   }
 
@@ -139,6 +141,20 @@ export class Collage {
     shown[at + 2] += step * turn;
     shown[at + 3] += step * (poses[at + 3] - shown[at + 3]);
     return step < 1;
+  }
+
+  /**
+   * Radius of the disc about the middle of an item that holds all that is drawn of it, canvas units.
+   * @param {number} k its row
+   * @param {Float32Array} poses
+   */
+  reach(k, poses = this.shown) {
+    const { shape, stretch, halo } = this.items[k];
+    const look = this.looks.get(shape);
+    if (!look) return 0;
+    const root = Math.sqrt(stretch);
+    const rim = halo ? this.scene?.rim ?? 0 : 0;
+    return poses[4 * k + 3] * Math.hypot(root * look.half[0], look.half[1] / root) + rim * Math.max(root, 1 / root);
   }
 
   /**
@@ -239,7 +255,6 @@ export class Collage {
     const [item, pose] = [this.item(id), this.target(id)];
     if (!item || !pose) return [0, 0, 0, 0];
     const look = this.look(item);
-    look.points ??= ringsOf(look.outline).flat();
     const { a, b, c, d, e, f } = matrixOf(pose, item.stretch);
     const box = /** @type {[number, number, number, number]} */ ([Infinity, Infinity, -Infinity, -Infinity]);
     for (const [px, py] of look.points) {

@@ -116,9 +116,9 @@ export class Stage {
     const { backdrop, pen, sprites } = this;
     this.pen = backdrop.pen(width, height);
     sprites.lacks = false;
-    for (const part of backdrop.regions ?? [undefined]) {
+    for (const part of backdrop.regions?.map((one) => this.whole(one)) ?? [undefined]) {
       this.pen.save();
-      if (part) this.clip(this.whole(part));
+      if (part) this.clip(part);
       this.drawGround((k) => backdrop.isStale(k, part), false);
       this.pen.restore();
     }
@@ -126,7 +126,7 @@ export class Stage {
     backdrop.done(!sprites.lacks);
   }
 
-  /** A box made larger to whole pixels: along half of one, what is drawn twice would shine through. @param {import("./backdrop.js").Box} box */
+  /** A box made larger to whole pixels: along half of one, what is drawn twice would shine through. @param {import("./backdrop.js").Box} box @returns {import("./backdrop.js").Box} */
   whole([left, top, right, bottom]) {
     const { view, ratio } = this;
     const [from, to] = [view.toScreen(left, top), view.toScreen(right, bottom)];
@@ -268,7 +268,7 @@ export class Stage {
   /** @param {number} k @param {import("./wire.js").Thing} item */
   drawHalo(k, item) {
     const look = this.collage.looks.get(item.shape);
-    if (!look || this.isOutOfSight(k, look.extent)) return;
+    if (!look || this.isOutOfSight(k)) return;
     const scale = this.toItem(k, item);
     this.pen.strokeStyle = item.halo;
     this.pen.lineWidth = (2 * (this.collage.scene?.rim ?? 0)) / Math.max(scale, 1e-9);
@@ -284,10 +284,10 @@ export class Stage {
   drawItem(k, perUnit, sprites) {
     const item = this.collage.items[k];
     const look = this.collage.looks.get(item.shape);
-    if (!look || this.isOutOfSight(k, look.extent)) return;
+    if (!look || this.isOutOfSight(k)) return;
     const scale = this.toItem(k, item);
     if (this.showsFaults) return this.drawSilhouette(look);
-    this.drawLook(look, look.extent * scale * perUnit, sprites);
+    this.drawLook(look, look.extent * scale * perUnit * Math.sqrt(Math.max(item.stretch, 1 / item.stretch)), sprites);
     for (const note of this.notes.get(item.id) ?? []) {
       const [x, y, , before] = note.pose;
       const { shown } = this.collage;
@@ -319,11 +319,11 @@ export class Stage {
     this.pen.globalAlpha = 1;
   }
 
-  /** @param {number} k @param {number} extent */
-  isOutOfSight(k, extent) {
-    const [x, y, , scale] = this.collage.shown.subarray(4 * k, 4 * k + 4);
+  /** @param {number} k */
+  isOutOfSight(k) {
+    const [x, y] = this.collage.shown.subarray(4 * k, 4 * k + 2);
     const at = this.view.toScreen(x + this.shift[0], y + this.shift[1]);
-    const reach = extent * scale * this.view.zoom;
+    const reach = this.collage.reach(k) * this.view.zoom;
     const { width, height } = this.view.size;
     return at.x < -reach || at.y < -reach || at.x > width + reach || at.y > height + reach;
   }
@@ -536,7 +536,7 @@ export class Stage {
     const look = collage.looks.get(item.shape);
     if (!look) return false;
     const [x, y, angle, scale] = collage.shown.subarray(4 * k, 4 * k + 4);
-    if (Math.hypot(at.x - x, at.y - y) > 1.5 * look.extent * scale) return false;
+    if (Math.hypot(at.x - x, at.y - y) > collage.reach(k) + reach / view.zoom) return false;
     const own = matrixOf({ x, y, angle, scale }, item.stretch).invertSelf().transformPoint(at);
     this.pen.resetTransform();
     this.pen.lineWidth = (2 * reach) / (view.zoom * scale);

@@ -46,8 +46,8 @@ export class Tiling {
   shifts(k) {
     const { collage, repeat } = this;
     if (!repeat) return HERE;
-    const [x, y, , scale] = collage.shown.subarray(4 * k, 4 * k + 4);
-    const reach = (collage.looks.get(collage.items[k].shape)?.extent ?? 1) * scale;
+    const [x, y] = collage.shown.subarray(4 * k, 4 * k + 2);
+    const reach = collage.reach(k);
     const [left, top, right, bottom] = this.box;
     const [width, height, drop] = repeat;
     const found = [];
