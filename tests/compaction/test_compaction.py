@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.arrangement import Arrangement, Detail
+from packwork.compaction import arrangement as arrangements
+from packwork.compaction.arrangement import Arrangement, Detail, find_conflicts
 from packwork.compaction.compact import blocks, compact_all
 from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH, RETURN_WEIGHT, Objective
 from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
@@ -20,6 +21,7 @@ from packwork.compaction.separate import relocate, separate, separate_evenly
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import union
 from packwork.readers.container import read_container
+from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from scenes import box, disc, square, star
 from strategies import generators, star_rings
@@ -302,3 +304,20 @@ def test_covers_that_are_stopped_are_the_outlines_themselves() -> None:
     detail = Detail([disc(3.0), square(1.0)], box(-9, -9, 9, 9), poses)
     assert detail.covers(0.1, lambda: True) is detail
     assert detail.covers(0.1) is not detail
+
+
+@settings(deadline=None, max_examples=20)
+@given(generators())
+def test_conflicts_of_many_are_found_strip_by_strip(rng: np.random.Generator) -> None:
+    count = 40
+    outlines = [disc(1.0), box(-3.0, -0.2, 3.0, 0.2)] * (count // 2)
+    x, y = rng.uniform(0, 30, (2, count))
+    angle, scale = rng.uniform(0, 3, count), rng.uniform(0.5, 2, count)
+    poses = Poses(x, y, angle, scale, rng.uniform(0.5, 2, count))
+    container = Container("", "", box(2, 2, 28, 28), 30, 30)
+    at_once = find_conflicts(container, outlines, poses, 0.1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(arrangements, "STRIP", 7)
+        by_strips = find_conflicts(container, outlines, poses, 0.1)
+    assert len(at_once) > 10
+    assert set(by_strips) == set(at_once)

@@ -8,7 +8,7 @@ does and must not be met either. Rounds work on outlines that are simplified to 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -249,6 +249,11 @@ ROUNDING = 1e-9
 the smallest gap is 1e-5 of it."""
 
 
+STRIP = 1_000
+"""Items whose polygons are in memory at once where conflicts are looked for. Larger takes memory,
+smaller more often what lies at the edge of a strip."""
+
+
 @dataclass(frozen=True)
 class Conflict:
     """An item in conflict with another one, or with the container if ``other`` is None.
@@ -288,11 +293,33 @@ def find_conflicts(
     zero = np.zeros(len(poses))
     places = np.column_stack([poses.x, poses.y, zero, zero])
     detail = Detail(outlines, container.outline, poses, container.lattice)
-    arrangement = detail.arrangement(places)
-    bad = arrangement.conflicts(arrangement.pairs(gap), gap * (1 - ROUNDING))
     # Two that meet over an edge are found from either side.
-    pairs = dict.fromkeys((int(min(pair)), int(max(pair))) for pair in bad)
+    pairs: dict[tuple[int, int], None] = {}
+    # Where items repeat, what is near may lie on the other side.
+    most = STRIP if container.lattice is None else len(poses)
+    for items in _strips(outlines, poses, gap, most):
+        arrangement = detail.subset(items, poses).arrangement(places[items])
+        bad = arrangement.conflicts(arrangement.pairs(gap), gap * (1 - ROUNDING))
+        names = np.append(items, len(outlines))[bad]
+        pairs |= dict.fromkeys((int(min(pair)), int(max(pair))) for pair in names)
     return tuple(_conflict(container, outlines, poses, i, j, gap) for i, j in pairs)
+
+
+def _strips(outlines: Sequence[Outline], poses: Poses, gap: float, most: int) -> Iterator[IntArray]:
+    """Strips of ``most`` items from left to right, each with all beyond it that may be near.
+
+    All in their order where there are no more.
+    """
+    if len(poses) <= most:
+        yield np.arange(len(poses))
+        return
+    reach = poses.scale * np.sqrt(np.maximum(poses.stretch, 1 / poses.stretch))
+    reach *= np.array([outline.radius for outline in outlines])
+    order = np.argsort(poses.x - reach, kind="stable")
+    left, right = (poses.x - reach)[order], (poses.x + reach)[order]
+    for begin in range(0, len(order), most):
+        farthest = right[begin : begin + most].max() + gap
+        yield order[begin : max(int(np.searchsorted(left, farthest)), begin + most)]
 
 
 def _conflict(
