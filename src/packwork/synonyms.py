@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 _TYPED: Mapping[str, str] = {
     "padding": "gap gaps margin spacing space distance buffer clearance gutter separation",
     "palette": "color colors colour colours color_scheme scheme theme colormap cmap fill_color",
-    "count": "number num amount copies quantity repeat limit max_words n_items items_count total",
+    "count": "n number num amount copies quantity repeat limit max_words n_items items_count total",
     "sizes=shared": "equal equal_size equal_sizes same_size same_sizes uniform proportional",
     "sizes": "size_mode sizing scaling",
     "size_ratio": "variation size_range size_variation spread",

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import logging
 import pickle
+import re
+import sys
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -143,6 +146,7 @@ def test_seeds_of_generators_and_of_the_system() -> None:
         return int(made.manifest["seed"])
 
     assert seed_of(np.random.default_rng(5)) == seed_of(np.random.default_rng(5))
+    assert seed_of(np.random.SeedSequence(5)) == seed_of(np.random.default_rng(5))
     assert len({seed_of(None) for _ in range(3)}) > 1
     assert seed_of(np.int64(7)) == 7
 
@@ -313,3 +317,88 @@ def test_columns_of_cells_leave_those_of_the_table_alone() -> None:
 def test_no_colour_is_no_colour() -> None:
     with pytest.raises(RecipeError, match="palette: 'none'"):
         pw.fill("circle", "star", count=1, palette="none", effort="draft")
+
+
+def test_items_are_picked_as_numpy_and_pandas_pick(layout: pw.Layout) -> None:
+    frame = layout.to_dataframe()
+    stars = layout[frame["item"] == "star"]
+    assert {one.name for one in stars} == {"star"}
+    assert layout[[4, 1]].poses.x.tolist() == layout.poses.x[[4, 1]].tolist()
+    assert len(layout[layout.areas > layout.areas.max()]) == 0
+    with pytest.raises(IndexError):
+        layout[[0, 9]]
+
+
+@pytest.mark.parametrize(
+    "weights",
+    [
+        {"bear": 3, "owl": 1, "fox": 0, "elk": None},
+        [("bear", 2), ("owl", 1), ("bear", 1), ("fox", float("nan"))],
+        {"word": ["bear", "owl", None, "bear"], "n": [1, 1, 5, 2]},
+    ],
+)
+def test_words_without_a_weight_are_left_out_and_repeated_ones_summed(
+    weights: Any, caplog: pytest.LogCaptureFixture
+) -> None:
+    if "word" in weights:
+        weights = pytest.importorskip("pandas").DataFrame(weights)
+    made = pw.words("circle", weights, **DRAFT)
+    assert made == pw.words("circle", {"bear": 3, "owl": 1}, **DRAFT)
+    assert "without a weight: " in caplog.text
+
+
+def test_words_of_a_column_with_gaps() -> None:
+    pandas = pytest.importorskip("pandas")
+    column = pandas.Series(["bear", None, "owl", float("nan"), "bear"])
+    assert pw.words("circle", column, **DRAFT) == pw.words("circle", {"bear": 2, "owl": 1}, **DRAFT)
+
+
+def test_steps_are_weights_of_pandas_too() -> None:
+    pandas = pytest.importorskip("pandas")
+    years = {1999: {"bear": 3, "fox": 2}, 2000: {"bear": 2, "owl": 2, "fox": 3}}
+    plain = pw.series("heart", years, **DRAFT)
+    made = pw.series("heart", {year: pandas.Series(one) for year, one in years.items()}, **DRAFT)
+    assert made.layouts == plain.layouts
+
+
+def test_columns_have_names_of_any_kind() -> None:
+    pandas = pytest.importorskip("pandas")
+    arrow = pytest.importorskip("pyarrow")
+    plain = pw.chart("heart", {"kg": [3.0, 1.0]}, size_by="kg", **DRAFT).areas
+    numbered = pandas.DataFrame([[0.5, 3], [0.5, 1]])
+    levels = pandas.DataFrame({("kg", "sum"): [3, 1], ("kg", "mean"): [1, 1]})
+    for table, size_by in (
+        (numbered, 1), (levels, ("kg", "sum")), (arrow.table({"a": ["x", "y"]}), [3, 1])
+    ):  # fmt: skip
+        assert pw.chart("heart", table, size_by=size_by, **DRAFT).areas == pytest.approx(plain)
+
+
+def test_numbers_that_are_named_in_a_palette_are_categories() -> None:
+    data = {"kg": [3, 1, 2], "year": [2020, 2021, 2020]}
+    palette = {2020: "red", 2021: (0, 0, 1)}
+    made = pw.chart("heart", data, size_by="kg", color_by="year", palette=palette, **DRAFT)
+    assert [i.art.fill for i in made.items] == ["#ff0000", "#0000ff", "#ff0000"]  # type: ignore[attr-defined]
+
+
+def test_palettes_of_seaborn_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
+    theirs = SimpleNamespace(color_palette={"deep": [(1, 0, 0), (0, 0, 1)]}.__getitem__)
+    monkeypatch.setitem(sys.modules, "seaborn", theirs)
+    asked = pw.fill("heart", "star", count=2, palette="deep", **DRAFT).manifest["recipe"]
+    assert asked["palette"] == ["#ff0000", "#0000ff"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"n": 3}, "n: no such option; did you mean count?"),
+        ({"hero": ["star", "star"]}, "hero: must be a text, not"),
+        ({"seed": 1j}, "seed: must be a whole number, not"),
+        ({"best_of": 2, "best_by": len}, "best_by: must be one of"),
+        ({"weights": ["a"]}, "weights: takes numbers, not"),
+        ({"losses": {"overlp": 1}}, "losses: no loss is called 'overlp'"),
+    ],
+)
+def test_messages_speak_of_what_was_written(options: Any, said: str) -> None:
+    with pytest.raises(RecipeError, match=re.escape(said)):
+        pw.fill("heart", "star", **{"count": 2, **DRAFT, **options})

@@ -200,7 +200,7 @@ def test_a_further_loss_adds_its_weighted_gradient(rng: np.random.Generator) -> 
 
 
 def test_an_unknown_loss_is_refused_by_name() -> None:
-    with pytest.raises(RecipeError, match=r"loss: no loss is called 'charm'.*containment"):
+    with pytest.raises(RecipeError, match=r"losses: no loss is called 'charm'.*containment"):
         Level(square_container(), [disc()], 50, ["charm"])
 
 

@@ -68,7 +68,7 @@ def test_colours_are_set_by_name(named: Any, tmp_path: Path) -> None:
         ({"palette": {"plum": "red"}}, "palette: gives a colour to 'plum'; kind has apple, fig"),
         ({"palette": {"fig": "redd"}}, "palette: 'redd' is no colour"),
         ({"palette": "fig=red,blue"}, "palette: give each name its colour"),
-        ({"palette": {"fig": "red"}, "color_by": "kg"}, "its numbers run along a list"),
+        ({"palette": {"fig": "red"}, "color_by": "kg"}, "gives a colour to 'fig'; kg has"),
         ({"palette": {"fig": "red"}, "color_by": None}, "which column's"),
     ],
 )

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Unpack, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from packwork import writers
 from packwork.api.exports import Exported, drawing_options
@@ -122,16 +123,16 @@ class Layout(Exported, Sequence[Placement]):
     @overload
     def __getitem__(self, which: int) -> Placement: ...
     @overload
-    def __getitem__(self, which: slice) -> Layout: ...
-    def __getitem__(self, which: int | slice) -> Placement | Layout:
-        if isinstance(which, slice):
+    def __getitem__(self, which: slice | Sequence[int] | NDArray[Any]) -> Layout: ...
+    def __getitem__(self, which: int | slice | Sequence[int] | NDArray[Any]) -> Placement | Layout:
+        if isinstance(which, slice | list) or np.ndim(which):
             rows = np.arange(len(self))[which]
             return replace(
-                self, items=self.items[which], poses=self.poses.subset(rows),
-                weights=self.weights[which], notes=(), track=None, leaving=None,
+                self, items=tuple(self.items[k] for k in rows), poses=self.poses.subset(rows),
+                weights=self.weights[rows], notes=(), track=None, leaving=None,
             )  # fmt: skip
         try:
-            row = range(len(self))[which]
+            row = range(len(self))[which]  # type: ignore[index]
         except IndexError:
             there = number_of(len(self), "item")
             raise IndexError(f"there is no item {which}: the layout has {there}") from None

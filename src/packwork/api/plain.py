@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any, Protocol, TypeAlias
@@ -11,6 +12,7 @@ import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.readers import items as item_reader
+from packwork.readers.tables.table import is_count
 from packwork.recipe.typed import Anchor, Force, Hero
 from packwork.scene.colour import hex_colour
 from packwork.scene.palette import colours_by_name, palette_colours
@@ -56,16 +58,17 @@ def plain_texts(value: Any) -> Any:
 
 
 def plain_seed(seed: Any) -> Any:
-    """A whole number: drawn from a generator of NumPy, or, of None, from the system.
+    """A whole number: drawn from a source of random bits of NumPy, or, of None, from the system.
 
     Examples
     --------
     >>> plain_seed(np.random.default_rng(1)) == plain_seed(np.random.default_rng(1)), plain_seed(3)
     (True, 3)
     """
-    if seed is None:
-        seed = np.random.default_rng()
-    return int(seed.integers(2**32)) if isinstance(seed, np.random.Generator) else seed
+    drawn = (np.random.Generator, np.random.BitGenerator, np.random.SeedSequence)
+    if seed is None or isinstance(seed, drawn):
+        return int(np.random.default_rng(seed).integers(2**32))
+    return seed
 
 
 def plain_colours(value: Any) -> Any:
@@ -109,7 +112,7 @@ def plain_colour(value: Any) -> Any:
 
 
 def _known(text: str) -> Any:
-    """Colours of a name of Matplotlib's that we have not, if it is there; else the text."""
+    """Colours of a name of Matplotlib's or seaborn's that we have not, if these are there."""
     with contextlib.suppress(ValueError):
         if colours_by_name(text) is not None or palette_colours(text):
             return text
@@ -122,18 +125,27 @@ def _known(text: str) -> Any:
 
         if is_color_like(text) and text != "none":
             return plain_colour(to_rgba(text))
+        seaborn: Any = importlib.import_module("seaborn")
+        if text in matplotlib.colormaps:  # which seaborn adds to
+            return plain_colours(matplotlib.colormaps[text])
+        with contextlib.suppress(ValueError):
+            return plain_colours(seaborn.color_palette(text))
     return text
 
 
 def plain_weights(weights: Any, names: Sequence[str]) -> Any:
     """Shares of area by name: of a Series by its index, of numbers in the order of the items."""
-    if hasattr(weights, "index") and hasattr(weights, "to_dict"):
-        return {str(name): weight for name, weight in weights.to_dict().items()}
-    if weights is None or isinstance(weights, str | Mapping) or hasattr(weights, "__fspath__"):
+    if hasattr(weights, "index") and hasattr(weights, "to_dict") and np.ndim(weights) == 1:
+        if not is_count(weights.index):
+            return {str(name): weight for name, weight in weights.to_dict().items()}
+    elif weights is None or isinstance(weights, str | Mapping) or hasattr(weights, "__fspath__"):
         return weights
-    numbers = np.asarray(weights).tolist()
+    try:
+        numbers = np.asarray(weights, dtype=float).tolist()
+    except (TypeError, ValueError):
+        raise RecipeError("weights", f"takes numbers, not {weights!r:.60}") from None
     items = [item.name for item in item_reader.read_items(list(names)).items]
-    if len(numbers) != len(items) or len(set(items)) < len(items):
+    if np.shape(numbers) != (len(items),) or len(set(items)) < len(items):
         raise RecipeError(
             "weights",
             f"takes a number for each of {len(items)} items of unlike names, or a dict by name",
@@ -158,6 +170,14 @@ def with_columns(data: Any, options: Mapping[str, Any]) -> tuple[Any, dict[str, 
     for key, cells in options.items():
         if key.split("_")[-1] != "by" or isinstance(cells, str | None) or callable(cells):
             continue
+        names = getattr(data, "columns", ())
+        if not hasattr(cells, "__iter__") or (isinstance(cells, tuple) and cells in names):
+            asked[key] = str(cells)  # a column that is called by a number, or on several levels
+            continue
+        if hasattr(data, "to_pydict"):  # of pyarrow
+            data = data.to_pydict()
+        elif hasattr(data, "to_dicts"):  # of polars
+            data = data.to_dict(as_series=False)
         is_table = isinstance(data, Sequence) and not isinstance(data, str)
         if not (is_table or isinstance(data, Mapping) or hasattr(data, "assign")):
             raise RecipeError(key, "must be a column's name where the data are a file's")

@@ -21,11 +21,11 @@ from packwork.progress import Stop, never
 from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Value
 from packwork.readers.tables.table import is_frame, rows_of_frame
-from packwork.readers.words.options import check_weight
 from packwork.readers.words.table import read_word_steps, steps_of_rows
 from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
 from packwork.timeline.step import SeriesStep, chart_steps, step_files, word_steps
+from packwork.uses.words.recipe import weights_by_word
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -227,11 +227,9 @@ def _weights(table: Any, by: str) -> Mapping[str, Mapping[str, float]]:
 def _checked(table: Mapping[Any, Mapping[str, float]]) -> dict[str, dict[str, float]]:
     found: dict[str, dict[str, float]] = {}
     for label, words in table.items():
-        if not isinstance(words, Mapping) or not words:
+        found[str(label)] = weights_by_word(words.items()) if hasattr(words, "items") else {}
+        if not found[str(label)]:
             raise RecipeError("table", f"says no weights by word of the step {str(label)[:40]!r}")
-        for word, weight in words.items():
-            check_weight(str(word), weight)
-        found[str(label)] = {str(word): float(weight) for word, weight in words.items()}
     if len(found) < 2:
         raise RecipeError("table", "has fewer than two steps")
     return found

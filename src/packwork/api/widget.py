@@ -156,6 +156,9 @@ def _widgets() -> Any:
             super().__init__(**self._desk.present())
             self.on_msg(lambda _, message, __: self._desk.hear(message, self.show))
 
+        def __repr__(self) -> str:
+            return repr(self.session).replace("Session", "Widget")
+
         @property
         def session(self) -> Session:
             """The session that the hand works on."""

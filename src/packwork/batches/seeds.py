@@ -99,9 +99,9 @@ def run_seed(task: Seeded, stop: Stop) -> Run:
 
 def check_metric(by: str) -> None:
     """Refuse what no report has, naming all there are."""
-    if _MEANT.get(by, by).removeprefix("-") not in METRICS:
+    if not isinstance(by, str) or _MEANT.get(by, by).removeprefix("-") not in METRICS:
         there = enumerated(list(dict.fromkeys((COVERAGE, EVENNESS, *METRICS))), 30)
-        raise RecipeError("best_by", f"must be one of {there}, not {by[:40]!r}")
+        raise RecipeError("best_by", f"must be one of {there}, not {str(by)[:40]!r}")
 
 
 def score_of(run: Run, by: str) -> float:

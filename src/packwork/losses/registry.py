@@ -128,18 +128,18 @@ def find_loss(name: str | ImageLoss) -> ImageLoss:
     if not colon:
         known = ", ".join([*LOSSES, *POSE_LOSSES])
         raise RecipeError(
-            "loss",
+            "losses",
             f"no loss is called {name!r}; use one of {known} or module:function",
         )
     try:
         found = getattr(importlib.import_module(module), function)
     except (ImportError, TypeError, ValueError) as error:  # the latter two: not a module's name
-        raise RecipeError("loss", f"module {module!r} cannot be imported: {error}") from error
+        raise RecipeError("losses", f"module {module!r} cannot be imported: {error}") from error
     except AttributeError as error:
-        raise RecipeError("loss", f"module {module!r} has no function {function!r}") from error
+        raise RecipeError("losses", f"module {module!r} has no function {function!r}") from error
     if not callable(found):
         raise RecipeError(
-            "loss",
+            "losses",
             f"{name!r} is not a function of (density, container), (density, colour, container) "
             "or (placed)",
         )

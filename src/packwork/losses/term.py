@@ -76,22 +76,24 @@ def checked_call(loss: Callable[..., Any], images: tuple[Image, ...]) -> Term:
     try:
         term = loss(*images)
     except Exception as error:  # a user's code may raise anything
-        raise RecipeError("loss", f"{name} failed: {type(error).__name__}: {error}") from error
+        raise RecipeError("losses", f"{name} failed: {type(error).__name__}: {error}") from error
     if not isinstance(term, Term):
-        raise RecipeError("loss", f"{name} must return a Term, not {type(term).__name__}")
+        raise RecipeError("losses", f"{name} must return a Term, not {type(term).__name__}")
     _check_adjoint(f"{name}'s adjoint", term.adjoint, images[0])
     if term.colour_adjoint is not None:
         if len(images) < 3:
-            raise RecipeError("loss", f"{name} is given no colours, so has no adjoint of them")
+            raise RecipeError("losses", f"{name} is given no colours, so has no adjoint of them")
         _check_adjoint(f"{name}'s adjoint of colours", term.colour_adjoint, images[1])
     return term
 
 
 def _check_adjoint(what: str, adjoint: Image, image: Image) -> None:
     if np.shape(adjoint) != image.shape:
-        raise RecipeError("loss", f"{what} must have shape {image.shape}, not {np.shape(adjoint)}")
+        raise RecipeError(
+            "losses", f"{what} must have shape {image.shape}, not {np.shape(adjoint)}"
+        )
     if not np.isfinite(adjoint).all():
-        raise RecipeError("loss", f"{what} must be finite; it has NaN or infinite values")
+        raise RecipeError("losses", f"{what} must be finite; it has NaN or infinite values")
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,15 +159,15 @@ def checked_pose_term(loss: PoseLoss, placed: PosedItems) -> PoseTerm:
     try:
         term = loss(placed)
     except Exception as error:  # a user's code may raise anything
-        raise RecipeError("loss", f"{name} failed: {type(error).__name__}: {error}") from error
+        raise RecipeError("losses", f"{name} failed: {type(error).__name__}: {error}") from error
     if not isinstance(term, PoseTerm):
-        raise RecipeError("loss", f"{name} must return a PoseTerm, not {type(term).__name__}")
+        raise RecipeError("losses", f"{name} must return a PoseTerm, not {type(term).__name__}")
     x, y, log_scale = (
         None if slopes is None else _checked_slopes(np.asarray(slopes, float), name, placed)
         for slopes in (term.x, term.y, term.log_scale)
     )
     if x is None or y is None:
-        raise RecipeError("loss", f"{name} must return the derivatives by x and y")
+        raise RecipeError("losses", f"{name} must return the derivatives by x and y")
     return PoseTerm(term.value, x, y, log_scale)
 
 
@@ -173,10 +175,12 @@ def _checked_slopes(slopes: FloatArray, name: str, placed: PosedItems) -> FloatA
     count = len(placed.poses)
     if slopes.shape != (count,):
         raise RecipeError(
-            "loss", f"{name}'s derivatives must have shape ({count},), not {slopes.shape}"
+            "losses", f"{name}'s derivatives must have shape ({count},), not {slopes.shape}"
         )
     if not np.isfinite(slopes).all():
-        raise RecipeError("loss", f"{name}'s derivatives must be finite; some are NaN or infinite")
+        raise RecipeError(
+            "losses", f"{name}'s derivatives must be finite; some are NaN or infinite"
+        )
     return slopes
 
 

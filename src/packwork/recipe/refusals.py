@@ -25,6 +25,8 @@ _PLAIN_WORDS = {
     ),
     "a valid number, unable to parse string as a number": "a number",
     "a valid integer, got a number with a fractional part": "a whole number",
+    "a valid integer": "a whole number",
+    "a valid string": "a text",
     "a valid dictionary or instance of Rule": 'a table such as {items = "star", count = 3}',
     "a valid dictionary or instance of Pin": 'a table such as {x = "50%", y = "50%"}',
 }

@@ -104,9 +104,9 @@ def background_of(loss: object) -> FloatArray:
     array([1., 1., 1.])
     """
     text = str(getattr(loss, "background", "white"))
-    channels = parse_colour("loss", text)
+    channels = parse_colour("losses", text)
     if channels is None or channels[3] < 255:
-        raise RecipeError("loss", f"the background {text[:40]!r} is clear; use a solid colour")
+        raise RecipeError("losses", f"the background {text[:40]!r} is clear; use a solid colour")
     return np.array(channels[:3]) / 255
 
 

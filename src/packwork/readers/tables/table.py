@@ -187,6 +187,8 @@ def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, 
     >>> rows_of_frame({"land": ["Peru", "Kenya"], "kg": [2, 3]})
     [{'land': 'Peru', 'kg': 2}, {'land': 'Kenya', 'kg': 3}]
     """
+    if callable(collect := getattr(data, "collect", None)):  # polars has not asked for it yet
+        data = collect()
     if isinstance(data, Sized) and len(data) > MOST_ROWS:
         raise RecipeError("data", f"has {len(data):,} rows; {MOST_ROWS:,} are the most")
     if hasattr(data, "columns") and hasattr(data, "to_dicts"):
@@ -196,13 +198,12 @@ def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, 
     if hasattr(data, "columns") and hasattr(data, "to_dict"):
         return [plain_row(row) for row in _with_index(data, has_row_numbers).to_dict("records")]
     if isinstance(data, Mapping):
-        if not all(_is_column(cells) for cells in data.values()):
+        columns = {str(name): list(cells) for name, cells in data.items() if _is_column(cells)}
+        if len(columns) < len(data) or len({len(cells) for cells in columns.values()}) != 1:
             raise RecipeError("data", "use a list of cells for each column, all equally long")
-        columns = {str(name): list(cells) for name, cells in data.items()}
-        if len({len(cells) for cells in columns.values()}) == 1:
-            rows = zip(*columns.values(), strict=True)
-            return [plain_row(dict(zip(columns, cells, strict=True))) for cells in rows]
-    elif isinstance(data, Sequence) and all(isinstance(row, Mapping) for row in data):
+        rows = zip(*columns.values(), strict=True)
+        return [plain_row(dict(zip(columns, cells, strict=True))) for cells in rows]
+    if isinstance(data, Sequence) and all(isinstance(row, Mapping) for row in data):
         return [plain_row(row) for row in data]
     raise RecipeError(
         "data", "use a file, a data frame, or rows such as [{'land': 'Peru', 'kg': 2}]"

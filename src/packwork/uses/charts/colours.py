@@ -62,10 +62,7 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
     if isinstance(recipe.palette, Mapping):
         named = (*known, *(chart.colour_of or ()))
         if not named:
-            why = "which column's? --color-by"
-            if column:
-                why = "its numbers run along a list of colours"
-            raise RecipeError("palette", f"gives colours to names: {why}")
+            raise RecipeError("palette", "gives colours to names: which column's? --color-by")
         check_named(recipe.palette, column or "", named)
     return colours
 

@@ -105,8 +105,10 @@ def read_chart(
     holes: Holes = "fill",
     asked: TableFormat | None = None,
     reading: ReadOptions | None = None,
+    *,
+    has_names: bool = False,
 ) -> ChartRead:
-    """Marks of a chart.
+    """Marks of a chart; where colours have names (``has_names``), numbers are categories too.
 
     Examples
     --------
@@ -126,7 +128,8 @@ def read_chart(
     owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
     marks = _drawings(options, table, kinds, holes, reading)
-    is_ramp = options.color_by is not None and is_numeric(rows, options.color_by)
+    column = None if has_names else options.color_by
+    is_ramp = column is not None and is_numeric(rows, column)
     colours, told = _categories(rows, None if is_ramp else options.color_by)
     items = _items(
         rows, owner, shares, [marks[kind] for kind in kinds or [""] * len(rows)], options

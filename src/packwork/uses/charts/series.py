@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -41,7 +42,8 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
         raise RecipeError("series", "is of a chart whose rows have a column of steps")
     if recipe.container == NO_CONTAINER:
         raise RecipeError("container", "none shows groups as bars; a series needs a container")
-    grouped = read_chart(asked, recipe.holes, recipe, recipe.read_options)
+    has_names = isinstance(recipe.palette, Mapping)
+    grouped = read_chart(asked, recipe.holes, recipe, recipe.read_options, has_names=has_names)
     there = [k for k in range(len(grouped.groups)) if (grouped.group_of == k).any()]
     if len(there) < 2:
         raise RecipeError("series", f"column {asked.by!r} says one step; 2 or more go")

@@ -191,7 +191,8 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
         raise RecipeError(
             "stroke_width", "even changes the areas of marks, which stand for numbers; leave it out"
         )
-    read = read_chart(asked, recipe.holes, recipe, recipe.read_options)
+    has_names = isinstance(recipe.palette, Mapping)
+    read = read_chart(asked, recipe.holes, recipe, recipe.read_options, has_names=has_names)
     regions = list[NamedRegion]()
     if asked.in_regions:
         if room is None:

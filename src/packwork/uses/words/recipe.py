@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -9,10 +10,11 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.options import Verbs
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.options import TEXT_PREFIX
-from packwork.readers.tables.pairs import PairColumns, pairs_of_rows
-from packwork.readers.tables.table import is_frame, rows_of_frame
-from packwork.readers.words.options import WordOptions
+from packwork.readers.tables.pairs import MOST_NAMED, PairColumns, pairs_of_rows
+from packwork.readers.tables.table import is_frame, plain_row, rows_of_frame
+from packwork.readers.words.options import WordOptions, check_weight
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.pictures import check_no_names, known_palette
 from packwork.recipe.refusals import validated
@@ -20,6 +22,8 @@ from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import AROUND, check_names
 from packwork.scene.contrast import readable
 from packwork.scene.palette import palette_colours
+
+_LOG = logging.getLogger("packwork")
 
 PALETTE = "ink"
 """Colours of words that are given none."""
@@ -86,27 +90,57 @@ def _plain_source(source: object, own: dict[str, Any]) -> object:
 
     ``own``: options, of which those that say which columns are taken out; else the first two.
     """
+    if source is None or isinstance(source, str | os.PathLike):
+        return source
     if is_frame(source):
         frame = rows_of_frame(source, has_row_numbers=False)
         columns = PairColumns(own.pop("label_by", None), own.pop("size_by", None))
         if any(columns):
-            return {pair.name: pair.number for pair in pairs_of_rows(frame, columns).rows}
-        rows = [tuple(row.values()) for row in frame]
-        return {str(row[0]): row[1] for row in rows if len(row) > 1 and row[0] is not None}
-    if source is None or isinstance(source, str | os.PathLike | Mapping):
-        return source
-    words = list(source) if isinstance(source, Iterable) else []
+            pairs = pairs_of_rows(frame, columns).rows
+            return weights_by_word((pair.name, pair.number) for pair in pairs)
+        return weights_by_word(tuple(row.values())[:2] for row in frame if len(row) > 1)
+    if isinstance(source, Mapping):
+        return weights_by_word(source.items())
+    entries = list(source) if isinstance(source, Iterable) else []
+    if entries and all(isinstance(one, tuple | list) and len(one) == 2 for one in entries):
+        return weights_by_word(entries)
+    words = [word for one in entries if (word := plain_row({"": one})[""]) is not None]
     if words and all(isinstance(word, str) for word in words):
         return dict(Counter(words))
-    pairs = getattr(source, "items", None)
-    try:
-        return dict(pairs())  # type: ignore[misc]
-    except (TypeError, ValueError):
-        raise RecipeError(
-            "source",
-            f"is {type(source).__name__}; use a text, a file, or a list of words or weights "
-            "by word, such as {'bear': 2}",
-        ) from None
+    if words and hasattr(source, "items"):
+        return weights_by_word(source.items())
+    raise RecipeError(
+        "source",
+        f"is {type(source).__name__}; use a text, a file, or a list of words or weights "
+        "by word, such as {'bear': 2}",
+    )
+
+
+def weights_by_word(entries: Iterable[tuple[Any, Any]]) -> dict[str, float]:
+    """Weights by word, their sum where it stands several times; words without one are told.
+
+    Raises ``RecipeError`` where a weight is no positive number.
+
+    Examples
+    --------
+    >>> weights_by_word([("bear", 2), ("fox", None), ("owl", 0), ("bear", 1)])
+    {'bear': 3.0}
+    """
+    found: dict[str, float] = {}
+    empty = []
+    for row in (plain_row({"word": word, "weight": weight}) for word, weight in entries):
+        word, weight = row["word"], row["weight"]
+        if word in (None, "") or weight in (None, 0, ""):
+            empty.append(str(word or weight))
+            continue
+        check_weight(str(word), weight)
+        found[str(word)] = found.get(str(word), 0.0) + float(weight)
+    if empty:
+        said = number_of(len(empty), "word")
+        _LOG.warning(
+            "source: left out %s without a weight: %s", said, enumerated(empty, MOST_NAMED)
+        )
+    return found
 
 
 def words_colours(
