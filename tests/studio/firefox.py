@@ -103,6 +103,16 @@ class Firefox:
         ways = ("keyDown", "keyUp")
         self._act("key", [{"type": way, "value": key} for key in text for way in ways])
 
+    def downloaded(self, selector: str, file: Path) -> bytes:
+        """Bytes of a file that a click hands to the person."""
+        self.click(selector)
+        end = time.monotonic() + PATIENCE_SECONDS
+        # What is on its way is beside it, under another name.
+        while not file.exists() or any(file.parent.glob("*.part")):
+            assert time.monotonic() < end, f"waited for {file.name}"
+            time.sleep(0.05)
+        return file.read_bytes()
+
     def send_file(self, selector: str, file: Path) -> None:
         """Give a file to a field."""
         found = self._ask(
@@ -122,7 +132,10 @@ class Firefox:
 
 @contextmanager
 def firefox(profile: Path) -> Iterator[Firefox]:
-    """A Firefox that knows nothing, with its profile in a folder."""
+    """A Firefox that knows nothing, with its profile and what it downloads in a folder."""
+    prefs = {"folderList": 2, "dir": str(profile)}
+    lines = [f'user_pref("browser.download.{one}", {json.dumps(to)});' for one, to in prefs.items()]
+    (profile / "user.js").write_text("\n".join(lines), encoding="utf-8")
     asked = ["--headless", "--no-remote", "--profile", str(profile), "--remote-debugging-port", "0"]
     env = {**os.environ, "HOME": str(profile), "MOZ_DISABLE_CONTENT_SANDBOX": "1"}
     program = subprocess.Popen(

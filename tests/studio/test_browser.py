@@ -170,8 +170,22 @@ def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
     desk.page.mouse.move(x, y + top, steps=8)
     desk.page.mouse.up()
     desk.settled()
-    assert desk.look("studio.collage.pose(1).scale") < 0.85 * scale
-    for _ in range(2):
+    smaller = desk.look("studio.collage.pose(1).scale")
+    assert smaller < 0.85 * scale
+    # A side of the frame does so too; a finger there drags.
+    side = "((a, b, c) => [(b[0] + c[0]) / 2, (b[1] + c[1]) / 2])(...studio.stage.frame())"
+    assert desk.look(f"studio.stage.handleAt(...{side}, 11)") is None
+    x, y = desk.look(side)
+    desk.page.mouse.move(x, y + top)
+    desk.page.mouse.down()
+    assert desk.look("studio.gestures.doing.act") == "scale"
+    about = desk.look("studio.gestures.doing.about")
+    x, y = (at + 0.4 * (at - about[axis]) for at, axis in ((x, "x"), (y, "y")))
+    desk.page.mouse.move(x, y + top, steps=8)
+    desk.page.mouse.up()
+    desk.settled()
+    assert desk.look("studio.collage.pose(1).scale") > 1.2 * smaller
+    for _ in range(3):
         desk.page.keyboard.press("Control+z")
     desk.settled()
 
@@ -278,6 +292,8 @@ def test_an_export_is_shown_as_it_will_be(open_desk: Callable[..., Desk]) -> Non
         edge = 0.05 / 1.1 * 2480
         assert min(left, top, made.width - right, made.height - bottom) > 0.98 * edge
         assert min(left, top, made.width - right, made.height - bottom) < 1.2 * edge
+    # The next time nothing is shown until it is what is exported then.
+    assert not desk.look("(studio.exporting.open(), studio.exporting.preview.hasAttribute('src'))")
 
 
 def test_files_are_brought_and_what_fails_is_a_line(
@@ -511,7 +527,7 @@ def test_the_list_of_items_stays_while_the_hand_is_on_the_canvas(
 
 def test_what_a_finger_meets_is_large_enough(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk(PHONE, has_touch=True, is_mobile=True)
-    for panel in ("room", "items", "words", "options", "more"):
+    for panel in ("room", "items", "words", "options", "more", "look"):
         desk.page.locator(f"#tab-{panel}").tap()
         desk.until(
             f"document.getElementById('tab-{panel}').ariaPressed === 'true'"
@@ -546,7 +562,7 @@ def test_nothing_reaches_out_of_the_window(
 
 def test_every_button_and_field_has_a_name(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
-    for panel in ("room", "items", "words", "options", "more"):
+    for panel in ("room", "items", "words", "options", "more", "look"):
         if desk.look(f"document.getElementById('tab-{panel}').ariaPressed") != "true":
             desk.page.locator(f"#tab-{panel}").click()
         desk.until("studio.panels.choices !== null")

@@ -26,7 +26,7 @@ def place(page: Firefox, item: int) -> tuple[float, float]:
 
 @pytest.fixture
 def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
-    """A studio of its own, whose first document is called desk-1."""
+    """A studio of its own."""
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
     made = Server("heart", "star", "moon", "-n", "8").start()
     yield made
@@ -36,10 +36,11 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
 @pytest.mark.skipif(firefox_path() is None, reason="no Firefox on this machine")
 @pytest.mark.xdist_group("browser")
 def test_five_tasks_in_firefox(server: Server, tmp_path: Path) -> None:
-    (tmp_path / "profile").mkdir()
+    (profile := tmp_path / "profile").mkdir()
+    field = "input[type=file]:not([webkitdirectory])"
     noise = [Image.effect_noise((90, 60), 60 + k) for k in range(3)]
     Image.merge("RGB", noise).save(tmp_path / "sky.jpg")
-    with firefox(tmp_path / "profile") as page:
+    with firefox(profile) as page:
         page.goto(server.address)
         page.settled()
         # A hero among icons: dragged, enlarged and held.
@@ -55,7 +56,7 @@ def test_five_tasks_in_firefox(server: Server, tmp_path: Path) -> None:
         page.picture("firefox-hero")
         # A photograph, moved in its frame.
         page.look("studio.dropping.as = 'photos'")
-        page.send_file("input[type=file]:not([webkitdirectory])", tmp_path / "sky.jpg")
+        page.send_file(field, tmp_path / "sky.jpg")
         page.until("studio.collage.items.some(item => item.crop)")
         page.settled()
         photo = page.look("studio.collage.items.find(item => item.crop).id")
@@ -79,25 +80,30 @@ def test_five_tasks_in_firefox(server: Server, tmp_path: Path) -> None:
         page.until("studio.words.list.countOf('fern', studio.words.list.things) === 9")
         page.settled()
         page.picture("firefox-words")
+        page.click("#export")
+        page.click("dialog.export input[value=packwork]")
+        kept = page.downloaded("dialog.export button[type=submit]", profile / "heart.packwork")
+        (yesterday := tmp_path / "yesterday.packwork").write_bytes(kept)
         # A jar.
         page.look("studio.start.open()")
         page.click("dialog.start button:has(img[src*=jar])")
         page.until("studio.collage.scene.kind === 'pile'")
         page.settled()
-        # What is kept is opened again, recoloured and exported to PDF.
-        page.look("studio.connection.send({ type: 'begin', kept: 'desk-1' })")
+        # Yesterday's file is opened, recoloured and exported to PDF.
+        page.send_file(field, yesterday)
         page.until("studio.collage.items.some(item => item.name === 'moss')")
         page.settled()
+        assert page.look("studio.collage.scene.title") == "yesterday"
         page.type("6")
         page.until("document.querySelector('[aria-label=tol-muted]')")
         page.click("[aria-label=tol-muted]")
         page.until("studio.collage.scene.palette.length > 0")
         page.settled()
         page.picture("firefox-recoloured")
-        page.look("studio.canvas.focus()")
         page.click("#export")
         page.until("studio.exporting.preview.complete && studio.exporting.preview.naturalWidth")
+        page.click("dialog.export input[value=pdf]")
         page.picture("firefox-export")
-        head = "studio.exporting.make('pdf', {}).then(made => made.slice(0, 5).text())"
-        assert page.look(head) == "%PDF-"
+        pdf = page.downloaded("dialog.export button[type=submit]", profile / "yesterday.pdf")
+        assert pdf.startswith(b"%PDF-")
         assert page.faults == []

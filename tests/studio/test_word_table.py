@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -20,9 +21,9 @@ TABLE = "word,count\n" + "\n".join(
 
 
 def with_words(
-    open_desk: Callable[..., Desk], folder: Path, size: dict[str, int] | None = None
+    open_desk: Callable[..., Desk], folder: Path, *size: dict[str, int], **more: bool
 ) -> Desk:
-    desk = open_desk() if size is None else open_desk(size)
+    desk = open_desk(*size, **more)
     (folder / "river.csv").write_text(TABLE, encoding="utf-8")
     ids = "studio.collage.items.map(item => item.id).join()"
     before = desk.look(ids)
@@ -102,6 +103,14 @@ def test_words_left_out_of_a_text_do_not_come(
 
 
 def test_the_table_fits_a_phone(open_desk: Callable[..., Desk], tmp_path: Path) -> None:
-    desk = with_words(open_desk, tmp_path, PHONE)
+    desk = with_words(open_desk, tmp_path, PHONE, has_touch=True, is_mobile=True)
     desk.page.locator(".words li").first.wait_for()
     desk.picture("words-phone")
+    # Large enough for a finger, each beside the next.
+    boxes = desk.look(
+        "[...document.querySelector('.words li').children].map(e => e.getBoundingClientRect())"
+        ".filter(box => box.width)"
+    )
+    assert min(box["height"] for box in boxes) >= 44
+    assert all(one["right"] <= two["left"] for one, two in pairwise(boxes))
+    assert boxes[-1]["right"] <= PHONE["width"]

@@ -137,6 +137,8 @@ export class Exporting {
   }
 
   open() {
+    // What it was before is no picture of it.
+    this.preview.removeAttribute("src");
     this.note.textContent = this.worth;
     this.note.dataset.is = this.collage.state?.certified ? "good" : "bad";
     this.dialog.showModal();

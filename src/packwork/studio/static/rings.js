@@ -70,7 +70,7 @@ function between(ring, from, to, far) {
  * @param {[number, number]} a
  * @param {[number, number]} b
  */
-function distance([x, y], [ax, ay], [bx, by]) {
+export function distance([x, y], [ax, ay], [bx, by]) {
   const [dx, dy] = [bx - ax, by - ay];
   const share = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
   return Math.hypot(x - ax - share * dx, y - ay - share * dy);

@@ -7,6 +7,7 @@ import { coloursOf } from "./colours.js";
 import { Cropping } from "./cropping.js";
 import { Snapping } from "./snapping.js";
 import { kindOf } from "./kinds.js";
+import { distance } from "./rings.js";
 
 /** @typedef {import("./collage.js").Collage} Collage */
 /** @typedef {import("./view.js").View} View */
@@ -21,6 +22,8 @@ const HALF = 5;
 const LONG = 6000;
 /** Opacity of the picture that a mosaic shows, under its items. */
 const FAINT = 0.3;
+/** How near a side of the frame is enough, and the reach of what is no finger, px. */
+const SIDE = 4, MOST_REACH = 10;
 /** Half a handle of the smallest items, px. */
 const LEAST_HALF = 2.5;
 /** Radius of a pin, px. */
@@ -553,7 +556,7 @@ export class Stage {
   }
 
   /**
-   * The handle at a point of the window.
+   * The handle at a point of the window; a side of the frame is one too, but for fingers.
    * @param {number} x
    * @param {number} y
    * @param {number} reach px
@@ -563,7 +566,11 @@ export class Stage {
     // Handles of what is small are all within reach of a finger on its middle, which drags it.
     const middle = [0, 1].map((axis) => frame.reduce((sum, at) => sum + at[axis] / frame.length, 0));
     const far = Math.min(reach, Math.hypot(middle[0] - x, middle[1] - y));
-    return this.handles().find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= far) ?? null;
+    const handles = this.handles();
+    const sides = reach > MOST_REACH || handles.length < 4 ? [] : handles.slice(0, 4);
+    const near = Math.min(SIDE, far / 4);
+    return handles.find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= far)
+      ?? sides.find(({ at }, k) => distance([x, y], at, handles[(k + 1) % 4].at) <= near) ?? null;
   }
 }
 
