@@ -23,10 +23,12 @@ from PIL import Image
 import packwork as pw
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError, ReadError, RecipeError, WriteError
+from packwork.live.commands.container import SetContainer
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import Document
 from packwork.live.file.session_file import read_session, unpacked
 from packwork.live.file.values import text_of
+from packwork.live.log import Log, read_entries
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 
@@ -514,3 +516,43 @@ def test_what_is_no_session_is_refused(data: Callable[[], bytes], said: str) -> 
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="nothing"):
         pw.Session.open(tmp_path / "nothing.packwork")
+
+
+def test_a_map_is_kept_once_however_large_it_is_and_however_many_sheets_it_was_on(
+    tmp_path: Path,
+) -> None:
+    file, begun = tmp_path / "a.packwork", icons().edit().document
+    stream, land = io.StringIO(), b'{"type": "FeatureCollection"}' + b" " * 21_000_000
+    session = pw.Session(begun, log=Log(stream))
+    for name, side in (("a", 500.0), ("b", 400.0)):
+        room = pw.Container(name, f"{name}.json", [(0, 0), (side, 0), (side, side)], file=land)
+        session.library.containers[name] = room
+        session.apply(SetContainer(asset=name))
+    session.save(file)
+    with zipfile.ZipFile(file) as archive:
+        assert sum(info.file_size for info in archive.infolist()) < 2 * len(land)
+    again = pw.Session.open(file)
+    assert again.layout.container.file == land
+    assert again.history.past[-1].container.file is again.layout.container.file
+    # The journal of the session, too.
+    session.log.flush()
+    assert len(stream.getvalue()) < 2 * len(land)
+    lines = iter(stream.getvalue().splitlines())
+    brought = [value for kind, value in read_entries(lines, "log") if kind == "container"]
+    assert [(name, room.file == land) for name, room in brought] == [("a", True), ("b", True)]
+
+
+def test_a_map_that_is_too_large_is_left_out_in_a_line(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = icons().edit()
+    room = pw.Container("land", "land.json", [(0, 0), (9, 0), (9, 9)], file=b"{}" * 500_001)
+    session.library.containers["land"] = room
+    session.apply(SetContainer(asset="land"))
+    session.save(tmp_path / "a.packwork")
+    monkeypatch.setattr("packwork.live.file.things.MAX_MAP_BYTES", 1_000_000)
+    with pytest.raises(ReadError, match="a map of more than 1 MB"):
+        pw.Session.open(tmp_path / "a.packwork")
+    session.save(tmp_path / "b.packwork")
+    assert "the map of land is not kept: it has more than 1 MB" in caplog.text
+    assert pw.Session.open(tmp_path / "b.packwork").layout.container.file is None

@@ -59,6 +59,7 @@ class Log:
         self._stream = stream
         self._last: Entry | None = None
         self._brought: set[str] = set()
+        self._shared: set[str] = set()
 
     def bring(self, names: Iterable[str], library: Library) -> None:
         """Add what the next command needs of a library, unless that was added before."""
@@ -87,23 +88,27 @@ class Log:
 
     def _write(self) -> None:
         if self._stream is not None and self._last is not None:
-            self._stream.write(line_of(self._last) + "\n")
+            self._stream.write(line_of(self._last, self._shared) + "\n")
         self._last = None
 
 
-def line_of(entry: Entry) -> str:
+def line_of(entry: Entry, shared: set[str]) -> str:
     """One entry as a line of JSON.
+
+    ``shared``: paths of fonts and maps that are in lines before, to which those of this are added.
 
     Examples
     --------
-    >>> line_of(("flow", (200, 12))), line_of(("undo", None))
+    >>> line_of(("flow", (200, 12)), set()), line_of(("undo", None), set())
     ('{"flow": [200, 12]}', '{"undo": null}')
     """
     kind, value = entry
     if kind == "do":
         value = value.model_dump(mode="json")
     elif kind in BROUGHT:
-        value = brought_record(*value).model_dump(mode="json", exclude_none=True)
+        value = brought_record(value[0], value[1], shared).model_dump(
+            mode="json", exclude_none=True
+        )
     return json.dumps({kind: value}, allow_nan=False)
 
 
@@ -116,17 +121,18 @@ def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
     [('flow', (200, 12))]
     """
     kept: str | None = None
+    shared: dict[str, str] = {}
     for number, line in enumerate(lines, start=1):
         if number > MOST_ENTRIES:
             raise ReadError(name, f"has more than {MOST_ENTRIES} lines")
         if kept is not None:
-            yield _entry(kept, number - 1, name)
+            yield _entry(kept, number - 1, name, shared)
         kept = line if line.strip() else None
     if kept is not None and kept.rstrip().endswith("}"):
-        yield _entry(kept, number, name)
+        yield _entry(kept, number, name, shared)
 
 
-def _entry(line: str, number: int, name: str) -> Entry:
+def _entry(line: str, number: int, name: str, shared: dict[str, str]) -> Entry:
     with reading_file(f"{name}: line {number}"):
         check_size(line.encode("utf-8", "surrogatepass"))
     try:
@@ -135,13 +141,13 @@ def _entry(line: str, number: int, name: str) -> Entry:
         found = None
     if isinstance(found, Mapping) and len(found) == 1:
         (kind, value), *_ = found.items()
-        entry = _checked(str(kind), value, name)
+        entry = _checked(str(kind), value, name, shared)
         if entry is not None:
             return entry
     raise ReadError(name, f"line {number} is no entry of a log: {line.strip()[:60]!r}")
 
 
-def _checked(kind: str, value: Any, name: str) -> Entry | None:
+def _checked(kind: str, value: Any, name: str, shared: dict[str, str]) -> Entry | None:
     if kind in {"settle", "broken_off", "undo", "redo", "kept"}:
         return kind, None
     if kind == "flow" and _is_flow(value):
@@ -156,7 +162,7 @@ def _checked(kind: str, value: Any, name: str) -> Entry | None:
         return kind, command
     if kind in BROUGHT:
         with reading_file(name):
-            return kind, brought_of(value, kind)
+            return kind, brought_of(value, kind, shared)
     return None
 
 
@@ -185,37 +191,45 @@ class Brought(Options):
     item: ItemRecord | None = None
     container: ContainerRecord | None = None
     fonts: dict[Key, str] = Field(default_factory=dict)
-    """Font files as base64, by the hash of their content."""
+    """Font files as base64, by the hash of their content, unless a line before has them."""
+    maps: dict[Key, str] = Field(default_factory=dict)
+    """The same of the file of a container."""
 
 
-def brought_record(name: str, thing: Item | Container) -> Brought:
-    """An item or a container as plain values."""
-    if isinstance(thing, Container):
-        return Brought(name=name, container=container_record(thing))
+def brought_record(name: str, thing: Item | Container, shared: set[str]) -> Brought:
+    """An item or a container as plain values; ``shared`` as of :func:`line_of`."""
     things = Things()
-    record = item_record(thing, things)
-    fonts = {
-        path.removeprefix("fonts/"): base64.b64encode(data).decode("ascii")
-        for path, data in things.encoded.items()
-    }
-    return Brought(name=name, item=record, fonts=fonts)
+    if isinstance(thing, Container):
+        made = Brought(name=name, container=container_record(thing, things))
+    else:
+        made = Brought(name=name, item=item_record(thing, things))
+    for path in things.encoded.keys() - shared:
+        kind, _, key = path.partition("/")
+        getattr(made, kind)[key] = base64.b64encode(things.encoded[path]).decode("ascii")
+    shared.update(things.encoded)
+    return made
 
 
-def brought_of(value: Any, kind: str) -> tuple[str, Item | Container]:
-    """The item or container of a line's value, and its name."""
+def brought_of(value: Any, kind: str, shared: dict[str, str]) -> tuple[str, Item | Container]:
+    """The item or container of a line's value, and its name.
+
+    ``shared``: fonts and maps of lines before by their paths, to which those of this are added.
+    """
     try:
         found = Brought.model_validate(value, strict=False)
     except ValidationError as error:
         raise UnfitError(f"holds what cannot be read: {refusal(error, Brought)}") from None
-    shared = Shared(lambda key: _font(found, key))
+    shared.update({f"fonts/{key}": text for key, text in found.fonts.items()})
+    shared.update({f"maps/{key}": text for key, text in found.maps.items()})
+    read = Shared(lambda path: _bytes(shared, path))
     if kind == "container" and found.container is not None:
-        return found.name, container_of(found.container, shared)
+        return found.name, container_of(found.container, read)
     if kind == "item" and found.item is not None:
-        return found.name, item_of(found.item, shared)
+        return found.name, item_of(found.item, read)
     raise UnfitError(f"holds a line of kind {kind} without one")
 
 
-def _font(found: Brought, key: str) -> bytes:
-    if key not in found.fonts:
-        raise UnfitError("lacks a font of a word")
-    return bytes_of(found.fonts[key])
+def _bytes(shared: dict[str, str], path: str) -> bytes:
+    if path not in shared:
+        raise UnfitError(f"lacks {path}")
+    return bytes_of(shared[path])

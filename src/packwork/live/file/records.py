@@ -254,11 +254,6 @@ class BackdropRecord(Options):
     matrix: Matrix
 
 
-MOST_FILE = 20_000_000
-"""Bytes of a container's map or drawing that is kept; of larger ones parts have no names later.
-Chosen: as of an SVG."""
-
-
 class ContainerRecord(Options):
     """The region to fill."""
 
@@ -271,5 +266,5 @@ class ContainerRecord(Options):
     backdrop: BackdropRecord | None = None
     walls: Annotated[tuple[Numbers, ...], Field(max_length=MOST_LINES)] | None = None
     repeats: Repeat | None = None
-    file: Annotated[str, Field(max_length=MOST_FILE)] | None = None
-    """The map or drawing that names its parts, a letter for each byte."""
+    file: Key | None = None
+    """Hash of the map or drawing that names its parts."""

@@ -1,18 +1,18 @@
-"""Items and containers between memory and files, and the fonts and records that they share."""
+"""Items and containers between memory and files, and the fonts and maps that they share."""
 
 from __future__ import annotations
 
 import hashlib
+import logging
 from collections.abc import Callable
 from dataclasses import fields
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from packwork.geometry.outline import Outline
 from packwork.live.file.records import (
-    MOST_FILE,
     BackdropRecord,
     ContainerRecord,
     DatumRecord,
@@ -40,24 +40,28 @@ from packwork.live.file.values import (
 from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
 from packwork.readers.fonts.face import checked_face
 from packwork.readers.json_text import check_size
+from packwork.readers.maps import MAX_MAP_BYTES
 from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal
 from packwork.scene.container import Backdrop, Container, repeating
 from packwork.scene.item import Datum, FontFile, Item, Label, LiveText, Parts, TextRun
 from packwork.scene.pose import Poses
 
+_LOG = logging.getLogger("packwork")
+
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
 class Shared:
-    """Fonts and outlines of a file, each checked and made once, so that items share them.
+    """Fonts, maps and outlines of a file, each made once, so that items and containers share them.
 
-    ``read``: a font's bytes by the hash of its content.
+    ``read``: bytes by their path in a file, such as ``fonts/<hash>``.
     """
 
     def __init__(self, read: Callable[[str], bytes]) -> None:
         self._read = read
         self._fonts: dict[tuple[str, str, int, float | None], FontFile] = {}
+        self._maps: dict[str, bytes] = {}
         self._outlines: dict[OutlineRecord, Outline] = {}
         self._allowance = Allowance(MAX_CROSSINGS)
 
@@ -67,18 +71,27 @@ class Shared:
             self._outlines[record] = outline_of(record, self._allowance)
         return self._outlines[record]
 
+    def map(self, key: str) -> bytes:
+        """The map of a hash, which is checked where its parts are looked up."""
+        if key not in self._maps:
+            data = self._read(f"maps/{key}")
+            if len(data) > MAX_MAP_BYTES:
+                raise UnfitError(f"holds a map of more than {MAX_MAP_BYTES // 1_000_000} MB")
+            self._maps[key] = data
+        return self._maps[key]
+
     def font(self, run: RunRecord) -> FontFile:
         """The font of a run."""
         key = (run.font, run.font_name, run.index, run.weight)
         if key not in self._fonts:
-            data = self._read(run.font)
+            data = self._read(f"fonts/{run.font}")
             checked_face(data, run.index)
             self._fonts[key] = FontFile(data, run.font_name, run.index, run.weight)
         return self._fonts[key]
 
 
 class Things:
-    """Encoded items, containers and fonts by the hash of their content, each made once.
+    """Encoded items, containers, fonts and maps by the hash of their content, each made once.
 
     Items are known by being the same object, so they are kept for as long as this is.
     """
@@ -86,6 +99,9 @@ class Things:
     def __init__(self) -> None:
         self.encoded: dict[str, bytes] = {}
         """By their path in a file, such as ``items/<hash>.json``."""
+        self.needs: dict[str, frozenset[str]] = {}
+        """Paths of fonts and maps by that of the item or container that has them."""
+        self._needed: set[str] = set()
         self._keys: dict[object, str] = {}
 
     def item(self, item: Item) -> str:
@@ -94,20 +110,23 @@ class Things:
 
     def container(self, container: Container) -> str:
         """Path of a container."""
-        return self._put("containers", container, lambda: container_record(container))
+        return self._put("containers", container, lambda: container_record(container, self))
 
-    def font(self, font: FontFile) -> str:
-        """Hash of a font's content."""
-        key = hashlib.sha256(font.data).hexdigest()
-        self.encoded.setdefault(f"fonts/{key}", font.data)
+    def shared(self, kind: Literal["fonts", "maps"], data: bytes) -> str:
+        """Hash of the content of a font or a map, which is kept once."""
+        key = hashlib.sha256(data).hexdigest()
+        self.encoded.setdefault(f"{kind}/{key}", data)
+        self._needed.add(f"{kind}/{key}")
         return key
 
     def _put(self, kind: str, thing: object, record: Callable[[], BaseModel]) -> str:
         path = self._keys.get(thing)
         if path is None:
+            self._needed.clear()
             data = record().model_dump_json(exclude_none=True).encode()
             path = f"{kind}/{hashlib.sha256(data).hexdigest()}.json"
             self.encoded.setdefault(path, data)
+            self.needs[path] = frozenset(self._needed)
             self._keys[thing] = path
         return path
 
@@ -173,9 +192,13 @@ def _parts_of(records: tuple[PartRecord, ...], shared: Shared) -> Parts:
     return Parts(items, poses, np.array([one.weight for one in records]))
 
 
-def container_record(container: Container) -> ContainerRecord:
-    """A container as plain values."""
+def container_record(container: Container, things: Things) -> ContainerRecord:
+    """A container as plain values; its map or drawing goes to ``things``."""
     behind, walls, file = container.backdrop, container.walls, container.file or b""
+    if len(file) > MAX_MAP_BYTES:
+        most = MAX_MAP_BYTES // 1_000_000
+        _LOG.warning("the map of %s is not kept: it has more than %d MB", container.name, most)
+        file = b""
     backdrop = None
     if behind is not None:
         across = float(np.hypot(*behind.matrix[:, 0]))
@@ -191,7 +214,7 @@ def container_record(container: Container) -> ContainerRecord:
         backdrop=backdrop,
         walls=None if walls is None else tuple(text_of(wall) for wall in walls),
         repeats=None if container.lattice is None else container.lattice.kind,
-        file=file.decode("latin-1") if 0 < len(file) <= MOST_FILE else None,
+        file=things.shared("maps", file) if file else None,
     )
 
 
@@ -207,7 +230,7 @@ def container_of(record: ContainerRecord, shared: Shared) -> Container:
         record.unit,
         None if behind is None else Backdrop(photo_of(behind.art), matrix_of(behind.matrix)),
         None if walls is None else tuple(points_of(wall) for wall in walls),
-        file=None if record.file is None else record.file.encode("latin-1", "replace"),
+        file=None if record.file is None else shared.map(record.file),
     )
     return made if record.repeats is None else repeating(made, record.repeats)
 
@@ -224,7 +247,7 @@ def decoded(model: type[_Model], data: bytes) -> _Model:
 def _word_record(text: LiveText, things: Things) -> WordRecord:
     runs = [
         RunRecord(
-            text=run.text, font=things.font(run.font), font_name=run.font.name,
+            text=run.text, font=things.shared("fonts", run.font.data), font_name=run.font.name,
             index=run.font.index, weight=run.font.weight, x=run.x, y=run.y, size=run.size,
             steps=run.steps, advance=run.advance, is_leftward=run.is_leftward, angle=run.angle,
         )
