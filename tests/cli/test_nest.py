@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -245,6 +246,42 @@ def test_optional_parts_fill_what_the_others_leave(shop: Path, packwork: Command
     assert names.count("bracket") == 3
     assert 1 <= names.count("disc") < 30
     assert said["optional_left"] == [{"part": "disc", "count": 30 - names.count("disc")}]
+
+
+def test_optional_parts_lie_beside_the_others_so_that_the_rest_is_one_piece(
+    shop: Path, packwork: Command
+) -> None:
+    line = "nest 600x90mm bracket.svg*4 --optional disc.svg*6 --passes 200"
+    assert packwork(f"{line} -o a.geojson --report a.json").exit_code == 0
+    layout = pw.Layout.load(shop / "a.geojson")
+    names = [placed.name for placed in layout]
+    assert names.count("disc") == 6
+    ends = {name: max(outline.bounds[2] for outline, own in
+                      zip(layout.outlines, names, strict=True) if own == name)
+            for name in set(names)}  # fmt: skip
+    # Two columns of three discs.
+    assert ends["disc"] < ends["bracket"] + 65.0
+
+
+def test_lengths_of_lines_and_what_is_left_over_are_told(shop: Path, packwork: Command) -> None:
+    ring = shop / "ring.svg"
+    ring.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="40mm" height="40mm" viewBox="0 0 40 40">'
+        '<g fill="none" stroke="#000" stroke-width="0.1"><circle cx="20" cy="20" r="15"/>'
+        '<circle cx="20" cy="20" r="5"/><g id="engrave"><path d="M12 20h2"/></g></g></svg>',
+        encoding="utf-8",
+    )
+    result = packwork("nest 100x40mm*1 ring.svg*4 --passes 20 -o a.pdf --report a.json")
+    said = json.loads((shop / "a.json").read_text(encoding="utf-8"))
+    assert said["parts"] == 3
+    assert said["cut_length"] == pytest.approx(3 * 2 * math.pi * 20, rel=1e-6)
+    assert said["engraved_length"] == pytest.approx(6.0)
+    assert said["unplaced_area"] == pytest.approx(math.pi * 200, rel=1e-4)
+    assert said["sheets"][0]["rest_area"] == pytest.approx(40 * (100 - said["length"]))
+    told = " ".join(result.output.split())
+    rest = f"{100 - said['length']:.6g} x 40 mm"
+    assert f"to cut: 377.0 mm; to engrave: 6.0 mm; left over: {rest}" in told
+    assert "no room for ring*1, 628.3 mm² in all" in told
 
 
 def test_files_of_an_earlier_nest_are_kept_and_named(shop: Path, packwork: Command) -> None:

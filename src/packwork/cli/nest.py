@@ -159,6 +159,7 @@ def nest(
             WATCH.finish()
         certified = found.certified and not faults
         console.print(_summary(found, sheets[0], certified))
+        console.print(_lines(found, sheets[0]))
         tell_advice(found.advice if certified else (), console)
         console.print("wrote " + ", ".join(map(str, written)))
         if older := [str(one) for path in files for one in _numbered(path) if one not in written]:
@@ -173,7 +174,8 @@ def nest(
             console.print(f"optional, left out: {left}")
         if found.unplaced:
             missing = ", ".join(f"{item.name}*{many}" for item, many in found.unplaced)
-            say(f"no room for {missing}; give more sheets, larger ones or more time")
+            area = f"{found.unplaced_area:,.1f} {sheets[0].unit}²"
+            say(f"no room for {missing}, {area} in all; give more sheets, larger ones or more time")
     raise typer.Exit(SHORTFALL if found.unplaced or not certified else 0)
 
 
@@ -274,3 +276,11 @@ def _summary(found: NestedSheets, sheet: Sheet, certified: bool) -> str:
     count = number_of(sum(len(one.layout.items) for one in found.sheets), "part")
     said = "certified" if certified else "not certified"
     return f"{count} on {where}, {found.density:.1%} covered; {said}"
+
+
+def _lines(found: NestedSheets, sheet: Sheet) -> str:
+    """Lengths of lines, for the machine's time, and what is left of the last sheet."""
+    cut, engraved = (f"{length:,.1f} {sheet.unit}" for length in found.line_lengths)
+    said = f"to cut: {cut}" + (f"; to engrave: {engraved}" if found.line_lengths[1] else "")
+    rest = "" if sheet.is_strip or not found.sheets else found.sheets[-1].rest
+    return f"{said}; left over: {rest}" if rest else said

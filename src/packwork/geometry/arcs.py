@@ -63,6 +63,13 @@ class ArcLine:
         """Number of sides."""
         return len(self.points) - (0 if self.is_closed else 1)
 
+    @property
+    def length(self) -> float:
+        """Length along all sides, in the unit of the points."""
+        chords = np.hypot(*(self.ends - self.points[: self.sides]).T)
+        half = 2.0 * np.arctan(np.abs(self.bulges[: self.sides]))
+        return float((chords / np.sinc(half / math.pi)).sum())
+
     def mapped(self, matrix: FloatArray, tolerance: float) -> Self:
         """Image under an affine map (2 x 3) to any unit, which may mirror.
 

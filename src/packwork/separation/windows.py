@@ -324,7 +324,7 @@ class _Laying:
             chosen = used[first : first + WINDOW]
             window, queue = queue[:MOST_IN_WINDOW], queue[MOST_IN_WINDOW:]
             bound = work.part(WINDOW / (len(used) - first) if len(used) - first > WINDOW else 1.0)
-            found, left = self._search(window, chosen, bound, shrinks=False)
+            found, left = self._search(window, chosen, bound)
             work.add(bound)
             for one in found:
                 self._keep(one)

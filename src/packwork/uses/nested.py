@@ -28,7 +28,7 @@ from packwork.scene.mapped import mirrored
 from packwork.scene.pose import Poses
 from packwork.separation.shapes import Floats
 from packwork.units import Unit
-from packwork.writers.placements import turned_over
+from packwork.writers.placements import line_lengths, turned_over
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,12 +127,31 @@ class NestedSheet:
     certified: bool
 
     @property
-    def density(self) -> float:
-        """Area of its parts over that of the sheet left of its used length."""
+    def used_area(self) -> float:
+        """Area of the sheet left of its used length."""
         outline = self.layout.container.outline.region
         x0, y0, _, y1 = outline.bounds
-        used = intersection(outline, box(x0, y0, self.length, y1)).area
-        return float(self.layout.areas.sum() / used)
+        return float(intersection(outline, box(x0, y0, self.length, y1)).area)
+
+    @property
+    def rest_area(self) -> float:
+        """Area of the sheet right of its used length."""
+        return max(float(self.layout.container.outline.region.area) - self.used_area, 0.0)
+
+    @property
+    def rest(self) -> str:
+        """Size of a rectangle, or area, of the sheet right of its used length; empty for none."""
+        ground = self.layout.container
+        if not self.rest_area:
+            return ""
+        if ground.outline.region.equals(box(0.0, 0.0, ground.width, ground.height)):
+            return f"{ground.width - self.length:.6g} x {ground.height:.6g} {ground.unit}"
+        return f"{self.rest_area:,.1f} {ground.unit}²"
+
+    @property
+    def density(self) -> float:
+        """Area of its parts over that of the sheet left of its used length."""
+        return float(self.layout.areas.sum() / self.used_area)
 
 
 @dataclass(frozen=True)
@@ -140,13 +159,14 @@ class NestedSheets:
     """All sheets that are used, in their order.
 
     ``unplaced``: parts that found no room, and how many of each; ``left``: optional ones;
-    ``advice``: sentences on what may do better.
+    ``unplaced_area``: area of the former; ``advice``: sentences on what may do better.
     """
 
     sheets: tuple[NestedSheet, ...]
     unplaced: tuple[tuple[Item, int], ...]
     left: tuple[tuple[Item, int], ...]
     about: dict[str, Any]
+    unplaced_area: float = 0.0
     advice: tuple[str, ...] = ()
 
     @property
@@ -157,9 +177,14 @@ class NestedSheets:
     @property
     def density(self) -> float:
         """Area of all parts over that of the sheets that they take, the last one as far as used."""
-        areas = [float(one.layout.areas.sum()) for one in self.sheets]
-        used = sum(area / one.density for area, one in zip(areas, self.sheets, strict=True))
-        return sum(areas) / used if used else 0.0
+        used = sum(one.used_area for one in self.sheets)
+        return sum(float(one.layout.areas.sum()) for one in self.sheets) / used if used else 0.0
+
+    @cached_property
+    def line_lengths(self) -> tuple[float, float]:
+        """Lengths of all lines that are cut and of those that are engraved, in the sheets' unit."""
+        every = [line_lengths(one.layout) for one in self.sheets]
+        return sum(cut for cut, _ in every), sum(engraved for _, engraved in every)
 
     @property
     def certified(self) -> bool:
@@ -175,12 +200,13 @@ class NestedSheets:
         """Plain numbers and texts for a report file."""
         sheets = [
             {"length": one.length, "density": one.density, "parts": len(one.layout.items),
-             "metrics": one.metrics.as_dict()}
+             "rest_area": one.rest_area, "metrics": one.metrics.as_dict()}
             for one in self.sheets
         ]  # fmt: skip
         return {
             **self.about, "parts": sum(one["parts"] for one in sheets), "length": self.length,
-            "density": self.density, "sheets": sheets,
+            "density": self.density, "sheets": sheets, "cut_length": self.line_lengths[0],
+            "engraved_length": self.line_lengths[1], "unplaced_area": self.unplaced_area,
             "unplaced": [{"part": item.name, "count": count} for item, count in self.unplaced],
             "optional_left": [{"part": item.name, "count": count} for item, count in self.left],
             "faults": list(self.faults), "certified": self.certified, "advice": list(self.advice),

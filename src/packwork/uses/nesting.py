@@ -149,9 +149,11 @@ def nest(
         tuple((parts[n].item, missing[n]) for n in sorted(missing) if parts[n].is_optional is left)
         for left in (False, True)
     )
+    areas = [one.item.outline.region.area * one.scale**2 for one in parts]
+    lacking = sum(areas[n] * count for n, count in missing.items() if not parts[n].is_optional)
     is_free = not unplaced and all(sheet.held is None for sheet in sheets)
     advice = advice_on_sheets(found, gap, work) if is_free else ()
-    return NestedSheets(tuple(found), unplaced, optional, about, advice)
+    return NestedSheets(tuple(found), unplaced, optional, about, lacking, advice)
 
 
 def _lay_at_once(

@@ -21,7 +21,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.notation import sound_text
 from packwork.scene.pose import Poses
 from packwork.writers.pdf import drawing_text
-from packwork.writers.placements import placements_bytes, turned_over
+from packwork.writers.placements import line_lengths, placements_bytes, turned_over
 from packwork.writers.svg import NAME_LENGTH, SvgOptions
 
 _PAGE = """\
@@ -104,6 +104,9 @@ def _list(sheets: Sequence[Layout]) -> bytes:
     about = f"{number_of(count, 'part')} on {number_of(len(sheets), 'sheet')}"
     if len({(one.container.width, one.container.height) for one in sheets}) == 1:
         about += f" of {container.width:.6g} x {container.height:.6g} {container.unit}"
+    lengths = [sum(ones) for ones in zip(*map(line_lengths, sheets), strict=True)]
+    for doing, length in zip(("cut", "engrave"), lengths, strict=True):
+        about += f"; to {doing}: {length:,.1f} {container.unit}" if length else ""
     told = {
         "title": "Parts",
         "about": about,

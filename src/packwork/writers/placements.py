@@ -7,8 +7,13 @@ import io
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+import shapely
+
 from packwork.geometry import affine
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.line_art import LineArt
 from packwork.scene.notation import decimals, number, sound_text
 from packwork.writers.svg import NAME_LENGTH, PRECISION
 
@@ -60,6 +65,31 @@ def turned_over(layout: Layout) -> frozenset[int]:
     return frozenset(one for one in found if isinstance(one, int)) if (
         isinstance(found, list | tuple)
     ) else frozenset()  # fmt: skip
+
+
+def line_lengths(layout: Layout) -> tuple[float, float]:
+    """Lengths of what a machine cuts of the parts of a nest and of what it engraves, canvas units.
+
+    Examples
+    --------
+    >>> from packwork.scene.layout import blank
+    >>> line_lengths(blank())
+    (0.0, 0.0)
+    """
+    of_item = {item: _own_lengths(item) for item in layout.items}
+    lengths = np.array([of_item[item] for item in layout.items]).reshape(-1, 2)
+    cut, engraved = layout.poses.axis_scales.max(axis=1) @ lengths
+    return float(cut), float(engraved)
+
+
+def _own_lengths(item: Item) -> tuple[float, float]:
+    if isinstance(item.art, LineArt) and item.art.cut:
+        scale = math.sqrt(abs(float(np.linalg.det(item.art.matrix[:, :2]))))
+        cut, engraved = (
+            scale * sum(one.length for one in lines) for lines in (item.art.cut, item.art.engraved)
+        )
+        return cut, engraved
+    return float(shapely.length(item.ink.region)), 0.0
 
 
 def _rows(layout: Layout) -> Iterator[list[str]]:
