@@ -104,8 +104,10 @@ def convert(value: float, unit: str, to: str) -> float:
     return value if unit == to else value * PER_INCH[to] / PER_INCH[unit]
 
 
-def parse_length(text: str, unit: str, whole: float) -> float:
+def parse_length(text: str, unit: str, whole: float, word: str | None = None) -> float:
     """Length in a unit, from ``2`` (that unit), ``2pt``, ``1mm`` or ``5%`` (of the whole).
+
+    ``word`` is what else may be said, which a refusal names.
 
     Examples
     --------
@@ -122,13 +124,16 @@ def parse_length(text: str, unit: str, whole: float) -> float:
     else:
         length = math.nan
     if not length >= 0:
-        raise ValueError(f"use a length such as 4, 1mm, 3pt, 0.1in or 1%, not {text[:40]!r}")
+        also = "" if word is None else f"{word} or "
+        raise ValueError(f"use {also}a length such as 4, 1mm, 3pt, 0.1in or 1%, not {text[:40]!r}")
     if not is_length(text):
         raise ValueError(f"use a length of {SHORTEST:g} to {LONGEST:g}, or 0, not {text[:40]!r}")
     return length
 
 
-def length_asked(key: str, value: str | float, unit: str, whole: float) -> float:
+def length_asked(
+    key: str, value: str | float, unit: str, whole: float, word: str | None = None
+) -> float:
     """Length in a unit; a ``RecipeError`` about ``key`` if it is none.
 
     Examples
@@ -137,7 +142,7 @@ def length_asked(key: str, value: str | float, unit: str, whole: float) -> float
     1.0
     """
     try:
-        return parse_length(str(value), unit, whole)
+        return parse_length(str(value), unit, whole, word)
     except ValueError as error:
         raise RecipeError(key, str(error)) from None
 

@@ -144,3 +144,19 @@ def test_an_earlier_layout_keeps_its_gaps(one_colour: Path, tmp_path: Path) -> N
     pw.fill("circle", str(one_colour), padding="0", **asked).save(earlier)
     later = pw.fill("circle", str(one_colour), start=str(earlier), stay=True, **asked)
     assert later.metrics["exact"]["min_gap"] < 1
+
+
+def test_auto_is_what_suits_what_is_placed(one_colour: Path) -> None:
+    side = ROOM.side
+    words = words_recipe("square", WORDS)
+    assert words.padding_cu(ROOM) == words_recipe("square", WORDS, padding="auto").padding_cu(ROOM)
+    assert words.padding_cu(ROOM) == pytest.approx(0.003 * side)
+    assert words_recipe("square", WORDS, padding="0").padding_cu(ROOM) == 0
+    asked = {"count": 4, "effort": "draft", "levels": "50", "padding": "0"}
+    lines, icons = pw.fill("circle", str(one_colour), **asked), pw.fill("circle", "icons", **asked)
+    for layout, is_wide in ((lines, True), (icons, False)):
+        with layout.edit() as session:
+            session.set(padding="auto")
+            assert (session.document.options.padding > 1) == is_wide
+    with pytest.raises(RecipeError, match="use auto or a length such as"):
+        make_recipe(container="circle", padding="wide")

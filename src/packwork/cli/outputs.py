@@ -13,8 +13,8 @@ from packwork.cli.options import Choosing, part_of
 from packwork.cli.terminal import say
 from packwork.errors import RecipeError, WriteError
 from packwork.readers.layouts.read import SESSION, is_session
-from packwork.recipe import Recipe
-from packwork.recipe.verbs import VERBS, default_of, film_options, options_of
+from packwork.recipe import AUTO, Recipe
+from packwork.recipe.verbs import film_options
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
@@ -158,14 +158,6 @@ def check_choosing(choosing: Choosing) -> None:
     check_metric(choosing.best_by)
 
 
-UNASKED = frozenset(
-    default_of(verb, option)
-    for verb in VERBS
-    for option in options_of(verb)
-    if option.name == "padding"
-)
-"""Paddings that commands have by themselves."""
-
 HAIR = 1.001
 """Factor on twice the distance: lines that are cut do not touch. Smaller is lost in rounding."""
 
@@ -173,7 +165,7 @@ HAIR = 1.001
 def with_room(recipe: Recipe, kiss: str | None) -> Recipe:
     """Recipe whose padding lets lines at a distance lie between items, if none was asked for."""
     number, unit = split_length(kiss or "") or (0.0, "")
-    if number <= 0 or str(recipe.padding) not in UNASKED:
+    if number <= 0 or recipe.padding != AUTO:
         return recipe
     padding = f"{2 * number * HAIR:.12g}{unit}"
     say(f"padding is {padding}, twice the --kiss-cut, so that no two cut lines meet")
@@ -190,7 +182,7 @@ def check_room(job: pipeline.Job, kiss: str | None) -> None:
         raise RecipeError(
             "kiss_cut",
             f"{kiss} on either side needs a --padding of {2 * HAIR * offset:.6g} {container.unit} "
-            f"or more, not {job.recipe.padding}",
+            f"or more, not {job.recipe.padding}; without one it becomes so wide",
         )
 
 

@@ -161,7 +161,7 @@ def length_of(key: str, *, may_be_zero: bool = False, word: str | None = None) -
     """Validator of a length, or None, or a word."""
 
     def check(value: str | float | None) -> str | float | None:
-        if value in {None, word} or length_asked(key, value, "px", 1.0) > 0 or may_be_zero:
+        if value in {None, word} or length_asked(key, value, "px", 1.0, word) > 0 or may_be_zero:
             return value
         raise RecipeError(key, f"must be more than nothing, not {value}")
 

@@ -21,6 +21,23 @@ from packwork.units import parse_length
 AUTO = "auto"
 """Word for what the run finds."""
 
+WORDS_APART, MARKS_APART = "0.3%", "0.2%"
+"""Usual gaps between words and between marks of charts. Larger cover less. By eye."""
+
+
+def usual_padding(asked: Mapping[str, Any]) -> str:
+    """Gap of a recipe that asks for none, by what it places; a heap's items touch.
+
+    Examples
+    --------
+    >>> usual_padding({"words": {"source": "poem.txt"}}), usual_padding({"items": ["star"]})
+    ('0.3%', '0')
+    """
+    if asked.get("pile"):
+        return "0"
+    return WORDS_APART if asked.get("words") else MARKS_APART if asked.get("chart") else "0"
+
+
 MAX_COUNT = 100_000
 """Most items in one run; more would not be seen on any sheet. Chosen."""
 

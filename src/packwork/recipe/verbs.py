@@ -50,12 +50,11 @@ COMMON = (
 VERBS: Mapping[Verbs, Verb] = MappingProxyType(
     {
         Verbs.FILL: Verb(common=("sizes", "force", "weights")),
-        # Proportions of weights are kept, and words stand far enough apart to be read one by
-        # one; less fills more. Chosen by eye.
+        # Proportions of weights are kept.
         Verbs.WORDS: Verb(
             part=WordOptions,
             common=("fonts", "color_by", "language"),
-            defaults={"sizes": "auto", "rotate": "horizontal", "padding": "0.3%"},
+            defaults={"sizes": "auto", "rotate": "horizontal"},
         ),
         # Photos lie as if strewn on a table, and none is upside down.
         Verbs.PHOTOS: Verb(
@@ -63,11 +62,11 @@ VERBS: Mapping[Verbs, Verb] = MappingProxyType(
             common=("shape", "border", "edge", "dpi"),
             defaults={"rotate": "15"},
         ),
-        # Sizes say numbers, marks stand upright and just apart. Chosen by eye.
+        # Sizes say numbers, and marks stand upright.
         Verbs.CHART: Verb(
             part=ChartOptions,
             common=("size_by", "color_by", "label_by", "mark", "unit", "by", "title"),
-            defaults={"sizes": "shared", "rotate": "none", "padding": "0.2%"},
+            defaults={"sizes": "shared", "rotate": "none"},
         ),
         Verbs.PILE: Verb(
             part=PileOptions,
@@ -143,9 +142,9 @@ def default_of(verb: Verbs, option: Offered) -> Any:
 
     Examples
     --------
-    >>> (padding,) = (o for o in options_of(Verbs.WORDS) if o.name == "padding")
-    >>> default_of(Verbs.WORDS, padding), default_of(Verbs.FILL, padding)
-    ('0.3%', 'auto')
+    >>> (sizes,) = (o for o in options_of(Verbs.WORDS) if o.name == "sizes")
+    >>> default_of(Verbs.WORDS, sizes), default_of(Verbs.FILL, sizes)
+    ('auto', 'free')
     """
     return VERBS[verb].defaults.get(option.name, option.default)
 

@@ -6,15 +6,14 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-from packwork.options import Verbs
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job
 from packwork.pipeline.state import RunContext, RunState, RunStep
-from packwork.recipe.verbs import VERBS
+from packwork.recipe import AUTO
 
 
-def close_gap(job: Job, verb: Verbs, share: float, each: float | None = None) -> float:
-    """Gap, canvas units, no wider than suits so many items, if a verb's usual one was asked for.
+def close_gap(job: Job, share: float, each: float | None = None) -> float:
+    """Gap, canvas units, no wider than suits so many items, if none was asked for.
 
     The usual one is a share of the canvas: thousands of items would be specks between gaps.
 
@@ -25,7 +24,7 @@ def close_gap(job: Job, verb: Verbs, share: float, each: float | None = None) ->
     each
         That share, canvas units squared, where items do not share the whole.
     """
-    if job.recipe.padding != VERBS[verb].defaults["padding"]:
+    if job.recipe.padding != AUTO:
         return job.plan.gap
     if each is None:
         each = job.container.outline.area / len(job.items)

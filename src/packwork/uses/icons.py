@@ -158,9 +158,7 @@ class IconsUse(Use):
         """Places, levels, finish; voids if asked; measures and looks."""
         if not runs_together(job):
             return self._listed(job)
-        region = job.container.outline.region
-        width = 2.0 * region.area / region.length
-        gap = ONE_COLOUR_GAP * min(math.sqrt(region.area / len(job.items)), width)
+        gap = one_colour_gap(job.container, len(job.items))
         return [Replan(gap=gap), *self._listed(job.replanned(gap=gap)), RemarkApart()]
 
     def _listed(self, job: Job) -> list[RunStep]:
@@ -179,6 +177,13 @@ class IconsUse(Use):
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
         return reporting(job, is_dressed=False)
+
+
+def one_colour_gap(container: Container, count: int) -> float:
+    """Gap, canvas units, by which drawings of one colour are told apart."""
+    region = container.outline.region
+    width = 2.0 * region.area / region.length
+    return ONE_COLOUR_GAP * min(math.sqrt(region.area / count), float(width))
 
 
 def runs_together(job: Job) -> bool:

@@ -9,7 +9,6 @@ from typing import Any, final
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.polygon import polygon_parts
-from packwork.options import Verbs
 from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
@@ -63,7 +62,7 @@ class ChartUse(Use):
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """As icons, or groups one after another; discs closer together where there are so many."""
-        gap = close_gap(job, Verbs.CHART, CLOSE, self.chart.least_share)
+        gap = close_gap(job, CLOSE, self.chart.least_share)
         jams = jams_discs(job) and not self.chart.has_bars
         if len(job.items) > MOST_MARKS and not jams:
             raise RecipeError(

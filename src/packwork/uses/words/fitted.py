@@ -12,13 +12,12 @@ import numpy as np
 from packwork.compaction.options import HAIR
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
-from packwork.options import Verbs
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding, padded
 from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps
 from packwork.progress import Step, until_over
 from packwork.readers.words.items import EM_PX
-from packwork.recipe.verbs import VERBS
+from packwork.recipe import AUTO
 from packwork.scene.item import bulge_between
 from packwork.scene.pose import Poses
 from packwork.solve.solver import Ending
@@ -54,7 +53,7 @@ def least_gap(job: Job) -> float:
 
     Unless a gap was asked for: the usual one is far more than small letters need.
     """
-    if job.recipe.padding != VERBS[Verbs.WORDS].defaults["padding"]:
+    if job.recipe.padding != AUTO:
         return job.plan.gap
     scales = np.sqrt(job.weights / [item.outline.area for item in job.items])
     covered = COVERED * job.container.outline.area

@@ -10,7 +10,6 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
-from packwork.options import Verbs
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.findings import Sentence, Unplaced, WordsFound
 from packwork.pipeline.job import Job, Use
@@ -297,7 +296,7 @@ class WordsUse(Use):
 
 def _closer(job: Job, listed: Callable[[Job], list[RunStep]]) -> list[RunStep]:
     """Steps of a cloud, closer together where there are so many words."""
-    gap = close_gap(job, Verbs.WORDS, CLOSE)
+    gap = close_gap(job, CLOSE)
     if gap >= job.plan.gap:
         return listed(job)
     return [Replan(gap=gap), *listed(job.replanned(gap=gap)), RemarkGap("words")]
