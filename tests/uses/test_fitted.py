@@ -10,7 +10,7 @@ from packwork.geometry.outline import Outline
 from packwork.readers.words.items import EM_PX
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.uses.words.fitted import BESIDE
+from packwork.uses.words.fitted import BESIDE, FEW_BETWEEN, OF_ONE_COLOUR
 from packwork.uses.words.grown import barred
 
 NAMES = ("harbour", "tide", "gull", "mast", "rope", "oar", "in", "of")
@@ -46,6 +46,22 @@ def test_words_of_a_line_stand_apart_whatever_their_size(wide: pw.Layout) -> Non
     np.testing.assert_allclose(sizes, list(WORDS.values()), rtol=1e-6)
     # Where room is asked for there is less for the words.
     assert layout.poses.scale[0] > wide.poses.scale[0]
+
+
+def test_words_of_one_colour_stand_further_apart() -> None:
+    layout = pw.words("circle", WORDS, sizes="shared", palette="black", effort="draft")
+    assert layout.manifest["certified"]
+    assert _gaps(layout).min() > 0.9 * OF_ONE_COLOUR * BESIDE
+
+
+def test_few_words_do_not_run_together() -> None:
+    names = dict.fromkeys(NAMES, 1.0)
+    asked = {"sizes": "shared", "effort": "draft"}
+    apart, near = (pw.words("circle", names, **asked, **more) for more in ({}, {"padding": "0.3%"}))
+    em = EM_PX * float(apart.poses.scale.min())
+    assert apart.manifest["certified"]
+    assert apart.metrics["exact"]["min_gap"] > 0.7 * FEW_BETWEEN * em
+    assert near.metrics["exact"]["min_gap"] < 0.5 * FEW_BETWEEN * em
 
 
 def test_a_padding_that_is_asked_for_is_kept(wide: pw.Layout) -> None:

@@ -29,9 +29,9 @@ from packwork.writers.svg_symbols import shape_key
 PAPER = "#ffffff"
 """What a clear background is taken for."""
 
-ALIKE = 0.1
+ALIKE = 0.115
 """Difference of two colours (Oklab) below which one is hardly seen on the other. Larger blames
-pale yellow on white, smaller passes a grey ghost. By eye, of 100 emoji."""
+pale yellow on white, smaller passes a grey ghost, and navy lines on black. By eye, of emoji."""
 
 FLARE = 0.02
 """Light of the room on the screen, of its white's: by it near blacks are alike, which Oklab alone

@@ -42,7 +42,14 @@ from packwork.uses.words.copies import (
     words_needed,
     words_of,
 )
-from packwork.uses.words.fitted import BESIDE, FitWords, StackWords, goes_by_letters, least_gap
+from packwork.uses.words.fitted import (
+    FitWords,
+    StackWords,
+    beside,
+    gap_of_few,
+    goes_by_letters,
+    least_gap,
+)
 from packwork.uses.words.graded import GradedPlaces, can_give_way
 from packwork.uses.words.grown import GrowWords
 from packwork.uses.words.repeats import REPEATED, RepeatWords
@@ -168,7 +175,7 @@ class WordsUse(Use):
             if not by_letters:
                 return steps
             then: list[RunStep] = [StartRecording()] if job.is_recorded else []
-            return [FitWords([*then, GrowWords(BESIDE * EM_PX)], steps), *bounds]
+            return [FitWords([*then, GrowWords(beside(job) * EM_PX)], steps), *bounds]
 
         def all_of(job: Job) -> list[RunStep]:
             smallest, steps = self.letters.smallest, listed(job)
@@ -176,9 +183,10 @@ class WordsUse(Use):
                 steps = [FewerWords(listed, job, smallest)]
             return [*steps, *self._filled(job), *self.report(job)]
 
-        if not by_letters:
+        few = job.plan.gap if is_below_hero else gap_of_few(job)
+        if not by_letters and few <= job.plan.gap:
             return _closer(job, all_of)
-        gap = least_gap(job)
+        gap = least_gap(job) if by_letters else few
         return [Replan(gap=gap), *all_of(job.replanned(gap=gap))]
 
     def _graded(self, job: Job) -> list[RunStep]:
