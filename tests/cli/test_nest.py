@@ -18,6 +18,7 @@ from typer.testing import Result
 import packwork as pw
 from packwork.errors import ReadError
 from packwork.readers.instances import read_instance
+from packwork.uses.nest_request import read_sheets
 from packwork.uses.nest_work import PLACES
 
 Command = Callable[..., Result]
@@ -282,6 +283,21 @@ def test_lengths_of_lines_and_what_is_left_over_are_told(shop: Path, packwork: C
     rest = f"{100 - said['length']:.6g} x 40 mm"
     assert f"to cut: 377.0 mm; to engrave: 6.0 mm; left over: {rest}" in told
     assert "no room for ring*1, 628.3 mm² in all" in told
+
+
+@pytest.mark.parametrize(
+    ("sheet", "size", "unit"),
+    [
+        ("12.5x8.25in", (12.5, 8.25), "in"),
+        ("300x200.5mm*2", (300.0, 200.5), "mm"),
+        ("300.25mm", (math.inf, 300.25), "mm"),
+        ("300X.5mm", (300.0, 0.5), "mm"),
+        ("A4", (210.0, 297.0), "mm"),
+    ],
+)
+def test_a_size_may_have_decimals(sheet: str, size: tuple[float, float], unit: str) -> None:
+    read = read_sheets(sheet)[0]
+    assert ((read.length, read.height), read.unit) == (size, unit)
 
 
 def test_files_of_an_earlier_nest_are_kept_and_named(shop: Path, packwork: Command) -> None:

@@ -119,7 +119,7 @@ def read_sheets(text: str) -> list[Sheet]:
                       name=ground.name, outline=ground.outline, count=1, held=layout)
             )  # fmt: skip
             continue
-        if exists(source) or Path(source).suffix:
+        if exists(source) or Path(source).suffix[1:2].isalpha():
             read = read_container(source)
             found.append(
                 Sheet(height=read.height, length=read.width, unit=read.unit, name=read.name,
