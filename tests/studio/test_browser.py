@@ -709,6 +709,7 @@ def test_what_is_drawn_anew_while_dragging_is_all_that_has_changed(browser: Any)
     desk.settled()
     desk.look("studio.connection.do({ kind: 'halos', choice: 'all' })")
     desk.answered()
+    desk.look(_WATCH)
     start, end = desk.place(0), desk.place(12)
     desk.page.mouse.move(*start)
     desk.page.mouse.down()
@@ -721,11 +722,28 @@ def test_what_is_drawn_anew_while_dragging_is_all_that_has_changed(browser: Any)
     desk.settled()
     assert was_partial
     assert off < 1e-3
+    frames, amiss = desk.look("[seen.frames, seen.amiss]")
+    assert frames > 5
+    assert amiss == []
     # At rest it is the same to the last shade.
     desk.until("!studio.stage.backdrop.loose.includes(1)")
     assert desk.look(_OFF % ("false", "false", 0)) == [0, False]
     desk.page.close()
     server.stop()
+
+
+_WATCH = (
+    "(() => { const { stage, collage, view } = studio, { backdrop } = stage;"
+    " globalThis.seen = { frames: 0, amiss: [] }; const found = new Set();"
+    " const [draw, drawItem] = [stage.draw.bind(stage), stage.drawItem.bind(stage)];"
+    " stage.drawItem = (k, ...more) => { found.add(k); drawItem(k, ...more); };"
+    " stage.draw = (isMoving) => { found.clear(); const isLast = draw(isMoving); seen.frames++;"
+    " const isOff = (k) => [0, 1].some((axis) => view.zoom * Math.abs("
+    "backdrop.drawn[4 * k + axis] - collage.shown[4 * k + axis]) > 0.25);"
+    " for (const k of collage.items.keys()) if (!backdrop.picture || backdrop.loose[k]"
+    " ? !found.has(k) : isOff(k)) seen.amiss.push([seen.frames, k]); return isLast; }; })()"
+)
+"""Notes each picture in which an item is missing, or lies still elsewhere than it is."""
 
 
 _OFF = (
