@@ -14,6 +14,10 @@ endif
 # starts would read all of them.
 export PYTHONDONTWRITEBYTECODE :=
 
+# As in the program itself: threads of linear algebra wait for work by keeping a core busy, which
+# other workers need.
+export OPENBLAS_NUM_THREADS := 1
+
 .PHONY: demo gallery figures site check-site setup-browser setup-page check-page test test-lowest check format clean
 
 demo: .venv/installed

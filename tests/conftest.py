@@ -19,6 +19,7 @@ from made_fonts import make_font_folders
 from packwork import compiled, precompile
 from packwork.display import bar
 from packwork.fonts import FOLDERS
+from packwork.live import local_solver
 from packwork.metrics import pixel
 from packwork.readers import cache
 
@@ -43,6 +44,9 @@ what it takes on two processors."""
 
 MEASURING = {"metrics", "batches"}
 """Rooms of tests that look at measures, or compare runs of this process with those of others."""
+
+POLISHING = {"live", "batches"}
+"""Rooms of tests that look at what sessions win back after an edit, or compare as above."""
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -114,11 +118,16 @@ def _nothing_by_chance() -> Iterator[None]:
 
 @pytest.fixture(scope="module", autouse=True)
 def _coarse_measures(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Whole runs, of which tests look at other things, are measured by fewer pixels."""
+    """Whole runs, of which tests look at other things, are measured by fewer pixels.
+
+    Sessions win back less after an edit.
+    """
     with pytest.MonkeyPatch.context() as patch:
         if request.path.parent.name not in MEASURING:
             patch.setattr(pixel, "RESOLUTION", 300)
             patch.setattr(pixel, "SHAPE_RESOLUTION", 200)
+        if request.path.parent.name not in POLISHING:
+            patch.setattr(local_solver, "ENOUGH", 1)
         yield
 
 
