@@ -216,7 +216,8 @@ def _options(
         turning = turning and bool(np.isnan(limits.angle[items]).all())
         narrowest = float(limits.turn_limit[items].min())
         limit = narrowest if np.isfinite(narrowest) else None
-    # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
+    # Put together so closely, items have nowhere to go; only where all grow by the smallest, trials
+    # make room.
     is_settled = state.is_tight and plan.effort != "best"
     # What goes on from an earlier layout keeps its order, unless much effort is asked for.
     is_refined = state.is_tight and state.is_warm_start
@@ -229,7 +230,9 @@ def _options(
         turning=turning,
         turn_limit=limit if turning else None,
         leans=tuple(leans[items].tolist()) if turning and leans.any() else None,
-        trials=0 if keeps_order or is_settled else trials_for(job, len(items)),
+        trials=0
+        if keeps_order or (is_settled and plan.sizes != "shared")
+        else trials_for(job, len(items)),
         relieving=not is_settled,
         refining=(plan.stays and needs_no_levels(job)) or is_refined or state.is_only_refined,
         staying=plan.stays or is_refined,

@@ -60,8 +60,8 @@ def _searched(state: RunState, context: RunContext) -> RunState:
     search = ContainerSearch(
         parts, room, _places(state)[order], seed=job.plan.seed, stop=context.stop
     )
-    # As what is tight already: without trials, which cost more than a round.
-    settled = replace(state, job=job.replanned(effort="normal"), is_tight=True)
+    # Trials cost more than a round.
+    settled = replace(state, job=job.replanned(effort="draft"), is_tight=True)
     is_over = until_over(context.stop, job.seconds_left(TIME_SHARE))
     best, aim = state, 1.0
     with search.pool:
