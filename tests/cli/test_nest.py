@@ -43,6 +43,9 @@ SQUARES = {
 def shop(folder: Path) -> Path:
     (folder / "bracket.svg").write_text(BRACKET, encoding="utf-8")
     (folder / "disc.svg").write_text(DISC, encoding="utf-8")
+    (folder / "hide.geojson").write_text(
+        '{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": []}}', encoding="utf-8"
+    )
     (folder / "squares.json").write_text(json.dumps(SQUARES), encoding="utf-8")
     return folder
 
@@ -107,7 +110,9 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
     [
         ("nest 300x40mm bracket.svg --rotate 90,270", "bracket is 50.0012 x 80.0012 mm"),
         ("nest 40mm bracket.svg --rotate none", "bracket is 50.0004297 mm high"),
-        ("nest 300x40mm disc.svg --margin 1mm --kerf 2mm", "margin"),
+        ("nest 300x40mm disc.svg --margin 1mm --kerf 2mm", "whose sides are 2 mm longer"),
+        ("nest 300,5x200mm disc.svg", "a number with decimals has a point, as 600.5x400mm"),
+        ("nest hide.geojson disc.svg", "a sheet's outline is an SVG or DXF"),
         ("nest 300x40mm disc.svg --margin 25mm", "no room within its margin"),
         ("nest 300mm,200x100mm disc.svg", "a strip of open length has no end"),
         ("nest nowhere.svg disc.svg", "nowhere.svg"),
@@ -477,6 +482,20 @@ def test_a_size_that_is_none_is_one_line(shop: Path, packwork: Command, side: st
     result = packwork(f"nest 300x200mm disc.svg@{side} --passes 5 -o a.svg")
     assert result.exit_code == 2
     assert "size: is a length above 0, as 80mm" in " ".join(result.output.split())
+
+
+def test_parts_that_would_tile_a_sheet_are_told_how_much_it_has_to_be_larger(
+    shop: Path, packwork: Command
+) -> None:
+    (shop / "tile.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="20mm" viewBox="0 0 30 20">'
+        '<rect width="30" height="20"/></svg>', encoding="utf-8",
+    )  # fmt: skip
+    told = " ".join(packwork("nest 60x40mm tile.svg*4 --passes 50 -o a.svg").output.split())
+    wanted = "2 sheets; their parts fill one to the edge: a thousandth more room (60.06x40.04mm)"
+    assert wanted in told
+    result = packwork("nest 60.06x40.04mm tile.svg*4 --effort draft -o a.geojson")
+    assert "4 parts on 60.000" in result.output
 
 
 def test_more_sheets_than_the_parts_ask_for_are_told(shop: Path, packwork: Command) -> None:

@@ -39,6 +39,7 @@ def names(path: Path) -> list[str]:
         ("list.csv", "file,count\nparts/tile.svg,3\n"),
         ("list.csv", "Part;Qty;File\n;3;parts/tile.svg\n"),
         ("list.tsv", "drawing\tquantity\nparts/tile.svg\t3.0\n\n"),
+        ("list.txt", "drawing\tquantity\nparts/tile.svg\t3\n"),
     ],
 )
 def test_files_are_found_from_the_folder_of_the_table(

@@ -21,6 +21,9 @@ _LOG = logging.getLogger("packwork")
 MAX_LIST_BYTES = 4_000_000
 """Size of a list. Chosen: a thousand bytes for each of its rows."""
 
+UNICODE_TEXT = ".txt"
+"""Ending of a table with tabs in UTF-16, as Excel writes one with letters of all scripts."""
+
 MOST_ROWS = 4_000
 """Rows of a list. Chosen: more than there may be parts in a nest."""
 
@@ -57,7 +60,7 @@ def is_cut_list(path: str | Path) -> bool:
     >>> is_cut_list("parts.csv"), is_cut_list("part.dxf")
     (True, False)
     """
-    return Path(path).suffix.lower() in {*ENDINGS, *SPREADSHEETS}
+    return Path(path).suffix.lower() in {*ENDINGS, *SPREADSHEETS, UNICODE_TEXT}
 
 
 def read_cut_list(path: str | Path, rules: Collection[str] = ()) -> tuple[CutListRow, ...]:

@@ -18,6 +18,14 @@ REACHED = 0.75
 """Share of sheets that parts of most shapes cover, their gaps counted to them. Larger advises less
 often, smaller where more time gains nothing. Chosen."""
 
+FULL = 0.97
+"""Share of sheets from which on parts tile them, their gaps counted to them: shapes that do not
+never cover so much. Chosen."""
+
+EASE = 1e-3
+"""Share of a sheet's sides that the search needs to find such a tiling; of a sixth of it, it found
+two of three."""
+
 
 def advice_on_sheets(
     found: Sequence[NestedSheet], gap: float, work: WorkBound
@@ -39,6 +47,14 @@ def advice_on_sheets(
         return ()
     room = np.cumsum(shapely.area(grounds))
     taken = float(shapely.area(regions).sum() + gap / 2.0 * shapely.length(regions).sum())
+    full = int(np.searchsorted((1.0 + 1e-9) * room, taken)) + 1
+    if full < len(grounds) and taken >= FULL * room[full - 1]:
+        ground = found[0].layout.container
+        larger = "x".join(f"{(1.0 + EASE) * side:.6g}" for side in (ground.width, ground.height))
+        return (
+            f"{number_of(len(grounds), 'sheet')}; their parts fill {_number(full)} to the edge: "
+            f"a thousandth more room ({larger}{ground.unit}) may do with {full}",
+        )
     fewer = max(
         int(np.searchsorted(REACHED * room, taken)) + 1,
         _that_exclude_each_other(_radii(found), max(grounds, key=shapely.area).bounds),
@@ -46,11 +62,15 @@ def advice_on_sheets(
     if fewer >= len(grounds):
         return ()
     share = float(shapely.area(regions).sum()) / float(room[fewer - 1])
-    of = "one" if fewer == 1 else f"{fewer}"
     return (
-        f"{number_of(len(grounds), 'sheet')}; their parts cover {100 * share:.0f} % of {of}: "
+        f"{number_of(len(grounds), 'sheet')}; their parts cover {100 * share:.0f} % of "
+        f"{_number(fewer)}: "
         f"more time may do with {fewer} ({more_than(work)})",
     )
+
+
+def _number(count: int) -> str:
+    return "one" if count == 1 else f"{count}"
 
 
 def _radii(found: Sequence[NestedSheet]) -> Floats:

@@ -24,6 +24,7 @@ from packwork.readers.layouts.read import SESSION, holds_layout, read_written
 from packwork.readers.reading import exists
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item
+from packwork.scene.layout import Layout
 from packwork.scene.line_art import LineArt
 from packwork.units import Unit, canvas_size, convert, length_asked
 from packwork.uses.nested import Sheet, SheetPart
@@ -103,7 +104,7 @@ def read_sheets(text: str) -> list[Sheet]:
         if exists(source) and _is_nest(source):
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
-            layout = read_written(source)
+            layout = _earlier(source)
             for sentence in changed_since(layout.manifest):
                 _LOG.warning("%s: %s", source, sentence)
             if Path(source).suffix.lower() not in {".dxf", SESSION} and any(
@@ -140,6 +141,17 @@ def read_sheets(text: str) -> list[Sheet]:
         found.append(Sheet(length=sides[0], height=sides[1], unit=size.unit, count=count))
     unit = found[0].unit
     return [one.scaled(convert(1.0, one.unit, unit), unit) for one in found]
+
+
+def _earlier(source: str) -> Layout:
+    """Layout of an earlier nest; of a GeoJSON that is none, it is said what would do."""
+    try:
+        return read_written(source)
+    except ReadError as error:
+        if Path(source).suffix.lower() == ".geojson":
+            meant = "a sheet's outline is an SVG or DXF, a GeoJSON an earlier nest"
+            raise ReadError(source, f"{error.problem}; {meant}") from None
+        raise
 
 
 def _is_nest(source: str) -> bool:

@@ -102,9 +102,7 @@ def nest(
     tell_pieces(parts)
     if tool:
         tell_unreached(parts, tool, sheets[0].unit)
-    margin = gap if margin is None else margin
-    if margin < gap:
-        raise RecipeError("margin", f"{margin:g} is less than {gap:g}, the distance of parts")
+    margin = _margin(margin, gap, sheets[0].unit)
     # What is certified of a layout is a hair of its longer side.
     hair = 2.0 * HAIR * max(_longest(parts, sheet) for sheet in sheets)
     least, edge = gap + hair, margin + hair
@@ -203,7 +201,22 @@ def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:
                 "items", f"{column}: more than {MOST_AT_ONCE:,} parts go together; nest fewer"
             )
     if len(sheets) > 1 and any(sheet.is_strip for sheet in sheets):
-        raise RecipeError("sheet", "a strip of open length has no end after which others come")
+        raise RecipeError(
+            "sheet",
+            "a strip of open length has no end after which others come; a number with decimals has "
+            "a point, as 600.5x400mm",
+        )
+
+
+def _margin(margin: float | None, gap: float, unit: str) -> float:
+    """Distance from the edge: the gap unless one is given; RecipeError where that is less."""
+    if margin is None or margin >= gap:
+        return gap if margin is None else margin
+    raise RecipeError(
+        "margin",
+        f"{margin:g} is less than {gap:g}, the distance of parts; to go nearer to the edge, give a "
+        f"sheet whose sides are {2.0 * (gap - margin):g} {unit} longer",
+    )
 
 
 def _longest(parts: Sequence[SheetPart], sheet: Sheet) -> float:
