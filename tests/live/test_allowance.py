@@ -9,15 +9,18 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
+from packwork.live import local_solver
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Move
 from packwork.live.document import Document
 from packwork.live.history import Marks
-from packwork.live.neighbourhood.allowance import ranges, widened, within
+from packwork.live.local_solver import ENOUGH, STAGES
+from packwork.live.neighbourhood.allowance import LAST, ranges, widened, within
 from packwork.live.neighbourhood.caches import LevelCache
 from packwork.live.neighbourhood.contacts import RINGS, ContactGraph
 from packwork.live.session import Session
+from packwork.scene.pose import Poses
 
 SEEDS = range(2)
 SHAPES = ["star", "heart", "hexagon", "moon"]
@@ -163,13 +166,38 @@ def test_what_is_undone_or_removed_leaves_no_trials_and_no_ranges(session: pw.Se
     assert 0 not in session.marks.ranges
 
 
-def test_only_the_last_stage_lets_items_shrink_beyond_their_ranges() -> None:
+def test_the_last_stage_of_sizes_lets_items_shrink_beyond_their_ranges() -> None:
     document = Document.from_layout(thirty(0))
     s = float(document.poses.scale[1])
-    found = [within(document, {1: (0.9 * s, 1.1 * s)}, stage=k) for k in range(4)]
+    found = [within(document, {1: (0.9 * s, 1.1 * s)}, stage=k) for k in range(STAGES)]
     assert [one.smallest[1] for one in found[:3]] == pytest.approx([0.9 * s] * 3)
     assert 0.8 * s < found[3].smallest[1] < 0.82 * s
     assert found[0].largest[1] < found[1].largest[1] < found[2].largest[1]
+    for later in found[LAST + 1 :]:
+        assert (later.smallest == found[LAST].smallest).all()
+        assert (later.largest == found[LAST].largest).all()
+
+
+def test_turns_go_on_while_coverage_is_missing_and_reach_farther_each_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    session = thirty(0).edit()
+    session.remove(7)
+    session.settle()
+    session.marks.full = 1.0  # As full as nothing is: turns go on for as long as they may.
+    turned = list[int]()
+
+    def noted(document: Document, rows: IntArray, *_: object) -> tuple[Poses, bool]:
+        turned.append(len(rows))
+        return document.poses, True
+
+    monkeypatch.setattr(local_solver, "polish", noted)
+    each = ENOUGH * len(session.marks.ranges)
+    while session.is_rough:
+        session.polish(each)
+    assert len(turned) == STAGES
+    assert turned == sorted(turned)
+    assert turned[0] < turned[-1] == len(session.document)
 
 
 def test_finish_leaves_nothing_rough(session: pw.Session) -> None:

@@ -24,9 +24,10 @@ FALL = 0.6
 """Factor on that with each ring farther away. Larger changes more items, smaller covers less.
 Tried."""
 
-SHRINKING = 3
-"""Stage from which items may become smaller beyond their ranges too, by half of these: without
-that each edit of many covers less. More changes sizes that are to stay. Tried."""
+LAST = 3
+"""Stage in which items may become smaller beyond their ranges too, by half of these, and from which
+sizes vary no farther: without that each edit of many covers less. Larger changes sizes that are to
+stay. Tried."""
 
 Ranges: TypeAlias = dict[int, tuple[float, float]]
 """Smallest and largest scales of items, by their numbers."""
@@ -72,13 +73,13 @@ def within(
 
     ``free``: numbers of items whose sizes vary as they did; with each ``stage`` an item may grow
     beyond its range, by half of it at first, then twice as much as before, and shrink
-    by half of it in the last.
+    by half of it in the last; later ones are as that.
     """
     scales = zip(document.ids.tolist(), document.poses.scale.tolist(), strict=True)
     low, high = np.array([known.get(n, (s, s)) for n, s in scales]).reshape(-1, 2).T
     wide = high / low
-    low = low / np.sqrt(wide) if stage >= SHRINKING else low
-    high = high * wide ** ((2**stage - 1) / 2)
+    low = low / np.sqrt(wide) if stage >= LAST else low
+    high = high * wide ** ((2 ** min(stage, LAST) - 1) / 2)
     is_free = np.isin(document.ids, list(free))
     smallest, largest = document.smallest, document.largest
     return replace(
