@@ -31,8 +31,8 @@ DRAWING = b"""
   <path id="star" class="warm" transform="rotate(10)" d="M5 0L6 4 10 5 6 6 5 10 4 6 0 5 4 4Z"/>
   <g id="group" transform="translate(15 3)"><circle r="3"/><rect x="2" y="1" width="5" height="3"/>
   </g>
-  <use id="clone" xlink:href="#star" transform="translate(20 20) scale(.7)"/>
-  <use id="bystander" xlink:href="#star" transform="translate(30 20)"/>
+  <use id="clone" xlink:href="#star" x="2" y="-1px" transform="translate(20 20) scale(.7)"/>
+  <use id="bystander" xlink:href="#star" x="3" transform="translate(30 20)"/>
   <image id="photo" x="25" y="40" width="8" height="4" xlink:href="elsewhere.png"/>
  </g>
 </svg>

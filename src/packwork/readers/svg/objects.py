@@ -21,7 +21,7 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.reading import reading_file
 from packwork.readers.svg.container import inside_of_svg, tag_of
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg_syntax.coordinates import parse_transform
+from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform
 from packwork.readers.svg_syntax.references import elements_by_id, referenced_ids
 from packwork.scene.item import Item
 from packwork.scene.notation import matrix_text
@@ -120,7 +120,10 @@ class OpenDrawing:
                 continue
             own = affine.compose(steps.get(name, affine.identity()), _own(element))
             if shown in steps:
-                own = affine.compose(own, affine.inverse(steps[shown]))
+                x, y = (parse_length(element.get(axis), 0.0) or 0.0 for axis in "xy")
+                aside = affine.similarity(x, y, 0.0, 1.0)
+                undone = affine.compose(aside, affine.inverse(steps[shown]))
+                own = affine.compose(own, affine.compose(undone, affine.inverse(aside)))
             new[name] = matrix_text(own)
         return new
 
