@@ -142,3 +142,32 @@ def test_what_names_no_region_is_refused(land: Path, options: dict[str, Any], wh
 def test_other_containers_have_no_regions(container: str, why: str) -> None:
     with pytest.raises(RecipeError, match=why):
         pw.chart(container, ROWS, by="land", in_regions=True, **QUICK)
+
+
+def test_a_small_region_with_room_to_spare_has_its_name(tmp_path: Path) -> None:
+    names = {"Full": (0, 40), "Roomy": (41, 45.5)}
+    shapes = "".join(
+        f'<rect id="{name}" x="{10 * a}" width="{10 * (b - a)}" height="60"/>'
+        for name, (a, b) in names.items()
+    )
+    file = tmp_path / "land.svg"
+    file.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 480 600">{shapes}</svg>',
+        encoding="utf-8",
+    )
+    # Its name takes an eighth of it and more; of a full one that would be too much.
+    asked = {"by": "land", "in_regions": True, **QUICK}
+    for roomy, is_named in ((1, True), (40, False)):
+        rows = {"land": ["Full"] * 200 + ["Roomy"] * roomy}
+        layout = pw.chart(str(file), rows, **asked)
+        assert ("Roomy" in {note.says for note in layout.notes}) == is_named
+
+
+@pytest.mark.parametrize("count", [300, 2])
+def test_the_key_to_a_unit_is_at_scale_or_no_larger_than_letters(count: int) -> None:
+    layout = pw.chart("circle", {"n": [10.0 * count]}, size_by="n", unit=10, **QUICK)
+    key = next(note for note in layout.notes if not note.says)
+    mark, scale = layout.items[0], float(key.matrix[0, 0])
+    is_at_scale = scale == pytest.approx(float(layout.poses.scale[0]), rel=1e-6)
+    assert is_at_scale == (count == 300)
+    assert scale * mark.outline.extent <= layout.container.side / 10

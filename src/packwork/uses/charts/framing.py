@@ -138,8 +138,6 @@ def size_keys(chart: ChartRead, container: Container | None) -> tuple[tuple[floa
     options = chart.options
     if not has_sizes(options):
         return (), 0.0
-    if options.unit is not None:
-        return (), UNIT_EM
     if container is None:
         return (), KEY_ROOM_EM + ABOUT_KEYS_EM
     room = DENSEST * container.outline.area / max(len(chart.groups), 1)
@@ -148,6 +146,9 @@ def size_keys(chart: ChartRead, container: Container | None) -> tuple[tuple[floa
     own, mark = chart.items[k].outline, next(iter(chart.marks.values())).outline
     largest = math.sqrt(float(chart.areas[k]) / fullest * room / own.area)
     ems = (mark.bounds[3] - mark.bounds[1]) / (EM_SHARE * container.width)
+    if options.unit is not None:
+        height = ems * key_scale(options, mark, options.unit / float(chart.values[k]), own, largest)
+        return (), UNIT_EM + (height - 1.0 if 1.0 < height <= KEY_ROOM_EM else 0.0)
     heights = {
         number: ems * key_scale(options, mark, number / float(chart.values[k]), own, largest)
         for number in round_numbers(*chart.ends)

@@ -20,6 +20,7 @@ from packwork.uses.charts.framing import (
     RAMP_EM,
     TITLE_EM,
     TRAIL_EM,
+    UNIT_EM,
     LegendFrame,
     has_sizes,
     in_lines,
@@ -47,8 +48,8 @@ LEAST_CONTRAST = 7.0
 STRIPES = 48
 """Rectangles that a ramp is drawn with. Fewer show. Chosen by eye."""
 
-LARGEST_UNIT_EM = 1.3
-"""Height of the mark that is the key to a unit, at most. Chosen by eye."""
+SMALLEST_UNIT_EM = 0.25
+"""Side of the mark that is the key to a unit, at least: specks would not be seen. Chosen by eye."""
 
 
 NUMBER_EM, NUMBER_GAP_EM = 0.8, 0.45
@@ -229,10 +230,13 @@ def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
     read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
     mark = next(iter(read.marks.values())).outline
     left, top, right, bottom = mark.bounds
-    scale = min(
-        _scale(options, layout, mark, options.unit or 1.0), LARGEST_UNIT_EM * em / mark.extent
-    )
-    line = y + 1.2 * em
+    own = _scale(options, layout, mark, options.unit or 1.0)
+    room = frame.keys_height - (UNIT_EM - 1.0) * em
+    scale = max(own, SMALLEST_UNIT_EM * em / mark.extent)
+    if own * (bottom - top) > room:
+        # Marks are larger than a key may be.
+        scale = em / mark.extent
+    line = y + 0.85 * em + max(0.35 * em, (bottom - top) * scale / 2)
     middle = line - 0.35 * em - (top + bottom) / 2 * scale
     pen.shape(mark, frame.left - left * scale, middle, scale, UNKNOWN)
     stands_for = f"= {spoken(options.unit or 1.0, read.decimal)} {options.size_by or 'rows'}"

@@ -51,8 +51,12 @@ LARGEST, SMALLEST, SIZES = 0.024, 0.014, 4
 room of marks, smaller cannot be read. Chosen by eye."""
 
 MOST_OF = 0.12
-"""Share of a part that its name takes at most: the fullest part gives all marks their scale, and a
-larger one would make all of them smaller. Chosen."""
+"""Share of a full part that its name takes at most: the fullest part gives all marks their scale,
+and a larger one would make all of them smaller. Chosen."""
+
+SPARE = 2.0
+"""How much more room to its marks than the fullest part a part keeps beside a larger name. Smaller
+names more parts and may make marks smaller, where a name leaves only nooks. Chosen."""
 
 WIDE_EM, HIGH_EM, FOOT_EM = 0.6, 1.35, 0.35
 """Room beside letters on both sides together, height of it, and from its foot to their line."""
@@ -116,7 +120,11 @@ def in_regions(chart: ChartRead, container: Container) -> tuple[ChartRead, list[
     order = [*(region_key(name) for name in found.groups)]
     order += [name for name in parts if name not in set(order)]
     titles = dict(zip(order, found.groups, strict=False))
-    return found, _regions({name: parts[name] for name in order}, titles, container)
+    asked = np.bincount(found.group_of, weights=found.areas, minlength=len(found.groups))
+    rooms = [parts[name][1].area for name in order[: len(asked)]]
+    kept = SPARE * asked * float((np.array(rooms) / asked).min())
+    least = dict(zip(order, kept.tolist(), strict=False))
+    return found, _regions({name: parts[name] for name in order}, titles, least, container)
 
 
 def _without_strangers(chart: ChartRead, known: BoolArray) -> ChartRead:
@@ -145,8 +153,12 @@ def _without_strangers(chart: ChartRead, known: BoolArray) -> ChartRead:
 
 
 def _regions(
-    parts: Mapping[str, tuple[str, Region]], titles: Mapping[str, str], container: Container
+    parts: Mapping[str, tuple[str, Region]],
+    titles: Mapping[str, str],
+    least: Mapping[str, float],
+    container: Container,
 ) -> list[NamedRegion]:
+    """Parts with room for marks and a place for their names, which leave those the ``least``."""
     side = container.side
     found = []
     for key, (name, region) in parts.items():
@@ -159,7 +171,7 @@ def _regions(
                 raise RecipeError("in_regions", f"{title} has no room for marks; leave it out")
             found.append(NamedRegion(title, border, border))
             continue
-        em, x, y, plate = _place(title, room, side)
+        em, x, y, plate = _place(title, room, side, least.get(key, 0.0))
         if plate is not None:
             room = _without_islands(difference(room, plate))
         found.append(NamedRegion(title, border, Outline.from_region(room), em, x, y))
@@ -172,7 +184,9 @@ def _without_islands(room: Region) -> shapely.MultiPolygon:
     return shapely.MultiPolygon([part for part in parts if part.area > ISLAND * room.area])
 
 
-def _place(name: str, room: Region, side: float) -> tuple[float, float, float, Region | None]:
+def _place(
+    name: str, room: Region, side: float, least: float
+) -> tuple[float, float, float, Region | None]:
     """Height of a name's letters, their middle and line, and the plate they take.
 
     It is as high up in the room as goes, and as far in the middle there; of no height and plate
@@ -185,7 +199,7 @@ def _place(name: str, room: Region, side: float) -> tuple[float, float, float, R
     shapely.prepare(room)
     for em in np.geomspace(LARGEST, SMALLEST, SIZES) * side:
         wide, high = Pen.width(name, em) + WIDE_EM * em, HIGH_EM * em
-        if wide * high > MOST_OF * room.area:
+        if wide * high > max(MOST_OF * room.area, room.area - least):
             continue
         boxes = shapely.box(x - wide / 2, y, x + wide / 2, y + high)
         fits = np.flatnonzero(shapely.contains(room, boxes))
