@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import re
 import subprocess
@@ -70,21 +71,31 @@ def test_messages_name_the_extra_that_brings_a_package() -> None:
     assert {**brought, "traitlets": "notebook"} == EXTRAS
 
 
-@pytest.mark.parametrize(
-    "imported",
-    [
-        "import packwork.finish.options as y",
-        "from packwork.finish import options as y",
-        "import packwork.finish.options; y = sys.modules['packwork.finish.options']",
-    ],
+USE = "import packwork as pw\nassert pw.finish.__module__ == 'packwork.api.judging'"
+IMPORTED = (
+    "import packwork.finish.options as y",
+    "from packwork.finish import options as y",
+    "import packwork.finish.options; y = sys.modules['packwork.finish.options']",
 )
-@pytest.mark.parametrize("order", ["{use}\n{imported}", "{imported}\n{use}"])
-def test_the_verb_finish_hides_no_module_of_that_package(imported: str, order: str) -> None:
-    use = "import packwork as pw\nassert pw.finish.__module__ == 'packwork.api.judging'"
-    program = order.format(use=use, imported=imported)
-    checked = f"import sys\n{program}\nassert y.__name__ == 'packwork.finish.options'\n{use}"
+FORKED = """
+import os, sys
+import numba, numpy, pydantic, scipy, shapely
+assert "packwork" not in sys.modules
+for program in sys.argv[1:]:
+    if (child := os.fork()) == 0:
+        exec(program)
+        os._exit(0)
+    assert os.waitpid(child, 0)[1] == 0, program
+"""
+"""Each program in a process that has loaded no more than libraries."""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs processes of one that has loaded most")
+def test_the_verb_finish_hides_no_module_of_that_package() -> None:
+    orders = [f"{USE}\n{one}" for one in IMPORTED] + [f"{one}\n{USE}" for one in IMPORTED]
+    checked = [f"{one}\nassert y.__name__ == 'packwork.finish.options'\n{USE}" for one in orders]
     done = subprocess.run(
-        [sys.executable, "-c", checked], capture_output=True, text=True, check=False
+        [sys.executable, "-c", FORKED, *checked], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
 
