@@ -625,4 +625,16 @@ def test_flaws_that_were_mended_are_told(caplog: pytest.LogCaptureFixture) -> No
         space.add_blockref("NONE", (0, 0))
 
     assert len(parts(draw)) == 1
-    assert "is damaged; 1 flaw" in caplog.text
+    assert "is damaged; 1 flaw was mended" in caplog.text
+
+
+def test_flaws_beside_the_lines_are_not_told(caplog: pytest.LogCaptureFixture) -> None:
+    def draw(space: Modelspace) -> None:
+        plate(space)
+        space[0].dxf.linetype = "NONE"
+        # As in all files that Inkscape writes.
+        assert space.doc is not None
+        space.doc.rootdict._data["STANDARD"] = "FFFF"
+
+    assert len(parts(draw)) == 1
+    assert "damaged" not in caplog.text

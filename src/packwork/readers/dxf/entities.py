@@ -130,11 +130,21 @@ def _parsed(data: bytes) -> Drawing:
     except (DXFError, *_MALFORMED) as error:
         why = " ".join(str(error).split())[:80]
         raise UnfitError(f"is no DXF that can be read ({why}); save it as ASCII DXF") from None
-    if audit.fixes or audit.errors:
-        first = " ".join(str([*audit.errors, *audit.fixes][0].message).split())[:80]
-        count = number_of(len(audit.fixes) + len(audit.errors), "flaw")
-        notice(f"is damaged; {count} were mended or left out, the first: {first}")
+    flaws = [
+        one for one in (*audit.errors, *audit.fixes)
+        if one.code not in _OF_STYLES and not one.message.startswith(_OF_DICTIONARIES)
+    ]  # fmt: skip
+    if flaws:
+        first = " ".join(str(flaws[0].message).split())[:80]
+        count = number_of(len(flaws), "flaw was", "flaws were")
+        notice(f"is damaged; {count} mended or left out, the first: {first}")
     return document
+
+
+_OF_STYLES = frozenset({100, 101, 102, 112, 207, 213})
+_OF_DICTIONARIES = ("Removed invalid key", "Fixed invalid owner handle")
+"""Flaws of which no line is lost, as ``ezdxf.audit.AuditError`` numbers or ezdxf names them: each
+file that Inkscape writes has such a one."""
 
 
 _MALFORMED = (
