@@ -307,7 +307,7 @@ class _Fitting:
     def _best(
         self, occupancy: Occupancy, item: int, stencils: Sequence[Stencil], is_loose: bool
     ) -> tuple[int, int, int] | None:
-        is_drawn = self._near is not None or len(self._fields) > 0
+        is_drawn = self._near is not None or any(one.strengths[item] for one in self._fields)
         is_everywhere = is_loose or self._homes[item] is not None or is_drawn
         worth = self._worth(item)
         field = occupancy.clearance.distances if is_loose else None
