@@ -72,6 +72,11 @@ def test_words_are_counted_left_out_and_brought_back(
     desk.until(f"{size}({fern}) > 1.5 * {before}")
     desk.settled()
     assert desk.page.get_by_label("How often: fern").input_value() == "24"
+    # What would make all others tiny is taken back, which is said where it was asked.
+    desk.page.get_by_label("How often: fern").fill("4000")
+    desk.page.get_by_label("How often: fern").press("Enter")
+    desk.page.locator(".toast", has_text="taken back, for all would become smaller").wait_for()
+    assert desk.page.get_by_label("How often: fern").input_value() == "24"
 
 
 def test_a_word_stays_upright_and_has_its_colour(

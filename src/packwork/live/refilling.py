@@ -142,6 +142,11 @@ def taken_back(before: Document, now: Document, *, is_wrong: bool) -> Refilled |
         return None
     names = ("poses", "weights", "smallest", "largest", *["options"] * has_no_room)
     columns = {name: getattr(before, name) for name in names}
+    # Words say how often they were counted, which is theirs with their weights.
+    columns["items"] = tuple(
+        item if item.label.title == was.label.title else replace(item, label=was.label)
+        for item, was in zip(now.items, before.items, strict=True)
+    )
     why = f"all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
     if has_no_room:
         why = "there is no room for it at these sizes"

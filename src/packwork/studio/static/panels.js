@@ -65,6 +65,7 @@ export class Panels {
     for (const slider of [this.words.mixing.slider, this.look.mosaic.likeness]) slider.refused();
     this.items.refused();
     this.words.font.refused();
+    this.words.list.listed = "";
     this.studio.dropping.sheet = null;
     this.refresh();
   }

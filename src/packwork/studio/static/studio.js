@@ -47,6 +47,8 @@ const ABOVE = 62;
 const FOCUSABLE = ":is(button, input, select, textarea):not(:disabled)";
 /** Subject of the line about what was asked for and not had. */
 const MISSED = "not as asked";
+/** Beginning and subject of lines about what was asked for and taken back. */
+const BACK = "taken back";
 /** Said where words on lines are dragged. */
 const STAYS = "Words on lines lie where these have room for them; change the words, or the lines, on the Words panel.";
 
@@ -104,6 +106,7 @@ export class Studio {
     this.wasOffered = false;
     /** What was told as asked for and not had. @type {Record<string, string>} */
     this.missed = {};
+    this.back = "";
     this.dropping.takes = (files) => this.incoming.take(files);
     this.replacing = new Replacing(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
@@ -186,6 +189,12 @@ export class Studio {
     this.wasOffered = true;
     this.badge.show(state);
     if (!state.moving) this.tellMissed(state.unmet);
+    const back = state.moving ? "" : state.advice.find((line) => line.startsWith(BACK)) ?? "";
+    if (before && back && back !== this.back) {
+      tell(back, { about: BACK });
+      this.panels.refused();
+    }
+    this.back = back;
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
   }

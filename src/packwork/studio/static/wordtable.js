@@ -3,6 +3,7 @@
 
 import { button, colourField, h } from "./dom.js";
 import { together } from "./hand.js";
+import { isTypedIn } from "./keys.js";
 import { kindOf } from "./kinds.js";
 import { tell } from "./toasts.js";
 
@@ -64,7 +65,8 @@ export class WordTable {
       else one.isGone ||= !there.has(name);
     }
     const key = JSON.stringify([things.map(({ id, name, held }) => [id, name, held[1], this.countOf(name, things), this.studio.collage.colour(id)]), [...this.without.keys()]]);
-    if (key === this.listed || this.list.contains(document.activeElement?.closest("input:focus") ?? null)) return;
+    const field = document.activeElement;
+    if (key === this.listed || (field instanceof HTMLInputElement && this.list.contains(field) && isTypedIn(field))) return;
     this.listed = key;
     const leave = heldFocus(this.list);
     this.list.replaceChildren(...things.slice(0, MOST).map((thing) => this.row(thing, things)));
