@@ -49,13 +49,13 @@ def test_nothing_collapses() -> None:
 
 def test_zero_tolerance_and_radius_change_nothing() -> None:
     assert simplified(FRAME, 0.0) is FRAME
-    assert closed(FRAME.region, 0.0) is FRAME.region
+    assert closed(FRAME, 0.0) is FRAME
 
 
 @given(ring=star_rings(), radius=st.floats(0.01, 20))
 def test_closed_stays_simple_and_holds_the_old_outline(ring: FloatArray, radius: float) -> None:
     outline = Outline.from_rings([ring])
-    wider = Outline.from_region(closed(outline.region, radius))
+    wider = closed(outline, radius)
     _assert_sound(wider)
     # Round joins are drawn with few segments: a corner loses a share of the radius.
     corners = shapely.distance(shapely.points(outline.points), wider.region)
@@ -65,12 +65,12 @@ def test_closed_stays_simple_and_holds_the_old_outline(ring: FloatArray, radius:
 
 def test_clefts_close_by_their_width() -> None:
     comb = Outline.from_rings([COMB])
-    assert closed(comb.region, 1.0).area == pytest.approx(comb.area, rel=0.05)
-    assert closed(comb.region, 2.0).area > 0.8 * hull(comb).area
+    assert closed(comb, 1.0).area == pytest.approx(comb.area, rel=0.05)
+    assert closed(comb, 2.0).area > 0.8 * hull(comb).area
 
 
 def test_closing_fills_holes() -> None:
-    assert closed(FRAME.region, 2.0).area == pytest.approx(400, rel=1e-3)
+    assert closed(FRAME, 2.0).area == pytest.approx(400, rel=1e-3)
 
 
 @given(ring=star_rings())

@@ -14,59 +14,52 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import Region, buffered, polygon_parts, simplify
-from packwork.geometry.polygon import silhouette
+from packwork.geometry.overlay import buffered, polygon_parts, simplify
 
 
 def simplified(outline: Outline, tolerance: float) -> Outline:
-    """Outline with fewer vertices; as :func:`simplified_region`."""
-    region = simplified_region(outline.region, tolerance)
-    return outline if region is outline.region else Outline.from_region(region)
-
-
-def simplified_region(whole: Region, tolerance: float) -> Region:
-    """Region with fewer vertices, its boundary within twice ``tolerance`` of the old one.
+    """Outline with fewer vertices, its boundary within twice ``tolerance`` of the old one.
 
     Twice, because GEOS may drop the vertex at which a ring starts. Rings stay simple; if no area
-    would be left, the region comes back as it was.
+    would be left, the outline comes back as it was.
 
-    >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
-    >>> len(simplified_region(disc, 0.05).exterior.coords) < 20
+    >>> t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    >>> circle = Outline.from_rings([np.column_stack([np.cos(t), np.sin(t)])])
+    >>> len(simplified(circle, 0.05).points) < 20
     True
     """
     if tolerance <= 0:
-        return whole
+        return outline
     # The plain algorithm is ten times faster; where it lets rings cross or drops one,
     # the careful one is asked.
-    region = simplify(whole, tolerance, keeps_topology=False)
-    if not region.is_valid or _holes(region) != _holes(whole):
-        region = simplify(whole, tolerance, keeps_topology=True)
-    return region if polygon_parts(region) else whole
+    region = simplify(outline.region, tolerance, keeps_topology=False)
+    rings = sum(1 + len(part.interiors) for part in polygon_parts(region))
+    if not region.is_valid or rings != len(outline.rings):
+        region = simplify(outline.region, tolerance, keeps_topology=True)
+    if not polygon_parts(region):
+        return outline
+    return Outline.from_region(region)
 
 
-def closed(whole: Region, radius: float) -> Region:
-    """Region with every cleft, bay's mouth and hole narrower than twice ``radius`` filled.
+def closed(outline: Outline, radius: float) -> Outline:
+    """Outline with every cleft, bay's mouth and hole narrower than twice ``radius`` filled.
 
     Morphological closing: grown by ``radius`` and shrunk again.
 
-    >>> dart = Polygon([(0, 0), (4, 2), (0, 4), (1, 2)])
+    >>> dart = Outline.from_rings([np.array([[0, 0], [4, 2], [0, 4], [1, 2.0]])])
     >>> closed(dart, 9.0).area > dart.area
     True
     """
     if radius <= 0:
-        return whole
-    region = buffered(whole, radius, quad_segs=4)
+        return outline
+    region = buffered(outline.region, radius, quad_segs=4)
     region = buffered(region, -radius, quad_segs=4)
     if not polygon_parts(region):
-        return whole
+        return outline
+    found = Outline.from_region(region)
     # A bay whose mouth was closed is a hole now: nothing could get in, so nothing shall
     # start there. Holes of the outline's own stay open.
-    return region if any(_holes(whole)) else silhouette(region)
-
-
-def _holes(region: Region) -> list[int]:
-    """Number of holes of each part."""
-    return [int(shapely.get_num_interior_rings(part)) for part in polygon_parts(region)]
+    return found if outline.has_holes else found.without_holes()
 
 
 def grown(outline: Outline, distance: float) -> Outline:

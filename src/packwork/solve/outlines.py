@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.affine import stretched
 from packwork.geometry.outline import Outline, joined
-from packwork.geometry.simplify import closed, grown, hull, simplified_region
+from packwork.geometry.simplify import closed, grown, hull, simplified
 from packwork.scene.pose import Poses
 from packwork.solve import _kernels
 from packwork.solve.options import OutlineChoice
@@ -116,11 +116,8 @@ def simplify_at_scales(
 def _simplify(outline: Outline, pixel: float, margin: float) -> Outline:
     """One outline at a level whose pixel is ``pixel`` item units."""
     # Half the tolerance before closing, which is slow on many points, half after.
-    shape = simplified_region(outline.region, 0.5 * DETAIL_PX * pixel)
-    if margin > 0:
-        shape = grown(Outline.from_region(shape), margin).region
-    shape = closed(shape, CLEFT_PX * pixel)
-    return Outline.from_region(simplified_region(shape, 0.5 * DETAIL_PX * pixel))
+    rough = simplified(outline, 0.5 * DETAIL_PX * pixel)
+    return simplified(closed(grown(rough, margin), CLEFT_PX * pixel), 0.5 * DETAIL_PX * pixel)
 
 
 def _stretched_once(
