@@ -154,6 +154,16 @@ def test_undo_and_redo_restore_every_bit(session: pw.Session, same: Same) -> Non
         assert same(session.document.poses, poses)
 
 
+def test_a_title_stays_whatever_is_undone(session: pw.Session) -> None:
+    session.apply(Turn(item=3, angle=40.0))
+    session.do("entitle", title="Für Ada")
+    assert session.undo()
+    assert session.document.title == "Für Ada"
+    session.do("entitle", title="For Ada")
+    assert session.redo()
+    assert session.document.title == "For Ada"
+
+
 def test_a_drag_is_one_entry_however_many_events_it_has(session: pw.Session) -> None:
     drag(session, 0, 300.0, 300.0, events=50)
     assert len(session.history) == 1

@@ -142,6 +142,20 @@ def test_a_reload_lets_go_of_what_is_dragged(open_desk: Callable[..., Desk]) -> 
     desk.settled()
 
 
+SIDE = """(isFit => { const { stage, choice } = studio, frame = stage.frame();
+ for (let k = 0; k < 4; k++) for (let t = 0.2; t < 0.8; t += 0.005) {
+  const [from, to, inner] = [0, 1, 3].map((step) => frame[(k + step) % 4]);
+  const [dx, dy] = [inner[0] - from[0], inner[1] - from[1]], in2 = 2 / Math.hypot(dx, dy);
+  const x = from[0] + t * (to[0] - from[0]) + in2 * dx;
+  const y = from[1] + t * (to[1] - from[1]) + in2 * dy;
+  const id = stage.itemAt(x, y, 1), top = studio.canvas.getBoundingClientRect().top;
+  const isFar = stage.handles().every(({ at }) => Math.hypot(at[0] - x, at[1] - y) > 10);
+  const near = stage.itemAt(x, y);
+  if (isFar && isFit(id, choice, near)) return [x, y + top, near]; } })"""
+"""A place on the window just within a side of the frame, by the item that lies there and the one
+that lies there or near; and this one."""
+
+
 def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.page.mouse.click(*desk.place(1))
@@ -173,14 +187,13 @@ def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
     smaller = desk.look("studio.collage.pose(1).scale")
     assert smaller < 0.85 * scale
     # A side of the frame does so too; a finger there drags.
-    side = "((a, b, c) => [(b[0] + c[0]) / 2, (b[1] + c[1]) / 2])(...studio.stage.frame())"
-    assert desk.look(f"studio.stage.handleAt(...{side}, 11)") is None
-    x, y = desk.look(side)
-    desk.page.mouse.move(x, y + top)
+    x, y, _ = desk.look(f"{SIDE}((id, choice) => id === null || choice.has(id))")
+    assert desk.look(f"studio.stage.handleAt({x}, {y - top}, 11)") is None
+    desk.page.mouse.move(x, y)
     desk.page.mouse.down()
     assert desk.look("studio.gestures.doing.act") == "scale"
     about = desk.look("studio.gestures.doing.about")
-    x, y = (at + 0.4 * (at - about[axis]) for at, axis in ((x, "x"), (y, "y")))
+    x, y = (at + 0.4 * (at - about[axis]) for at, axis in ((x, "x"), (y - top, "y")))
     desk.page.mouse.move(x, y + top, steps=8)
     desk.page.mouse.up()
     desk.settled()
@@ -188,6 +201,47 @@ def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
     for _ in range(3):
         desk.page.keyboard.press("Control+z")
     desk.settled()
+
+
+def test_a_side_of_the_frame_keeps_no_item_from_being_chosen(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    mouse, chosen, doing = desk.page.mouse, "[...studio.choice.ids]", "studio.gestures.doing"
+    desk.look("studio.choice.set([0, 3])")
+    x, y, other = desk.look(f"{SIDE}((id, choice) => id !== null && !choice.has(id))")
+    desk.page.keyboard.down("Shift")
+    mouse.click(x, y)
+    desk.page.keyboard.up("Shift")
+    assert desk.look(chosen) == [0, 3, other]
+    desk.look("studio.choice.set([0, 3])")
+    # What drags there drags that item.
+    mouse.move(x, y)
+    mouse.down()
+    assert (desk.look(f"{doing}.act"), desk.look(chosen)) == ("item", [other])
+    mouse.up()
+    # Between items it is a handle, and a click is for what lies nearest.
+    desk.look("studio.choice.set([0, 3])")
+    x, y, near = desk.look(f"{SIDE}((id, choice, near) => id === null && near !== null)")
+    mouse.move(x, y)
+    mouse.down()
+    assert desk.look(f"{doing}.act") == "scale"
+    mouse.up()
+    assert desk.look(chosen) == [near]
+    desk.look("studio.choice.set([])")
+
+
+def test_the_canvas_is_finished_where_it_is_zoomed_while_gaps_are_closed(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    desk.until("studio.stage.backdrop.picture")
+    desk.look("(state => { state.polishing = true; })(studio.collage.state)")
+    desk.look("studio.view.zoomAt(1.5, 700, 400)")
+    desk.until("studio.stage.backdrop.key[0] === studio.view.zoom")
+    desk.until("studio.stage.backdrop.picture")
+    desk.look("(state => { state.polishing = false; })(studio.collage.state)")
+    desk.look("studio.view.refit()")
 
 
 def test_the_keyboard_alone_chooses_moves_holds_and_exports(open_desk: Callable[..., Desk]) -> None:

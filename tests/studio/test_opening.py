@@ -80,6 +80,9 @@ def test_a_recipe_runs_with_what_was_sent_with_it(play) -> None:
         await page.until(lambda: len(page.last("scene")["items"]) == 4 and page.is_certified)
         assert page.last("scene")["items"][0]["name"] == "tile"
         assert page.last("scene")["title"] == "own"
+        # All that are exported are called so.
+        page.tell(type="open", source=sent(page.tab, ("recipe.toml", RECIPE.encode())))
+        await page.until(lambda: page.last("scene")["title"] == "star")
         # A document that has a title keeps it, whatever its file is called.
         session = Session(desk.owner.frame.document)
         session.do("entitle", title="Für Ada")

@@ -67,14 +67,21 @@ class UndoHistory:
         if not self._past:
             return present
         self._future.append(present)
-        return self._past.pop()
+        return _titled(self._past.pop(), present)
 
     def redo(self, present: Document) -> Document:
         """The document after; the present one where there is none."""
         if not self._future:
             return present
         self._past.append(present)
-        return self._future.pop()
+        return _titled(self._future.pop(), present)
+
+
+def _titled(document: Document, present: Document) -> Document:
+    """A document of the history with the present title, which is no step of it."""
+    was, title = (one.manifest.get("title", "") for one in (document, present))
+    manifest = {**document.manifest, "title": title}
+    return document if was == title else replace(document, manifest=manifest)
 
 
 @dataclass

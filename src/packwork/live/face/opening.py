@@ -99,7 +99,7 @@ def opening_sent(folder: Path) -> Opening | None:
                 "packwork studio with the recipe",
             )
         recipe = make_recipe(**options | _drafted(None, {}))
-        return Opening(recipe=recipe, title=recipes[0].stem)
+        return Opening(recipe=recipe, title=_named(recipes[0]))
     documents = [one for one in files if _is_document(one)]
     if not documents:
         return None
@@ -125,10 +125,15 @@ def _is_document(path: Path) -> bool:
 def _of_file(path: Path, ending: str, count: int | None, options: dict[str, Any]) -> Opening:
     if ending == ".toml":
         recipe = make_recipe(**{**read_recipe(path), **_drafted(count, options)})
-        return Opening(recipe=recipe, title=path.stem)
+        return Opening(recipe=recipe, title=_named(path))
     if ending == ENDING:
         return Opening(file=path, title=path.stem)
     return Opening(document=Document.from_layout(read_written(path)), title=path.stem)
+
+
+def _named(recipe: Path) -> str:
+    """Name that a recipe's file gives to a document; none where it is that of all we write."""
+    return "" if recipe.stem.lower() == "recipe" else recipe.stem
 
 
 def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:

@@ -94,15 +94,16 @@ export class Gestures {
       if (kind === "touch") return { act: "beside", from: at, at, kind };
       cropping.end(true);
     }
+    const isMore = event.shiftKey || event.metaKey || event.ctrlKey;
     const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
-    if (handle) return { act: handle.kind, from: at, at, kind, about: this.about(handle), wide: false };
+    // Keys ask for what lies under a side of the frame.
+    if (handle && !(handle.isSide && (isMore || event.altKey))) return { act: handle.kind, from: at, at, kind, about: this.about(handle), isSide: handle.isSide };
     const id = this.stage.take(at.x, at.y, kind === "touch" ? 8 : 3);
     if (id === null && event.altKey) {
       this.stage.lasso?.begin(event.shiftKey);
       return { act: "draw", from: at, at, kind };
     }
     if (id === null) return { act: kind === "touch" ? "pan" : "marquee", from: at, at, kind, adds: event.shiftKey };
-    const isMore = event.shiftKey || event.metaKey || event.ctrlKey;
     const was = this.choice.has(id);
     if (isMore) this.choice.toggle(id);
     else if (!was) this.choice.set([id]);
@@ -247,7 +248,9 @@ export class Gestures {
 
   /** @param {Doing} doing */
   clicked(doing) {
-    if (doing.act === "item" && doing.single && doing.id !== undefined) this.choice.set([doing.id]);
+    const side = doing.isSide ? this.stage.take(doing.from.x, doing.from.y) : null;
+    if (side !== null) this.choice.set([side]);
+    else if (doing.act === "item" && doing.single && doing.id !== undefined) this.choice.set([doing.id]);
     else if ((doing.act === "marquee" && !doing.adds) || (doing.act === "pan" && doing.kind === "touch")) {
       this.choice.set([]);
     }
@@ -391,7 +394,7 @@ export class Gestures {
 /**
  * @typedef {{act: "pan" | "draw" | "crop" | "beside" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, copies?: boolean, before?: number[],
- *   about?: Point, moves?: boolean, wide?: boolean}} Doing
+ *   about?: Point, moves?: boolean, isSide?: boolean}} Doing
  */
 
 /** @param {MouseEvent} event @returns {Point} */

@@ -13,7 +13,7 @@ import { distance } from "./rings.js";
 /** @typedef {import("./view.js").View} View */
 /** @typedef {import("./sprites.js").Sprites} Sprites */
 /** @typedef {import("./choice.js").Choice} Choice */
-/** @typedef {{at: [number, number], kind: "scale" | "turn", corner: number}} Handle */
+/** @typedef {{at: [number, number], kind: "scale" | "turn", corner: number, isSide?: boolean}} Handle */
 
 /** Distance of the turning handle from its corner, and half a handle, px. */
 const TURN_AWAY = 22;
@@ -556,7 +556,7 @@ export class Stage {
   }
 
   /**
-   * The handle at a point of the window; a side of the frame is one too, but for fingers.
+   * The handle at a point of the window; a side of the frame is one too, but for fingers and where other items lie.
    * @param {number} x
    * @param {number} y
    * @param {number} reach px
@@ -569,8 +569,10 @@ export class Stage {
     const handles = this.handles();
     const sides = reach > MOST_REACH || handles.length < 4 ? [] : handles.slice(0, 4);
     const near = Math.min(SIDE, far / 4);
-    return handles.find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= far)
-      ?? sides.find(({ at }, k) => distance([x, y], at, handles[(k + 1) % 4].at) <= near) ?? null;
+    const found = handles.find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= far);
+    const side = found ? null : sides.find(({ at }, k) => distance([x, y], at, handles[(k + 1) % 4].at) <= near);
+    const under = side ? this.itemAt(x, y, 1) : null;
+    return side && (under === null || this.choice.has(under)) ? { ...side, isSide: true } : found ?? null;
   }
 }
 

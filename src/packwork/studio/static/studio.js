@@ -297,10 +297,11 @@ export class Studio {
     this.isEasing &&= moves;
     const glides = this.view.step();
     const lacks = this.sprites.begin();
+    const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving);
     // Gaps are closed in many small moves: all is drawn once, after the last.
-    const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving || this.collage.state?.polishing);
-    const isLast = this.stage.draw(isMoving);
-    if (isMoving) this.panels.items.inspector.followSoon();
+    const isCoarse = isMoving || Boolean(this.collage.state?.polishing);
+    const isLast = this.stage.draw(isCoarse);
+    if (isCoarse) this.panels.items.inspector.followSoon();
     else this.panels.items.inspector.follow();
     if (moves || glides || lacks || this.sprites.left < 0 || !(isLast || isMoving)) this.redraw();
   }
