@@ -42,6 +42,9 @@ def test_a_layout_is_a_sequence_of_placements(layout: pw.Layout) -> None:
         layout[6]
     with pytest.raises(TypeError, match="items of a layout have numbers, not 'star'"):
         layout["star"]  # type: ignore[call-overload]
+    for odd in ([[0, 1]], [0.5], ["a"], [True, False], [9]):
+        with pytest.raises(IndexError, match="the layout has 6 items: give numbers below that"):
+            layout[odd]  # type: ignore[index]
 
 
 def test_a_slice_is_a_layout_of_some_items(layout: pw.Layout) -> None:
@@ -49,6 +52,8 @@ def test_a_slice_is_a_layout_of_some_items(layout: pw.Layout) -> None:
     assert [one.pose for one in some] == [one.pose for one in layout][1:4]
     assert "certified" not in some.manifest
     assert layout[::2].items == layout.items[::2]
+    assert layout[(0, 1)] == layout[:2]
+    assert len(layout[()]) == 0
 
 
 def test_layouts_are_equal_by_what_they_hold(layout: pw.Layout) -> None:
@@ -340,11 +345,28 @@ def test_items_are_picked_as_numpy_and_pandas_pick(layout: pw.Layout) -> None:
 def test_words_without_a_weight_are_left_out_and_repeated_ones_summed(
     weights: Any, caplog: pytest.LogCaptureFixture
 ) -> None:
-    if "word" in weights:
+    if no_word := "word" in weights:
         weights = pytest.importorskip("pandas").DataFrame(weights)
     made = pw.words("circle", weights, **DRAFT)
     assert made == pw.words("circle", {"bear": 3, "owl": 1}, **DRAFT)
-    assert "without a weight: " in caplog.text
+    said = "left out 1 weight without a word: 5" if no_word else " without a weight: fox"
+    assert said in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("source", "said"),
+    [
+        ([("a", 1, 2)], "a word must be a text, not ('a', 1, 2)"),
+        ([["a", "b", "c"]], "a word must be a text, not ['a', 'b', 'c']"),
+        ([b"x", b"y"], "a word must be a text, not b'x'"),
+        ({("x", "y"): 1}, "a word must be a text, not ('x', 'y')"),
+        ([], "holds no words; use a text"),
+        (["a", 3], "holds 3 as a word; use a text"),
+    ],
+)
+def test_what_is_no_word_is_refused(source: Any, said: str) -> None:
+    with pytest.raises(pw.RecipeError, match=re.escape(said)):
+        pw.words("circle", source)
 
 
 def test_words_of_a_column_with_gaps() -> None:
@@ -396,9 +418,18 @@ def test_palettes_of_seaborn_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
         ({"seed": 1j}, "seed: must be a whole number, not"),
         ({"best_of": 2, "best_by": len}, "best_by: must be one of"),
         ({"weights": ["a"]}, "weights: takes numbers, not"),
+        ({"weights": [1, None]}, "weights: takes numbers, not [1, None]"),
+        ({"weights": {"star": None}}, "weights: star: must be a number, not None"),
+        ({"background": "white"}, "background: no such option; give it to save"),
+        ({"canvas": (300, "x")}, "canvas: use a length such as 600"),
         ({"losses": {"overlp": 1}}, "losses: no loss is called 'overlp'"),
     ],
 )
 def test_messages_speak_of_what_was_written(options: Any, said: str) -> None:
     with pytest.raises(RecipeError, match=re.escape(said)):
         pw.fill("heart", "star", **{"count": 2, **DRAFT, **options})
+
+
+def test_a_canvas_is_a_pair_of_lengths_too() -> None:
+    made = pw.fill("page", "star", count=2, canvas=(300, 200), **DRAFT)
+    assert made.manifest["recipe"]["canvas"] == "300x200"

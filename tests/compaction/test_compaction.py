@@ -321,3 +321,11 @@ def test_conflicts_of_many_are_found_strip_by_strip(rng: np.random.Generator) ->
         by_strips = find_conflicts(container, outlines, poses, 0.1)
     assert len(at_once) > 10
     assert set(by_strips) == set(at_once)
+
+
+@pytest.mark.parametrize("size", [(10.0, 1000.0), (1000.0, 10.0)])
+def test_strips_lie_across_the_longer_side(size: tuple[float, float]) -> None:
+    x, y = (np.linspace(0, side, 100) for side in size)
+    poses = Poses(x, y, np.zeros(100), np.ones(100))
+    strips = list(arrangements._strips([disc(1.0)] * 100, poses, 0.1, 20))
+    assert [len(items) for items in strips] == [20] * 5

@@ -96,6 +96,8 @@ def _named(key: str, value: Any, handed: Handed) -> Any:
         return plain_colours(value)
     if key == "start":
         return _named_start(value, handed)
+    if key == "canvas" and isinstance(value, list | tuple):
+        return "x".join(map(str, value))
     if key == "region" and isinstance(value, list | tuple):
         return value  # shares of the canvas
     if key in CONTAINERS or (key in ITEMS and isinstance(value, str)):

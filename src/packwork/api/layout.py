@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
@@ -26,7 +27,7 @@ from packwork.api.parts import (
     same_content,
 )
 from packwork.api.signatures import of_model
-from packwork.arrays import frozen
+from packwork.arrays import IntArray, frozen
 from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean
@@ -125,8 +126,8 @@ class Layout(Exported, Sequence[Placement]):
     @overload
     def __getitem__(self, which: slice | Sequence[int] | NDArray[Any]) -> Layout: ...
     def __getitem__(self, which: int | slice | Sequence[int] | NDArray[Any]) -> Placement | Layout:
-        if isinstance(which, slice | list) or np.ndim(which):
-            rows = np.arange(len(self))[which]
+        if isinstance(which, slice) or np.shape(which):
+            rows = self._rows(which)
             return replace(
                 self, items=tuple(self.items[k] for k in rows), poses=self.poses.subset(rows),
                 weights=self.weights[rows], notes=(), track=None, leaving=None,
@@ -142,6 +143,22 @@ class Layout(Exported, Sequence[Placement]):
         columns = (poses.x, poses.y, poses.angle, poses.scale, poses.stretch, self.weights)
         *pose, weight = (float(column[row]) for column in columns)
         return Placement(self.items[row], Pose(*pose), self.outlines[row], weight)
+
+    def _rows(self, which: Any) -> IntArray:
+        """Numbers of the items of a slice, or that a list names or marks as true."""
+        rows = np.arange(len(self))
+        if isinstance(which, slice):
+            return rows[which]
+        asked = np.asarray(which)
+        asked = asked if asked.size else asked.astype(int)
+        if asked.ndim == 1 and asked.dtype.kind in "biu":
+            with contextlib.suppress(IndexError):
+                return np.asarray(rows[asked])
+        there = number_of(len(self), "item")
+        raise IndexError(
+            f"the layout has {there}: give numbers below that, or a truth for each, "
+            f"not {which!r:.60}"
+        )
 
     def __iter__(self) -> Iterator[Placement]:
         return map(self.__getitem__, range(len(self)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any, Protocol, TypeAlias
@@ -143,7 +144,9 @@ def plain_weights(weights: Any, names: Sequence[str]) -> Any:
     try:
         numbers = np.asarray(weights, dtype=float).tolist()
     except (TypeError, ValueError):
-        raise RecipeError("weights", f"takes numbers, not {weights!r:.60}") from None
+        numbers = [math.nan]
+    if not np.isfinite(numbers).all():
+        raise RecipeError("weights", f"takes numbers, not {weights!r:.60}")
     items = [item.name for item in item_reader.read_items(list(names)).items]
     if np.shape(numbers) != (len(items),) or len(set(items)) < len(items):
         raise RecipeError(

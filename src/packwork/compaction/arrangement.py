@@ -306,7 +306,7 @@ def find_conflicts(
 
 
 def _strips(outlines: Sequence[Outline], poses: Poses, gap: float, most: int) -> Iterator[IntArray]:
-    """Strips of ``most`` items from left to right, each with all beyond it that may be near.
+    """Strips of ``most`` items along the longer side, each with all beyond it that may be near.
 
     All in their order where there are no more.
     """
@@ -315,11 +315,12 @@ def _strips(outlines: Sequence[Outline], poses: Poses, gap: float, most: int) ->
         return
     reach = poses.scale * np.sqrt(np.maximum(poses.stretch, 1 / poses.stretch))
     reach *= np.array([outline.radius for outline in outlines])
-    order = np.argsort(poses.x - reach, kind="stable")
-    left, right = (poses.x - reach)[order], (poses.x + reach)[order]
+    along = max(poses.x, poses.y, key=np.ptp)
+    order = np.argsort(along - reach, kind="stable")
+    nearest, farthest = (along - reach)[order], (along + reach)[order]
     for begin in range(0, len(order), most):
-        farthest = right[begin : begin + most].max() + gap
-        yield order[begin : max(int(np.searchsorted(left, farthest)), begin + most)]
+        beyond = farthest[begin : begin + most].max() + gap
+        yield order[begin : max(int(np.searchsorted(nearest, beyond)), begin + most)]
 
 
 def _conflict(

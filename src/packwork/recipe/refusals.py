@@ -11,6 +11,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ValidationError
 from packwork.errors import RecipeError
 from packwork.synonyms import key_meant
 from packwork.units import length_asked, parse_share
+from packwork.writers.options import DrawingOptions
 
 _Model = TypeVar("_Model", bound=BaseModel)
 
@@ -24,6 +25,7 @@ _PLAIN_WORDS = {
         "must be a whole number of fewer digits"
     ),
     "a valid number, unable to parse string as a number": "a number",
+    "a valid number": "a number",
     "a valid integer, got a number with a fractional part": "a whole number",
     "a valid integer": "a whole number",
     "a valid string": "a text",
@@ -76,12 +78,15 @@ def refusal(
     if refused is not None:
         return refused
     # A misspelt key is also a missing one: name what was written.
-    first = next((e for e in found if e["type"] == "extra_forbidden"), found[0])
+    # Of the forms that a value may have, the one that was given got furthest.
+    forms = [e for e in found if e["loc"][: len(found[0]["loc"]) - 1] == found[0]["loc"][:-1]]
+    deepest = max(forms, key=lambda e: len(e["loc"]))
+    first = next((e for e in found if e["type"] == "extra_forbidden"), deepest)
     key, *within = first["loc"] or ("recipe",)
     key = (names or {}).get(str(key), str(key))
     if first["type"] == "extra_forbidden":
         return RecipeError(key, _unknown(within, key, _keys_at(model, first["loc"][:-1])))
-    where = _where(within) if key in {"rules", "words", "chart", "film"} else ""
+    where = _where(within) if key in {"rules", "weights", "words", "chart", "film"} else ""
     if first["type"] == "missing":
         return RecipeError(key, f"{where}must be given")
     message = plain_words(first["msg"])
@@ -131,14 +136,16 @@ def _unknown(within: Sequence[int | str], key: str, known: list[str]) -> str:
     meant = key_meant(met, known)
     hint = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
     if not within:
-        return f"no such option; {hint}"
+        saved = met in DrawingOptions.model_fields and met not in known
+        return f"no such option; {'give it to save' if saved else hint}"
     return f"{_where(within[:-1])}there is no {met!r}; {hint}"
 
 
 def _where(within: Sequence[int | str]) -> str:
     """Words for a place inside the rules: ``rule 2: pin.x:``."""
     numbers = [f"rule {part + 1}: " for part in within if isinstance(part, int)][:1]
-    keys = ".".join(part for part in within if isinstance(part, str))
+    named = (part for part in within if isinstance(part, str))
+    keys = ".".join(part for part in named if not part.startswith("dict["))
     return "".join(numbers) + (f"{keys}: " if keys else "")
 
 

@@ -104,22 +104,31 @@ def _plain_source(source: object, own: dict[str, Any]) -> object:
     entries = list(source) if isinstance(source, Iterable) else []
     if entries and all(isinstance(one, tuple | list) and len(one) == 2 for one in entries):
         return weights_by_word(entries)
-    words = [word for one in entries if (word := plain_row({"": one})[""]) is not None]
+    words = [word for one in entries if (word := _word(one)) is not None]
     if words and all(isinstance(word, str) for word in words):
         return dict(Counter(words))
     if words and hasattr(source, "items"):
         return weights_by_word(source.items())
+    met = "holds no words" if isinstance(source, Iterable) else f"is {type(source).__name__}"
+    if words:
+        met = f"holds {next(one for one in words if not isinstance(one, str))!r} as a word"
     raise RecipeError(
         "source",
-        f"is {type(source).__name__}; use a text, a file, or a list of words or weights "
-        "by word, such as {'bear': 2}",
+        f"{met}; use a text, a file, or a list of words or weights by word, such as {{'bear': 2}}",
     )
+
+
+def _word(said: Any) -> Any:
+    """A word as it is written, or a number; None where none is."""
+    if isinstance(said, Iterable) and not isinstance(said, str):
+        raise RecipeError("source", f"a word must be a text, not {said!r:.40}")
+    return plain_row({"": said})[""]
 
 
 def weights_by_word(entries: Iterable[tuple[Any, Any]]) -> dict[str, float]:
     """Weights by word, their sum where it stands several times; words without one are told.
 
-    Raises ``RecipeError`` where a weight is no positive number.
+    Raises ``RecipeError`` where a weight is no positive number, or a word is no text.
 
     Examples
     --------
@@ -127,19 +136,22 @@ def weights_by_word(entries: Iterable[tuple[Any, Any]]) -> dict[str, float]:
     {'bear': 3.0}
     """
     found: dict[str, float] = {}
-    empty = []
-    for row in (plain_row({"word": word, "weight": weight}) for word, weight in entries):
-        word, weight = row["word"], row["weight"]
-        if word in (None, "") or weight in (None, 0, ""):
-            empty.append(str(word or weight))
+    without: dict[str, list[str]] = {"word": [], "weight": []}
+    for said, number in entries:
+        word, weight = _word(said), plain_row({"": number})[""]
+        if word in (None, ""):
+            without["word"].append(str(weight))
+            continue
+        if weight in (None, 0, ""):
+            without["weight"].append(str(word))
             continue
         check_weight(str(word), weight)
         found[str(word)] = found.get(str(word), 0.0) + float(weight)
-    if empty:
-        said = number_of(len(empty), "word")
-        _LOG.warning(
-            "source: left out %s without a weight: %s", said, enumerated(empty, MOST_NAMED)
-        )
+    for lacking, others in without.items():
+        if others:
+            left = number_of(len(others), "weight" if lacking == "word" else "word")
+            line = "source: left out %s without a %s: %s"
+            _LOG.warning(line, left, lacking, enumerated(others, MOST_NAMED))
     return found
 
 
