@@ -24,7 +24,8 @@ from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Move
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.exporting import kept_bytes, layout_bytes
-from packwork.live.file.session_file import packed, read_session, unpacked
+from packwork.live.file.parts import packed, part_of
+from packwork.live.file.session_file import read_session, unpacked
 from packwork.live.file.values import text_of
 from packwork.live.nested_again import nested_again
 from packwork.live.session import Session
@@ -192,7 +193,8 @@ def test_lines_that_leave_their_part_are_refused(tmp_path: Path) -> None:
         record["art"]["cut"] = [
             {"points": text_of(np.array(points)), "bulges": bulges, "is_closed": False}
         ]
-        spoilt = packed({**parts, name: json.dumps(record).encode()})
+        changed = {**parts, name: json.dumps(record).encode()}
+        spoilt = packed({name: part_of(data) for name, data in changed.items()})
         with pytest.raises(ReadError):
             read_session(spoilt, "a.packwork")
 

@@ -19,7 +19,6 @@ from packwork.live.file import disk, documents
 from packwork.live.file.session_file import (
     EASILY_UNPACKED,
     MOST_TRIED,
-    packed,
     read_session,
     unpacked,
 )
@@ -48,7 +47,15 @@ def changed(good: bytes, part: str, change: Change) -> bytes:
     found = json.loads(parts[name])
     change(found)
     parts[name] = json.dumps(found).encode()
-    return packed(parts)
+    return zip_of(parts)
+
+
+def zip_of(parts: dict[str, bytes]) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in parts.items():
+            archive.writestr(name, data)
+    return file.getvalue()
 
 
 def refusal(data: bytes) -> str:
@@ -87,7 +94,7 @@ def test_a_list_of_millions_is_refused_before_it_is_read(good: bytes, name: str)
     path = next(path for path in parts if path.startswith(part))
     many = b"[" + b"0," * MANY + b"0]"
     parts[path] = b"{" + place.encode().replace(b"[]", many) + b"}"
-    said = refusal(packed(parts))
+    said = refusal(zip_of(parts))
     assert "holds more than 6,000,000 numbers and lists" in said
 
 
@@ -111,7 +118,7 @@ def test_a_small_file_may_not_unpack_to_a_large_one(good: bytes) -> None:
     parts = dict(unpacked(good))
     font = next(name for name in parts if name.startswith("fonts/"))
     parts[font] = bytes(EASILY_UNPACKED)
-    assert "unpacks to more than 100 MB" in refusal(packed(parts))
+    assert "unpacks to more than 100 MB" in refusal(zip_of(parts))
 
 
 def test_no_part_is_unpacked_before_it_is_named(good: bytes) -> None:
@@ -176,7 +183,9 @@ def test_a_history_too_long_to_be_read_is_kept_in_part_and_said(
     assert last.poses.x.tolist() == known.poses.x.tolist()
 
 
-def test_lines_of_a_journal_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lines_of_a_journal_are_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     file, journal = tmp_path / "a.packwork", tmp_path / "a.packwork.log"
     session = pw.fill("circle", "star", count=3, effort="draft", levels="50", epochs=20).edit()
     session.save(file, journal=True)
@@ -188,5 +197,5 @@ def test_lines_of_a_journal_are_counted(tmp_path: Path, monkeypatch: pytest.Monk
     with pytest.raises(ReadError, match="a gesture of more than 4 lines"):
         pw.Session.open(file)
     journal.write_text(first + f'{{"flow": [{"0," * MANY} 0]}}\n', "utf-8")
-    with pytest.raises(ReadError, match="line 1: holds more than 6,000,000 numbers"):
-        pw.Session.open(file)
+    assert len(pw.Session.open(file).document) == 3
+    assert "line 1: holds more than 6,000,000 numbers" in caplog.text

@@ -26,6 +26,7 @@ from packwork.errors import PackworkError, ReadError, RecipeError, WriteError
 from packwork.live.commands.container import SetContainer
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import Document
+from packwork.live.file.parts import packed, part_of
 from packwork.live.file.session_file import read_session, unpacked
 from packwork.live.file.values import text_of
 from packwork.live.log import Log, read_entries
@@ -540,6 +541,7 @@ def test_a_map_is_kept_once_however_large_it_is_and_however_many_sheets_it_was_o
     lines = iter(stream.getvalue().splitlines())
     brought = [value for kind, value in read_entries(lines, "log") if kind == "container"]
     assert [(name, room.file == land) for name, room in brought] == [("a", True), ("b", True)]
+    assert brought[0][1].file is brought[1][1].file
 
 
 def test_a_map_that_is_too_large_is_left_out_in_a_line(
@@ -556,3 +558,105 @@ def test_a_map_that_is_too_large_is_left_out_in_a_line(
     session.save(tmp_path / "b.packwork")
     assert "the map of land is not kept: it has more than 1 MB" in caplog.text
     assert pw.Session.open(tmp_path / "b.packwork").layout.container.file is None
+
+
+def on_land(file: bytes, *sides: float) -> pw.Session:
+    session = icons().edit()
+    for k, side in enumerate(sides):
+        room = pw.Container("land", "", [(0, 0), (side, 0), (side, side)], file=file + b" " * k)
+        session.library.containers[f"land{k}"] = room
+        session.apply(SetContainer(asset=f"land{k}"))
+    return session
+
+
+def test_a_map_of_blanks_can_be_opened_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.live.file.session_file.EASILY_UNPACKED", 1_000_000)
+    session = on_land(b"{}" + b" " * 3_000_000, 500.0)
+    session.save(tmp_path / "a.packwork")
+    assert pw.Session.open(tmp_path / "a.packwork").layout.container.file == (
+        session.layout.container.file
+    )
+    assert (tmp_path / "a.packwork").stat().st_size < 500_000
+    with zipfile.ZipFile(tmp_path / "a.packwork") as archive:
+        assert archive.testzip() is None
+
+
+def test_no_file_is_written_that_is_too_large_to_be_opened(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session, file = on_land(bytes(1_000_000), 500.0, 450.0, 400.0), tmp_path / "a.packwork"
+    monkeypatch.setattr("packwork.live.file.session_file.MOST_BYTES", 2_500_000)
+    session.save(file)
+    assert "too large; it is kept without 2 steps of undo" in caplog.text
+    again = pw.Session.open(file)
+    assert again.layout.container.file == session.layout.container.file
+    assert len(again.history.past) == 1
+    kept = file.read_bytes()
+    monkeypatch.setattr("packwork.live.file.session_file.MOST_PART_BYTES", 900_000)
+    with pytest.raises(WriteError, match="could not be opened again: it takes 1 MB"):
+        session.save(file)
+    assert file.read_bytes() == kept
+
+
+def test_nothing_is_packed_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = on_land(b"{}", 500.0)
+    session.save(tmp_path / "a.packwork")
+    monkeypatch.delattr("packwork.live.file.things.part_of")
+    session.save()
+    assert pw.Session.open(tmp_path / "a.packwork").layout.container.file == b"{}"
+
+
+def test_a_map_in_its_container_is_read(tmp_path: Path) -> None:
+    # As sessions were written before maps had parts of their own.
+    file = tmp_path / "a.packwork"
+    on_land("{é".encode(), 500.0).save(file)
+    parts = dict(unpacked(file.read_bytes()))
+    name = next(name for name in parts if name.startswith("maps/"))
+    text = json.dumps(parts.pop(name).decode("latin-1")).encode()
+    old = {n: d.replace(f'"{name[5:]}"'.encode(), text) for n, d in parts.items()}
+    file.write_bytes(packed({name: part_of(data) for name, data in old.items()}))
+    assert pw.Session.open(file).layout.container.file == "{é".encode()
+
+
+def test_a_full_disk_leaves_no_half_line_in_the_journal(tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
+    file = tmp_path / "a.packwork"
+    session = icons().edit()
+    session.save(file, journal=True)
+    session.move(0, 300, 300)
+    room = pw.Container("land", "", [(0, 0), (500, 0), (500, 500)], file=bytes(1_000_000))
+    session.library.containers["land"] = room
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (500_000, before[1]))
+    try:
+        with pytest.raises(WriteError, match="make room"):
+            session.apply(SetContainer(asset="land"))
+        assert pw.Session.open(file).document.poses.x[0] == 300
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    session.move(1, 200, 200)
+    session.close()
+    again = pw.Session.open(file)
+    assert is_equal(again.document, session.document)
+    assert again.layout.container.file == room.file
+
+
+def test_a_journal_is_done_again_as_far_as_it_can_be_read(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    file, journal = tmp_path / "a.packwork", tmp_path / "a.packwork.log"
+    session = icons().edit()
+    session.save(file, journal=True)
+    for k in range(3):
+        session.move(k, 300, 300)
+    session.close()
+    lines = journal.read_bytes().splitlines(keepends=True)
+    spoilt = b"".join([*lines[:2], lines[2][:20], *lines[3:]])
+    journal.write_bytes(spoilt)
+    with pw.Session.open(file, journal=True) as again:
+        assert (again.document.poses.x[:3] == 300).tolist() == [True, False, False]
+    assert "line 2 is no entry of a log" in caplog.text
+    assert "kept in a.packwork.log.spoilt" in caplog.text
+    assert (tmp_path / "a.packwork.log.spoilt").read_bytes() == spoilt

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import base64
 import json
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
-from typing import IO, Annotated, Any, TypeAlias
+from typing import Annotated, Any, Protocol, TypeAlias
 
 from pydantic import Field, ValidationError
 
@@ -49,15 +50,25 @@ MOST_TRIALS = 10_000
 """Trials of one line at most. Chosen."""
 
 
+class Stream(Protocol):
+    """Where lines are written to."""
+
+    def write(self, text: str, /) -> object:
+        """Write a line, or nothing of it: OSError then."""
+
+    def flush(self) -> object:
+        """Have all lines on their way to the disk."""
+
+
 class Log:
     """Entries, and the stream that they are written to, if there is one.
 
-    ``stream``: open for text; flushed at the end of each gesture. Without one nothing is kept.
+    ``stream``: written at the end of each gesture. Without one nothing is kept.
     """
 
-    def __init__(self, stream: IO[str] | None = None) -> None:
+    def __init__(self, stream: Stream | None = None) -> None:
         self._stream = stream
-        self._last: Entry | None = None
+        self._unwritten = deque[Entry]()
         self._brought: set[str] = set()
         self._shared: set[str] = set()
 
@@ -72,24 +83,28 @@ class Log:
 
     def note(self, kind: str, value: Any = None) -> None:
         """Add an entry; epochs that follow on epochs of the same level are added to them."""
-        last = self._last
-        is_more = kind == "flow" and last and last[0] == "flow" and last[1][0] == value[0]
-        if is_more and last and last[1][1] + value[1] <= MOST_EPOCHS:
-            self._last = ("flow", (value[0], last[1][1] + value[1]))
+        if self._stream is None:
             return
-        self._write()
-        self._last = (kind, value)
+        last: str
+        so_far: Any
+        last, so_far = self._unwritten[-1] if self._unwritten else ("", None)
+        if kind == last == "flow" and so_far[0] == value[0] and so_far[1] + value[1] <= MOST_EPOCHS:
+            self._unwritten[-1] = ("flow", (value[0], so_far[1] + value[1]))
+        else:
+            self._unwritten.append((kind, value))
 
     def flush(self) -> None:
-        """Have all that was noted written to the stream and on its way to the disk."""
-        self._write()
+        """Have all that was noted written to the stream and on its way to the disk.
+
+        What cannot be written stays noted, for the next time.
+        """
+        while self._stream is not None and self._unwritten:
+            shared = set(self._shared)
+            self._stream.write(line_of(self._unwritten[0], shared) + "\n")
+            self._shared = shared
+            self._unwritten.popleft()
         if self._stream is not None:
             self._stream.flush()
-
-    def _write(self) -> None:
-        if self._stream is not None and self._last is not None:
-            self._stream.write(line_of(self._last, self._shared) + "\n")
-        self._last = None
 
 
 def line_of(entry: Entry, shared: set[str]) -> str:
@@ -121,7 +136,7 @@ def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
     [('flow', (200, 12))]
     """
     kept: str | None = None
-    shared: dict[str, str] = {}
+    shared = Before()
     for number, line in enumerate(lines, start=1):
         if number > MOST_ENTRIES:
             raise ReadError(name, f"has more than {MOST_ENTRIES} lines")
@@ -132,7 +147,7 @@ def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
         yield _entry(kept, number, name, shared)
 
 
-def _entry(line: str, number: int, name: str, shared: dict[str, str]) -> Entry:
+def _entry(line: str, number: int, name: str, shared: Before) -> Entry:
     with reading_file(f"{name}: line {number}"):
         check_size(line.encode("utf-8", "surrogatepass"))
     try:
@@ -147,7 +162,7 @@ def _entry(line: str, number: int, name: str, shared: dict[str, str]) -> Entry:
     raise ReadError(name, f"line {number} is no entry of a log: {line.strip()[:60]!r}")
 
 
-def _checked(kind: str, value: Any, name: str, shared: dict[str, str]) -> Entry | None:
+def _checked(kind: str, value: Any, name: str, shared: Before) -> Entry | None:
     if kind in {"settle", "broken_off", "undo", "redo", "kept"}:
         return kind, None
     if kind == "flow" and _is_flow(value):
@@ -203,33 +218,42 @@ def brought_record(name: str, thing: Item | Container, shared: set[str]) -> Brou
         made = Brought(name=name, container=container_record(thing, things))
     else:
         made = Brought(name=name, item=item_record(thing, things))
-    for path in things.encoded.keys() - shared:
+    for path in [path for path in things.encoded if path not in shared]:
         kind, _, key = path.partition("/")
         getattr(made, kind)[key] = base64.b64encode(things.encoded[path]).decode("ascii")
     shared.update(things.encoded)
     return made
 
 
-def brought_of(value: Any, kind: str, shared: dict[str, str]) -> tuple[str, Item | Container]:
-    """The item or container of a line's value, and its name.
+class Before(Shared):
+    """Fonts, maps and outlines of the lines so far."""
 
-    ``shared``: fonts and maps of lines before by their paths, to which those of this are added.
-    """
+    def __init__(self) -> None:
+        super().__init__(self._file)
+        self._files: dict[str, bytes] = {}
+
+    def add(self, kind: str, files: Mapping[str, str]) -> None:
+        """Keep files as base64 by their hashes, unless a line before has them."""
+        for key, text in files.items():
+            if f"{kind}/{key}" not in self._files:
+                self._files[f"{kind}/{key}"] = bytes_of(text)
+
+    def _file(self, path: str) -> bytes:
+        if path not in self._files:
+            raise UnfitError(f"lacks {path}")
+        return self._files[path]
+
+
+def brought_of(value: Any, kind: str, shared: Before) -> tuple[str, Item | Container]:
+    """The item or container of a line's value, and its name; its files are added to ``shared``."""
     try:
         found = Brought.model_validate(value, strict=False)
     except ValidationError as error:
         raise UnfitError(f"holds what cannot be read: {refusal(error, Brought)}") from None
-    shared.update({f"fonts/{key}": text for key, text in found.fonts.items()})
-    shared.update({f"maps/{key}": text for key, text in found.maps.items()})
-    read = Shared(lambda path: _bytes(shared, path))
+    shared.add("fonts", found.fonts)
+    shared.add("maps", found.maps)
     if kind == "container" and found.container is not None:
-        return found.name, container_of(found.container, read)
+        return found.name, container_of(found.container, shared)
     if kind == "item" and found.item is not None:
-        return found.name, item_of(found.item, read)
+        return found.name, item_of(found.item, shared)
     raise UnfitError(f"holds a line of kind {kind} without one")
-
-
-def _bytes(shared: dict[str, str], path: str) -> bytes:
-    if path not in shared:
-        raise UnfitError(f"lacks {path}")
-    return bytes_of(shared[path])

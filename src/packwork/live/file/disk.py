@@ -12,9 +12,10 @@ import hashlib
 import json
 import logging
 import os
+import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import IO, TypeVar
+from typing import TypeVar
 
 from filelock import FileLock, Timeout
 
@@ -82,7 +83,7 @@ class Disk:
         self._things = Things()
         self._digest = ""
         self._lock = FileLock(lock_beside(self.path), blocking=False, thread_local=False)
-        self._stream: IO[str] | None = None
+        self._stream: _Lines | None = None
         self._log: Log | None = None
 
     @property
@@ -137,8 +138,12 @@ class Disk:
 
     def close(self, session: Session) -> None:
         """End the journal; it stays, and what it holds is done again when the file is opened."""
-        self._end(session)
-        self._disown()
+        try:
+            if self._log is not None:
+                self._log.flush()
+        finally:
+            self._end(session)
+            self._disown()
 
     def _own(self) -> None:
         """Keep others from writing the file."""
@@ -201,11 +206,11 @@ class Disk:
         return found
 
     def _begin(self, session: Session) -> None:
-        """Begin a journal that goes on from the file as it is."""
+        """Begin a journal that goes on from the file as it is, which holds all that was done."""
         self._end(session)
         try:
             write_atomic(self.journal, (json.dumps({"follows": self._digest}) + "\n").encode())
-            self._stream = self.journal.open("a", encoding="utf-8", newline="\n")
+            self._stream = _Lines(self.journal)
         except OSError as error:
             raise WriteError(self.journal, f"cannot be written: {error}") from error
         self._log = session.log = Log(self._stream)
@@ -213,7 +218,6 @@ class Disk:
     def _end(self, session: Session) -> None:
         if self._stream is None or self._log is None:
             return
-        self._log.flush()
         if session.log is self._log:
             session.log = Log()
         self._stream.close()
@@ -230,7 +234,53 @@ class Disk:
             raise ReadError(
                 self.journal, f"is no journal of {self.path.name} as it is now; move it away"
             )
-        return _whole_gestures(read_entries(lines, str(self.journal)), self.journal)
+        entries = read_entries(lines, str(self.journal))
+        return _whole_gestures(self._sound(entries), self.journal)
+
+    def _sound(self, entries: Iterator[Entry]) -> Iterator[Entry]:
+        """Entries as far as they can be read; a journal that goes on is kept beside in a copy."""
+        try:
+            yield from entries
+        except ReadError as error:
+            aside = self.journal.with_name(self.journal.name + ".spoilt")
+            kept_in = f"; all of it is kept in {aside.name}" if self.is_journaled else ""
+            _LOG.warning("%s; this line and those after it are left out%s", error, kept_in)
+            if self.is_journaled:
+                self._keep_aside(aside)
+
+    def _keep_aside(self, aside: Path) -> None:
+        try:
+            shutil.copyfile(self.journal, aside)
+        except OSError as error:
+            raise WriteError(aside, f"cannot be written: {error.strerror or error}") from error
+
+
+class _Lines:
+    """Lines at the end of a file, each written whole or not at all."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._file = path.open("ab", buffering=0)
+
+    def write(self, text: str) -> None:
+        """Write a line, or nothing of it."""
+        begun, rest = self._file.seek(0, os.SEEK_END), memoryview(text.encode())
+        try:
+            while rest:
+                rest = rest[self._file.write(rest) :]
+        except OSError as error:
+            self._file.truncate(begun)
+            raise WriteError(
+                self._path, f"cannot be written: {error.strerror or error}; make room: what was "
+                "done is there, and is written with what is done next",
+            ) from error  # fmt: skip
+
+    def flush(self) -> None:
+        """Nothing waits."""
+
+    def close(self) -> None:
+        """Of the file."""
+        self._file.close()
 
 
 def _follows(line: str) -> str:

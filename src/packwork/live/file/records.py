@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from packwork.geometry.lattice import Repeat
 from packwork.options import Options
+from packwork.readers.maps import MAX_MAP_BYTES
 from packwork.readers.regions import MAX_POINTS
 from packwork.scene.item import MAX_LENGTH
 from packwork.units import Unit
@@ -73,7 +74,9 @@ Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False, ge=-FARTHEST, le
 
 Length: TypeAlias = Annotated[float, Field(allow_inf_nan=False, gt=0, le=FARTHEST)]
 
-Key: TypeAlias = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+HASH = "^[0-9a-f]{64}$"
+
+Key: TypeAlias = Annotated[str, Field(pattern=HASH)]
 """Hash of content, by which one thing calls another."""
 
 Numbers: TypeAlias = str
@@ -266,5 +269,5 @@ class ContainerRecord(Options):
     backdrop: BackdropRecord | None = None
     walls: Annotated[tuple[Numbers, ...], Field(max_length=MOST_LINES)] | None = None
     repeats: Repeat | None = None
-    file: Key | None = None
-    """Hash of the map or drawing that names its parts."""
+    file: Annotated[str, Field(max_length=MAX_MAP_BYTES)] | None = None
+    """Hash of the map or drawing that names its parts; older sessions have its text here."""

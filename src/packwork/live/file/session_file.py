@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
-from packwork.errors import RecipeError
+from packwork.errors import RecipeError, WriteError
 from packwork.live.file.documents import (
     MOST_ROWS,
     DocumentRecord,
@@ -22,6 +22,7 @@ from packwork.live.file.documents import (
     records_of,
     rows_of,
 )
+from packwork.live.file.parts import MOST_FOLD, Part, packed, part_of
 from packwork.live.file.records import ContainerRecord, ItemRecord
 from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
 from packwork.live.history import MOST_ENTRIES, Marks, SessionState, UndoHistory
@@ -92,25 +93,47 @@ class SessionRecord(Options):
 
 
 def session_bytes(kept: SessionState, things: Things, follows: str = "") -> bytes:
-    """File of a session.
+    """File of a session, without the farthest steps of undo and redo if it would be too large.
 
     ``follows``: SHA-256 of the file that it is to replace; empty for none.
+
+    Raises
+    ------
+    WriteError
+        If what there is now is more than can be opened again.
     """
     past, future = kept.history.past, kept.history.future
     while True:
         record = _record(replace(kept, history=UndoHistory(past, future)), things, follows)
         first = record.model_dump_json(exclude_none=True).encode()
-        if (is_read(first) and rows_of(record.documents) <= MOST_ROWS) or not (past or future):
+        parts = _parts_of(record, things)
+        if rows_of(record.documents) <= MOST_ROWS and _is_opened_again(first, parts):
             break
+        if not (past or future):
+            size = (len(first) + sum(part.size for part in parts.values())) / 1e6
+            most, most_in_one = MOST_BYTES // 1_000_000, MOST_PART_BYTES // 1_000_000
+            raise WriteError("the session", f"could not be opened again: it takes {size:,.0f} MB; "
+                f"{most:,} go, and {most_in_one} in one item or map")  # fmt: skip
         past, future = past[1 + len(past) // 8 :], future[: len(future) * 7 // 8]
     left_out = len(kept.history.past) - len(past) + len(kept.history.future) - len(future)
     if left_out:
         steps = number_of(left_out, "step")
         _LOG.warning("the file would be too large; it is kept without %s of undo or redo", steps)
-    used = {*record.items, *record.containers}
-    used.update(*(things.needs[path] for path in used))
-    parts = {path: data for path, data in things.encoded.items() if path in used}
-    return packed({"session.json": first, **parts})
+    return packed({"session.json": part_of(first), **parts})
+
+
+def _parts_of(record: SessionRecord, things: Things) -> dict[str, Part]:
+    paths = [*record.items, *record.containers]
+    needed = sorted({need for path in paths for need in things.needs[path]})
+    return {path: things.part(path) for path in (*paths, *needed)}
+
+
+def _is_opened_again(first: bytes, parts: Mapping[str, Part]) -> bool:
+    """Whether reading accepts what is written."""
+    sizes = [len(first), *(max(part.size, len(part.packed)) for part in parts.values())]
+    in_all = sum(sizes) + _HEAD_BYTES * len(sizes)
+    is_little = len(sizes) <= MOST_PARTS and in_all <= MOST_BYTES and max(sizes) <= MOST_PART_BYTES
+    return is_little and is_read(first)
 
 
 def _record(kept: SessionState, things: Things, follows: str) -> SessionRecord:
@@ -206,40 +229,27 @@ MOST_PART_BYTES = 120_000_000
 """Of one part unpacked: the large and the small copy of a photograph, or six million numbers.
 Larger takes gigabytes once it is read. Derived."""
 
-EASILY_UNPACKED, MOST_FOLD = 100_000_000, 50
-"""Bytes that any file may unpack to, and how many times its own size a larger one may: photographs
-and coordinates are packed by less than ten. Larger lets a small file fill the memory. Chosen."""
+EASILY_UNPACKED = 100_000_000
+"""Bytes that any file may unpack to, and larger ones ``MOST_FOLD`` times their size. Chosen."""
 
 MOST_PARTS = 100_010
 """As many items as a layout may have, and a few. Chosen."""
 
+_HEAD_BYTES = 300
+"""What a zip adds to each part, at most. Derived."""
+
 PART = re.compile(r"session\.json|(items|containers)/[0-9a-f]{64}\.json|(fonts|maps)/[0-9a-f]{64}")
 """Names of parts; no others are read."""
 
-_STILL = (1980, 1, 1, 0, 0, 0)
-"""Time of all parts: the same session gives the same bytes."""
 
-
-def packed(parts: Mapping[str, bytes]) -> bytes:
-    """A zip of parts by their paths.
+def unpacked(data: bytes) -> Mapping[str, bytes]:
+    """Parts of a zip, each unpacked whenever it is asked for, so that never all are in memory.
 
     Examples
     --------
-    >>> parts = {"session.json": b"{}"}
-    >>> unpacked(packed(parts)) == parts
-    True
+    >>> dict(unpacked(packed({"session.json": part_of(b"{}")})))
+    {'session.json': b'{}'}
     """
-    file = io.BytesIO()
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in parts.items():
-            # Numbers of maps are packed as well, six times as fast.
-            level = 1 if name.startswith("maps/") else None
-            archive.writestr(zipfile.ZipInfo(name, _STILL), data, zipfile.ZIP_DEFLATED, level)
-    return file.getvalue()
-
-
-def unpacked(data: bytes) -> Mapping[str, bytes]:
-    """Parts of a zip, each unpacked whenever it is asked for, so that never all are in memory."""
     return _Parts(data)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import logging
+import re
+import zlib
 from collections.abc import Callable
 from dataclasses import fields
 from typing import Literal, TypeVar
@@ -12,7 +14,9 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from packwork.geometry.outline import Outline
+from packwork.live.file.parts import Part, part_of
 from packwork.live.file.records import (
+    HASH,
     BackdropRecord,
     ContainerRecord,
     DatumRecord,
@@ -72,7 +76,12 @@ class Shared:
         return self._outlines[record]
 
     def map(self, key: str) -> bytes:
-        """The map of a hash, which is checked where its parts are looked up."""
+        """The map of a hash, which is checked where its parts are looked up.
+
+        Or of its own text, a letter for each byte, which older sessions have in its place.
+        """
+        if not re.fullmatch(HASH, key):
+            return key.encode("latin-1", "replace")
         if key not in self._maps:
             data = self._read(f"maps/{key}")
             if len(data) > MAX_MAP_BYTES:
@@ -98,11 +107,12 @@ class Things:
 
     def __init__(self) -> None:
         self.encoded: dict[str, bytes] = {}
-        """By their path in a file, such as ``items/<hash>.json``."""
+        """By their path in a file, such as ``items/<hash>.json``, until they are packed."""
         self.needs: dict[str, frozenset[str]] = {}
         """Paths of fonts and maps by that of the item or container that has them."""
         self._needed: set[str] = set()
         self._keys: dict[object, str] = {}
+        self._parts: dict[str, Part] = {}
 
     def item(self, item: Item) -> str:
         """Path of an item, which is encoded unless it has been."""
@@ -115,9 +125,21 @@ class Things:
     def shared(self, kind: Literal["fonts", "maps"], data: bytes) -> str:
         """Hash of the content of a font or a map, which is kept once."""
         key = hashlib.sha256(data).hexdigest()
-        self.encoded.setdefault(f"{kind}/{key}", data)
+        self._keep(f"{kind}/{key}", data)
         self._needed.add(f"{kind}/{key}")
         return key
+
+    def part(self, path: str) -> Part:
+        """What lies at a path, packed."""
+        if path not in self._parts:
+            # Numbers of maps are packed as well, six times as fast.
+            level = 1 if path.startswith("maps/") else zlib.Z_DEFAULT_COMPRESSION
+            self._parts[path] = part_of(self.encoded.pop(path), level)
+        return self._parts[path]
+
+    def _keep(self, path: str, data: bytes) -> None:
+        if path not in self._parts:
+            self.encoded.setdefault(path, data)
 
     def _put(self, kind: str, thing: object, record: Callable[[], BaseModel]) -> str:
         path = self._keys.get(thing)
@@ -125,7 +147,7 @@ class Things:
             self._needed.clear()
             data = record().model_dump_json(exclude_none=True).encode()
             path = f"{kind}/{hashlib.sha256(data).hexdigest()}.json"
-            self.encoded.setdefault(path, data)
+            self._keep(path, data)
             self.needs[path] = frozenset(self._needed)
             self._keys[thing] = path
         return path
