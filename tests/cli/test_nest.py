@@ -494,8 +494,21 @@ def test_parts_that_would_tile_a_sheet_are_told_how_much_it_has_to_be_larger(
     told = " ".join(packwork("nest 60x40mm tile.svg*4 --passes 50 -o a.svg").output.split())
     wanted = "2 sheets; their parts fill one to the edge: a thousandth more room (60.06x40.04mm)"
     assert wanted in told
+    told = " ".join(
+        packwork("nest 66x46mm tile.svg*8 --kerf 2mm --passes 5 -o a.svg").output.split()
+    )
+    assert "their parts fill 2 to the edge: a thousandth more room (66.066x46.046mm)" in told
     result = packwork("nest 60.06x40.04mm tile.svg*4 --effort draft -o a.geojson")
     assert "4 parts on 60.000" in result.output
+
+
+@pytest.mark.parametrize("line", ["50x50mm disc.svg@40mm*35", "50x51mm disc.svg@40mm*2"])
+def test_parts_that_exclude_each_other_are_promised_no_fewer_sheets(
+    shop: Path, packwork: Command, line: str
+) -> None:
+    told = " ".join(packwork(f"nest {line} --passes 2 -o a.svg").output.split())
+    assert f"{line.rpartition('*')[2]} sheets" in told
+    assert "may do with" not in told
 
 
 def test_more_sheets_than_the_parts_ask_for_are_told(shop: Path, packwork: Command) -> None:

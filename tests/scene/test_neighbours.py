@@ -63,3 +63,12 @@ def test_long_items_are_beside_each_other_whatever_their_middles_say() -> None:
         for a, b, c, d in boxes
     ]
     assert side_by_side(outlines).tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3]]
+
+
+def test_small_items_lie_beside_those_that_are_near_by_their_own_size() -> None:
+    # Two large ones that touch, and a row of small ones at the second.
+    outlines = [disc(corners=100)] * 9
+    sizes = np.array([1.0, 1, 1, 1, 1, *[0.05] * 4])
+    row = [0.0, 2.01, 4.02, 6.03, 8.04, *(9.1 + 0.11 * np.arange(4))]
+    pairs = side_by_side(placed(outlines, poses(row, [0.0] * 9, scale=sizes))).tolist()
+    assert pairs == [[k, k + 1] for k in range(8)]

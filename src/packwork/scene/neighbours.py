@@ -12,8 +12,9 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.outline import regions as regions_of
 
 NEAR = 0.5
-"""Gap between two items that lie side by side at most, in radii of a disc as large as the
-typical item. Larger counts pairs that another item could nearly pass between. Chosen."""
+"""Gap between two items that lie side by side at most, in radii of a disc as large as the smaller
+of them, or as the typical item. Larger counts pairs that another item could nearly pass between.
+Chosen."""
 
 
 def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
@@ -55,8 +56,9 @@ def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
 def side_by_side(outlines: Sequence[Outline]) -> IntArray:
     """Pairs of items that lie side by side, with a small gap between them.
 
-    Small is below :data:`NEAR` of the radius of a disc as large as the median item. By their
-    outlines: of long words the middles say little of which lie beside each other.
+    Small is below :data:`NEAR` of the radius of a disc as large as the smaller of the two, or as
+    the median item where that is smaller: a large item has many small ones about it, and of these
+    a few lie beside each other. By their outlines: of long words the middles say little.
 
     ``outlines``: in place.
 
@@ -71,7 +73,11 @@ def side_by_side(outlines: Sequence[Outline]) -> IntArray:
     """
     if len(outlines) < 2:
         return np.zeros((0, 2), dtype=np.int64)
-    radius = float(np.sqrt(np.median([outline.area for outline in outlines]) / np.pi))
+    radii = np.sqrt(np.array([outline.area for outline in outlines]) / np.pi)
     regions = regions_of(outlines)
-    found = shapely.STRtree(regions).query(regions, "dwithin", NEAR * radius).T
-    return np.unique(found[found[:, 0] < found[:, 1]], axis=0).astype(np.int64)
+    near = NEAR * np.minimum(radii, np.median(radii))
+    one, other = shapely.STRtree(regions).query(regions, "dwithin", near)
+    # Each pair is found from its smaller item.
+    is_pair = (radii[one] < radii[other]) | ((radii[one] == radii[other]) & (one < other))
+    found = np.sort(np.column_stack([one, other])[is_pair], axis=1).astype(np.int64)
+    return found[np.lexsort(found.T[::-1])]

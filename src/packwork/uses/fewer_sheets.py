@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 import numpy as np
 import shapely
 
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region
 from packwork.phrasing import number_of
 from packwork.separation.shapes import Floats
 from packwork.separation.strip import WorkBound
 from packwork.uses.nest_work import more_than
-from packwork.uses.nested import NestedSheet
+from packwork.uses.nested import NestedSheet, SheetPart
 
 REACHED = 0.75
 """Share of sheets that parts of most shapes cover, their gaps counted to them. Larger advises less
 often, smaller where more time gains nothing. Chosen."""
 
-FULL = 0.97
-"""Share of sheets from which on parts tile them, their gaps counted to them: shapes that do not
-never cover so much. Chosen."""
-
 EASE = 1e-3
-"""Share of a sheet's sides that the search needs to find such a tiling; of a sixth of it, it found
-two of three."""
+"""Share of a sheet's sides that the search needs to find parts that fill it to its edges; of a
+sixth of it, it found two of three."""
 
 
 def advice_on_sheets(
-    found: Sequence[NestedSheet], gap: float, work: WorkBound
+    found: Sequence[NestedSheet], parts: Sequence[SheetPart], gap: float, edge: float,
+    work: WorkBound,
 ) -> tuple[str, ...]:  # fmt: skip
     """A sentence where all parts may do with fewer sheets, the first ones; nothing elsewhere.
 
@@ -36,8 +35,10 @@ def advice_on_sheets(
     ----------
     found
         The sheets that are taken, of finite length.
-    gap
-        Distance of parts, in the sheets' unit.
+    parts
+        All kinds of them, with their angles.
+    gap, edge
+        Distance of parts, and of parts to the edge, in the sheets' unit.
     work
         What the search was allowed.
     """
@@ -47,8 +48,9 @@ def advice_on_sheets(
         return ()
     room = np.cumsum(shapely.area(grounds))
     taken = float(shapely.area(regions).sum() + gap / 2.0 * shapely.length(regions).sum())
-    full = int(np.searchsorted((1.0 + 1e-9) * room, taken)) + 1
-    if full < len(grounds) and taken >= FULL * room[full - 1]:
+    turned = {part.item.outline for part in parts if _may_turn(part.angles)}
+    full = _filled_to_the_edge(found, grounds, turned, gap, edge)
+    if full < len(grounds):
         ground = found[0].layout.container
         larger = "x".join(f"{(1.0 + EASE) * side:.6g}" for side in (ground.width, ground.height))
         return (
@@ -67,6 +69,76 @@ def advice_on_sheets(
         f"{_number(fewer)}: "
         f"more time may do with {fewer} ({more_than(work)})",
     )
+
+
+def _filled_to_the_edge(
+    found: Sequence[NestedSheet], grounds: Sequence[Region], turned: Set[Outline], gap: float,
+    edge: float,
+) -> int:  # fmt: skip
+    """Number of equal rectangles that rows of all parts fill to the edge; that of all elsewhere.
+
+    Parts are as large as their bounds at angles at which they lie; those of ``turned`` may lie
+    across, too.
+    """
+    width, height = (float(side) for side in shapely.bounds(grounds[0])[2:])
+    if not all(ground.equals(shapely.box(0.0, 0.0, width, height)) for ground in grounds):
+        return len(grounds)
+    names = [
+        (item.outline, float(scale))
+        for one in found
+        for item, scale in zip(one.layout.items, one.layout.poses.scale, strict=True)
+    ]
+    bounds = np.array([outline.bounds for one in found for outline in one.layout.outlines])
+    sides = bounds[:, 2:] - bounds[:, :2] + gap
+    best, sheet = len(grounds), np.array([width, height])
+    for across in (0, 1):
+        # Each kind as it lies lowest, then as it lies highest.
+        for sign in (1.0, -1.0):
+            flat = dict[tuple[Outline, float], FloatArray]()
+            for name, lies in zip(names, sides, strict=True):
+                side = lies
+                if name[0] in turned and sign * (lies[across] - lies[1 - across]) > 0.0:
+                    side = lies[::-1]
+                if name not in flat or sign * side[across] < sign * flat[name][across]:
+                    flat[name] = side
+            lying = np.array([flat[name] for name in names])[:, [across, 1 - across]]
+            tight, ample = (
+                _sheets_in_rows(lying, (1.0 + ease) * sheet[[across, 1 - across]] - 2 * edge + gap)
+                for ease in (-EASE, EASE)
+            )
+            if ample < tight:
+                best = min(best, ample)
+    return best
+
+
+def _may_turn(angles: tuple[float, ...] | None) -> bool:
+    """Whether each angle has one a quarter of a turn from it, in radians.
+
+    >>> [_may_turn(angles) for angles in (None, (0.0, np.pi), (np.pi, np.pi / 2))]
+    [True, False, True]
+    """
+    if angles is None:
+        return True
+    apart = np.subtract.outer(angles, angles)
+    return bool((np.abs(np.cos(apart)).min(axis=1) < 1e-9).all())
+
+
+def _sheets_in_rows(sides: FloatArray, sheet: FloatArray) -> int:
+    """Number of sheets that rectangles take in rows, the highest first.
+
+    >>> _sheets_in_rows(np.array([[20.0, 30.0]] * 5), np.array([40.0, 60.0]))
+    2
+    """
+    count, top, row, along = 1, 0.0, 0.0, 0.0
+    for height, width in sides[np.lexsort(sides.T[::-1])[::-1]].tolist():
+        if height > sheet[0] or width > sheet[1]:
+            return len(sides) + 1
+        if row == 0.0 or along + width > sheet[1]:
+            top, row, along = top + row, height, 0.0
+            if top + height > sheet[0]:
+                count, top = count + 1, 0.0
+        along += width
+    return count
 
 
 def _number(count: int) -> str:

@@ -150,7 +150,7 @@ def nest(
     areas = [one.item.outline.region.area * one.scale**2 for one in parts]
     lacking = sum(areas[n] * count for n, count in missing.items() if not parts[n].is_optional)
     is_free = not unplaced and all(sheet.held is None for sheet in sheets)
-    advice = advice_on_sheets(found, gap, work) if is_free else ()
+    advice = advice_on_sheets(found, parts, gap, edge, work) if is_free else ()
     return NestedSheets(tuple(found), unplaced, optional, about, lacking, advice)
 
 

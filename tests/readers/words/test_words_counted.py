@@ -91,7 +91,20 @@ def test_the_language_is_guessed_and_its_function_words_left_out(text: str, lang
     assert not set(counted(text)) & stop_words(language)
 
 
-@pytest.mark.parametrize("text", ["Mia Tom Per", "mia, tom, per", "Mia Per Tom Sara Lea Ben Mia"])
+def test_titles_in_capitals_have_a_language() -> None:
+    titles = "The Matrix\nThe Lion King\nA Beautiful Mind\nThe Green Mile\nThe Sixth Sense"
+    assert not {"the", "a"} & {word.casefold() for word in counted(titles)}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Mia Tom Per",
+        "mia, tom, per",
+        "Mia Per Tom Sara Lea Ben Mia",
+        "Per Mia Tom Tom Mia Per " * 3,
+    ],
+)
 def test_names_are_no_function_words(text: str) -> None:
     assert {word.casefold() for word in counted(text)} >= {"mia", "tom", "per"}
 

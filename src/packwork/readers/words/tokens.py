@@ -10,6 +10,7 @@ from __future__ import annotations
 import difflib
 import json
 import re
+import statistics
 import subprocess
 import sys
 import unicodedata
@@ -78,8 +79,8 @@ def languages() -> tuple[str, ...]:
 def guess_language(forms: Counter[str]) -> str | None:
     """Language of a text, by the share of its words that are function words of one.
 
-    Three at least, one of them without a capital: lists of names have some ("Mia", "Per"). Words
-    are given as they are written.
+    Three at least, one of them without a capital or thrice as often as the others: lists of names
+    have some ("Mia", "Per"), lists of titles begin with one. Words are given as they are written.
 
     Examples
     --------
@@ -88,7 +89,9 @@ def guess_language(forms: Counter[str]) -> str | None:
     >>> guess_language(Counter(["Mia", "Tom", "Per", "Sara"])) is None
     True
     """
-    small = {form.casefold() for form in forms if not form.istitle()}
+    often = LEAST_FOUND * statistics.median(forms.values() or [0])
+    told = (form for form, n in forms.items() if often <= n < len(forms) or not form.istitle())
+    small = set(map(str.casefold, told))
     counts, total = Counter[str](), forms.total()
     for form, n in forms.items():
         counts[form.casefold()] += n
