@@ -181,5 +181,5 @@ def test_built_in_losses_are_found(name: str) -> None:
 def test_bad_names_are_refused_in_one_line(name: str, problem: str) -> None:
     with pytest.raises(RecipeError, match=problem) as caught:
         find_loss(name)
-    assert caught.value.key == "loss"
+    assert caught.value.key == "losses"
     assert "\n" not in str(caught.value)

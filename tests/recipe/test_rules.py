@@ -48,7 +48,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": "star", "color": "none"}, "color: 'none' cannot be seen"),
     ({"items": "star", "color": []}, "color: use colours such as"),
     ({"items": "star", "color": 3}, "color: use colours such as"),
-    ({"items": "star", "name": 3}, "name: must be a valid string"),
+    ({"items": "star", "name": 3}, "name: must be a text, not 3"),
     ({"items": "star", "title": "x" * 2_001}, "title: may have 2000 characters"),
     ({"items": "star", "link": "javascript:alert(1)"}, "link: must begin with http:"),
     ({"items": "star", "link": " https://a.example"}, "link: must begin with http:"),

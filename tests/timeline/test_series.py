@@ -125,7 +125,7 @@ def test_rows_and_tables_of_steps_are_read(tmp_path: Path) -> None:
     [
         ({"1": {"a": 1}}, {}, RecipeError, "fewer than two"),
         ({"1": {}, "2": {"a": 1}}, {}, RecipeError, "no weights by word"),
-        ({"1": {"a": 0}, "2": {"a": 1}}, {}, PackworkError, "positive"),
+        ({"1": {"a": 0}, "2": {"a": 1}}, {}, PackworkError, "no weights by word of the step '1'"),
         (years(), {"sizes": "graded"}, RecipeError, "sizes: has no meaning in a series"),
         (years(), {"repeat": "auto"}, RecipeError, "repeat: has no meaning"),
         ("none.csv", {}, ReadError, "none.csv"),

@@ -13,6 +13,7 @@ from packwork.uses.words.graded import LEGIBLE
 from packwork.uses.words.repeats import AT_LEAST, REPEATED
 
 WEIGHTS = {"honey": 8.0, "bear": 5.0, "bee": 3.0, "wood": 2.0, "fox": 1.0}
+RED = "#ff0000"
 QUICK = {"effort": "draft", "rotate": "mixed", "seed": 1}
 
 
@@ -23,14 +24,14 @@ def repeated(sizes: str) -> pw.Layout:
         WEIGHTS,
         sizes=sizes,
         repeat="auto",
-        palette="#ff0000",
+        palette=RED,
         **QUICK,  # type: ignore[arg-type]
     )
 
 
 @pytest.mark.parametrize("sizes", ["graded", "shared"])
 def test_words_are_repeated_smaller_where_nothing_else_fits(sizes: str) -> None:
-    alone = pw.words("heart", WEIGHTS, sizes=sizes, **QUICK)  # type: ignore[arg-type]
+    alone = pw.words("heart", WEIGHTS, sizes=sizes, palette=RED, **QUICK)  # type: ignore[arg-type]
     layout = repeated(sizes)
     if sizes == "graded":
         _tells_of_the_words_themselves(layout)

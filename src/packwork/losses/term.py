@@ -56,7 +56,7 @@ def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
     >>> checked_term(lambda density, container: None, np.ones((1, 1)), np.ones((1, 1)))
     Traceback (most recent call last):
         ...
-    packwork.errors.RecipeError: loss: <lambda> must return a Term, not NoneType
+    packwork.errors.RecipeError: losses: <lambda> must return a Term, not NoneType
     """
     return checked_call(loss, (density, container))
 
