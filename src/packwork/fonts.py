@@ -171,12 +171,17 @@ def installed_families() -> Mapping[str, tuple[str, ...]]:
 def scripts_of(family: str) -> list[str]:
     """Scripts of an installed family, by Unicode's names: those of which it has a common letter.
 
+    None of one whose file has gone away since.
+
     >>> scripts_of("inter display")
     ['Latin', 'Greek', 'Cyrillic']
     """
     import uharfbuzz as hb
 
-    face = hb.Face(hb.Blob.from_file_path(installed_families()[family][0]))
+    try:
+        face = hb.Face(hb.Blob.from_file_path(installed_families()[family][0]))
+    except hb.HarfBuzzError:
+        return []
     return [script for script, letter in _LETTERS.items() if ord(letter) in face.unicodes]
 
 

@@ -158,5 +158,16 @@ def test_auto_is_what_suits_what_is_placed(one_colour: Path) -> None:
         with layout.edit() as session:
             session.set(padding="auto")
             assert (session.document.options.padding > 1) == is_wide
+    # What a run has found by itself is known, and what a gap would take room from has none.
+    many = {f"word{chr(97 + k % 26)}{chr(97 + k // 26)}": 1 for k in range(150)}
+    cloud = pw.words("circle", many, effort="draft", count=150)
+    fixed = pw.fill("circle", str(one_colour), sizes="fixed", **asked)
+    hero = pw.fill("circle", str(one_colour), hero="bar", **asked)
+    for layout in (cloud, fixed, hero):
+        with layout.edit() as session:
+            before = session.document.options.padding
+            assert before < 1.2
+            session.set(padding="auto")
+            assert session.document.options.padding == before
     with pytest.raises(RecipeError, match="use auto or a length such as"):
         make_recipe(container="circle", padding="wide")

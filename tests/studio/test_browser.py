@@ -346,8 +346,14 @@ def test_an_export_is_shown_as_it_will_be(open_desk: Callable[..., Desk]) -> Non
         edge = 0.05 / 1.1 * 2480
         assert min(left, top, made.width - right, made.height - bottom) > 0.98 * edge
         assert min(left, top, made.width - right, made.height - bottom) < 1.2 * edge
-    # The next time nothing is shown until it is what is exported then.
-    assert not desk.look("(studio.exporting.open(), studio.exporting.preview.hasAttribute('src'))")
+    # The next time nothing is shown until it is what is exported then, and nothing is kept.
+    assert desk.look(
+        "(revoke => { const { preview } = studio.exporting, was = preview.src; let gone;"
+        " URL.revokeObjectURL = (one) => { gone = one; revoke.call(URL, one); };"
+        " studio.exporting.open(); URL.revokeObjectURL = revoke;"
+        " return was.startsWith('blob:') && gone === was && !preview.hasAttribute('src'); })"
+        "(URL.revokeObjectURL)"
+    )
 
 
 def test_files_are_brought_and_what_fails_is_a_line(

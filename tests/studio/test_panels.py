@@ -86,6 +86,9 @@ def test_words_are_changed_in_place_in_a_font_of_the_machine(
     # What the words have now is asked for by its family, also in a page that did not choose it.
     font = desk.page.get_by_label("Font", exact=True)
     family = desk.look("studio.words.font.families.find(one => one.style.fontFamily).value")
+    # Letters are the browser's, which finds by them.
+    letter = "new KeyboardEvent('keydown', { key: 'd', cancelable: true })"
+    assert desk.look(f"studio.words.font.field.dispatchEvent({letter})")
     # By keys: the list opens, and nothing is set until one of it is taken.
     asked = desk.look("studio.connection.count")
     font.focus()

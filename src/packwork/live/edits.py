@@ -52,7 +52,7 @@ def set_container(session: Session, container: Container) -> None:
     Flag("--force", is_repeated=True),
 )
 def set(session: Session, /, **options: str | float | Sequence[str]) -> None:
-    """Set numbers for all: ``padding`` (auto: as a run's), ``sizes``, ``rotate``, ``force`` ..."""
+    """Set numbers for all: ``padding`` (auto: its run's), ``sizes``, ``rotate``, ``force`` ..."""
     from packwork.live.commands.command import made
     from packwork.live.commands.container import SetOption
     from packwork.recipe import AUTO
@@ -61,26 +61,12 @@ def set(session: Session, /, **options: str | float | Sequence[str]) -> None:
     container, given = session.document.container, dict(options)
     asked = given.get("padding")
     if asked == AUTO:
-        given["padding"] = _usual_gap(session)
+        from packwork.live.relayout import usual_gap
+
+        given["padding"] = usual_gap(session.document)
     elif isinstance(asked, str | int | float):
         given["padding"] = length_asked("padding", asked, container.unit, container.side, AUTO)
     session.do_together(made(SetOption, name=name, value=value) for name, value in given.items())
-
-
-def _usual_gap(session: Session) -> float:
-    """Gap, canvas units, that a run of a session's items has where none is asked for."""
-    from packwork.recipe.rules import usual_padding
-    from packwork.scene.recolour import are_of_one_colour
-    from packwork.units import parse_length
-    from packwork.uses.icons import one_colour_gap
-
-    document = session.document
-    container, said = document.container, document.manifest.get("recipe")
-    usual = usual_padding(said if isinstance(said, dict) else {})
-    gap = parse_length(usual, container.unit, container.side)
-    if gap or document.kind.name == "pile" or not are_of_one_colour(document.items):
-        return gap
-    return one_colour_gap(container, len(document.items))
 
 
 @edit(Flag("--remove", "ITEM", "Take items away.", of_many=True))

@@ -23,6 +23,7 @@ from packwork.live.kinds import LineKind, PileKind
 from packwork.live.macros import word_rows
 from packwork.live.mosaic import Mosaic
 from packwork.live.nested_again import nested_again
+from packwork.metrics.certificate import Promise
 from packwork.pipeline import run
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules, RuleSource
@@ -33,16 +34,34 @@ from packwork.readers.target import painted
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.order import FROM_TEXT
 from packwork.recipe.piles import PileOptions
-from packwork.recipe.rules import Pin, Rule
+from packwork.recipe.rules import AUTO, Pin, Rule, usual_padding
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.scene.recolour import are_of_one_colour
 from packwork.temporary import TemporaryFolder
+from packwork.units import parse_length
+from packwork.uses.icons import keeps_gaps, one_colour_gap
 from packwork.uses.words.use import with_sizes_that_give_way
 
 BY_TEXT = FROM_TEXT
 """Stands for vectors that are made from the text of the words."""
+
+
+def usual_gap(document: Document) -> float:
+    """Gap, canvas units, that the run found by itself; of one that was told, the usual one."""
+    container, found = document.container, document.manifest.get("recipe")
+    said = found if isinstance(found, Mapping) else {}
+    promise = Promise.of(document.manifest)
+    # Of a layout that was edited it is the promise of that.
+    if promise and said.get("padding") == AUTO and "edited" not in document.manifest:
+        return promise.gap
+    gap = parse_length(usual_padding(said), container.unit, container.side)
+    is_kept = gap or document.kind.name == "pile" or keeps_gaps(document.options.sizes, said)
+    if is_kept or not are_of_one_colour(document.items):
+        return gap
+    return one_colour_gap(container, len(document.items))
 
 
 def poured_again(

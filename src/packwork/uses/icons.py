@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -189,13 +189,18 @@ def one_colour_gap(container: Container, count: int) -> float:
 def runs_together(job: Job) -> bool:
     """Whether neighbours that touch would be read as one, and the run finds the padding."""
     plan = job.plan
-    if job.recipe.padding != AUTO or plan.sizes == "fixed" or not plan.is_exact:
+    if job.recipe.padding != AUTO or not plan.is_exact:
         return False
-    # An earlier layout keeps its own gaps, and what is pinned was placed without one.
-    if plan.is_from_layout or job.recipe.hero is not None:
+    # An earlier layout keeps its own gaps.
+    if plan.is_from_layout or keeps_gaps(plan.sizes, vars(job.recipe)):
         return False
     has_others = plan.palette or job.target is not None or any(one.values for one in job.asked)
     return not has_others and are_of_one_colour(job.items)
+
+
+def keeps_gaps(sizes: str, asked: Mapping[str, Any]) -> bool:
+    """Whether a gap would take room that a recipe asks for: fixed sizes, or a hero's."""
+    return sizes == "fixed" or asked.get("hero") is not None
 
 
 def alike_upright(job: Job) -> list[list[RunStep]]:

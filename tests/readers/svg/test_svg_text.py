@@ -175,6 +175,12 @@ def test_fonts_are_found_in_folders(tmp_path, monkeypatch):
     assert "inter dingbat" not in fonts.installed_families()
 
 
+def test_a_font_that_goes_away_has_no_scripts(monkeypatch, tmp_path):
+    gone = {"gone": (str(tmp_path / "gone.otf"),)}
+    monkeypatch.setattr(fonts, "installed_families", lambda: gone)
+    assert fonts.scripts_of("gone") == []
+
+
 @pytest.mark.parametrize(
     "data",
     [

@@ -151,10 +151,10 @@ export function picker(label, take, ids = () => []) {
   return { element: h("span", { class: "picker" }, field, pipette), field, show };
 }
 
-/** Have a key open a list whose every step would be asked for at once. @param {KeyboardEvent} event */
+/** Have a key open a list whose every step would be asked for at once; letters are for finding in it. @param {KeyboardEvent} event */
 export function openList(event) {
   const field = event.currentTarget;
-  if (!(field instanceof HTMLSelectElement) || event.ctrlKey || event.metaKey || event.altKey || !/^(Arrow(Up|Down)|Page(Up|Down)|Home|End|[^ ])$/.test(event.key)) return;
+  if (!(field instanceof HTMLSelectElement) || event.ctrlKey || event.metaKey || event.altKey || !field.showPicker || !/^(Arrow(Up|Down)|Page(Up|Down)|Home|End)$/.test(event.key)) return;
   event.preventDefault();
   field.showPicker();
 }

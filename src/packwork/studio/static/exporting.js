@@ -138,6 +138,7 @@ export class Exporting {
 
   open() {
     // What it was before is no picture of it.
+    URL.revokeObjectURL(this.preview.src);
     this.preview.removeAttribute("src");
     this.note.textContent = this.worth;
     this.note.dataset.is = this.collage.state?.certified ? "good" : "bad";
