@@ -406,6 +406,8 @@ def test_palettes_of_seaborn_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("matplotlib")
     theirs = SimpleNamespace(color_palette={"deep": [(1, 0, 0), (0, 0, 1)]}.__getitem__)
     monkeypatch.setitem(sys.modules, "seaborn", theirs)
+    with pytest.raises(RecipeError, match="'depe' is no colour"):
+        pw.fill("heart", "star", palette="depe")  # a KeyError there
     asked = pw.fill("heart", "star", count=2, palette="deep", **DRAFT).manifest["recipe"]
     assert asked["palette"] == ["#ff0000", "#0000ff"]
 
@@ -433,3 +435,45 @@ def test_messages_speak_of_what_was_written(options: Any, said: str) -> None:
 def test_a_canvas_is_a_pair_of_lengths_too() -> None:
     made = pw.fill("page", "star", count=2, canvas=(300, 200), **DRAFT)
     assert made.manifest["recipe"]["canvas"] == "300x200"
+
+
+def test_categories_of_pandas_are_some_though_they_are_numbers() -> None:
+    pandas = pytest.importorskip("pandas")
+    data = pandas.DataFrame({"kg": [3, 1, 2], "year": pandas.Categorical([2020, 2021, 2020])})
+    made = pw.chart("heart", data, size_by="kg", color_by="year", **DRAFT)
+    assert [i.datum.category for i in made.items if i.datum] == ["2020", "2021", "2020"]
+    assert pw.run(made.manifest["recipe"]) == made
+
+
+class Lazy:
+    """A frame that is computed when it is asked for, as polars has it."""
+
+    columns = ("word", "n")
+
+    def __init__(self, rows: int) -> None:
+        self.rows = rows
+
+    def head(self, most: int) -> Lazy:
+        return Lazy(min(self.rows, most))
+
+    def collect(self) -> Any:
+        assert self.rows <= 1_000_001
+        words = ["bear", "owl"] * (self.rows // 2 + 1)
+        cells = {"word": words[: self.rows], "n": range(self.rows, 0, -1)}
+        return pytest.importorskip("pandas").DataFrame(cells)
+
+
+def test_lazy_frames_are_tables_and_no_more_of_them_is_read_than_may_be() -> None:
+    weights = {"bear": 2, "owl": 1}
+    assert pw.words("circle", Lazy(2), **DRAFT) == pw.words("circle", weights, **DRAFT)
+    assert len(pw.chart("heart", Lazy(3), size_by=[3, 1, 2], **DRAFT)) == 3
+    with pytest.raises(RecipeError, match="data: has more than 1,000,000 rows"):
+        pw.words("circle", Lazy(10**9))
+
+
+def test_a_table_with_a_column_for_each_step_is_told_what_would_do() -> None:
+    pandas = pytest.importorskip("pandas")
+    wide = pandas.DataFrame({1999: [3, 2], 2000: [2, 3]}, index=["bear", "fox"])
+    with pytest.raises(RecipeError, match=r"no column 'year' of steps.*a row for each word and"):
+        pw.series("heart", wide, "year")
+    assert pw.series("heart", wide.to_dict(), "year", **DRAFT).labels == ("1999", "2000")

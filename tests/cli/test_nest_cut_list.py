@@ -26,7 +26,9 @@ def shop(folder: Path) -> Path:
 
 
 def listed(shop: Path, text: str, name: str = "list.csv") -> None:
-    (shop / "job" / name).write_text(text, encoding="utf-8")
+    # Excel saves "Unicode text" so.
+    encoding = "utf-16" if name.endswith(".txt") else "utf-8"
+    (shop / "job" / name).write_text(text, encoding=encoding)
 
 
 def names(path: Path) -> list[str]:

@@ -194,7 +194,7 @@ class _FillPhotosPile(TypedDict, total=False):
 class _Every(TypedDict, total=False):
     """Options of fill, words, photos, chart, pile."""
 
-    canvas: str | float | None
+    canvas: str | float | Sequence[float] | None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
     200x150mm, A4 (A0 to A6, letter) or A4-landscape. Its unit is that of all results. Default: an
     SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.readers import items as item_reader
-from packwork.readers.tables.table import is_count
+from packwork.readers.tables.table import collected, is_count
 from packwork.recipe.typed import Anchor, Force, Hero
 from packwork.scene.colour import hex_colour
 from packwork.scene.palette import colours_by_name, palette_colours
@@ -126,10 +126,10 @@ def _known(text: str) -> Any:
 
         if is_color_like(text) and text != "none":
             return plain_colour(to_rgba(text))
-        seaborn: Any = importlib.import_module("seaborn")
-        if text in matplotlib.colormaps:  # which seaborn adds to
-            return plain_colours(matplotlib.colormaps[text])
-        with contextlib.suppress(ValueError):
+        with contextlib.suppress(Exception):  # whatever seaborn meets in a name that it parses
+            seaborn: Any = importlib.import_module("seaborn")
+            if text in matplotlib.colormaps:  # which seaborn adds to
+                return plain_colours(matplotlib.colormaps[text])
             return plain_colours(seaborn.color_palette(text))
     return text
 
@@ -166,7 +166,7 @@ def with_columns(data: Any, options: Mapping[str, Any]) -> tuple[Any, dict[str, 
     >>> with_columns({"fig": ["a", "b"]}, {"size_by": [3, 1], "seed": 2})
     ({'fig': ['a', 'b'], 'size': [3, 1]}, {'size_by': 'size', 'seed': 2})
     """
-    asked = dict(options)
+    asked, data = dict(options), collected(data)
     if hasattr(data, "to_frame") and not hasattr(data, "columns"):
         name = "value" if data.name is None else str(data.name)
         data, asked = data.to_frame(name), {"size_by": name} | asked

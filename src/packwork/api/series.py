@@ -115,7 +115,8 @@ def series(
     ----------
     table
         Words and weights with a column of steps: a file (.csv, .tsv, .json), a data frame, rows as
-        dicts; or by step a dict of weights by word.
+        dicts; or by step a dict of weights by word, such as ``to_dict()`` of a crosstab with a
+        column for each step.
     by
         The column of steps.
     stop

@@ -27,6 +27,9 @@ class ChartOptions(Options):
     index: Annotated[dict[str, str], NOT_OFFERED] = Field(default_factory=dict)
     """Columns that were a data frame's index, with their types: they are its index again."""
 
+    categorical: Annotated[tuple[str, ...], NOT_OFFERED] = ()
+    """Columns that hold categories in a data frame, numbers too."""
+
     size_by: str | None = None
     """Column of numbers that sizes are in proportion to. Default: of words the weights; in a chart
     all marks are alike."""

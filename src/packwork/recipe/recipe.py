@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
@@ -71,6 +72,7 @@ DEFAULT_SMALLEST = "0.5%"
 
 _COLLAGES = Offer(verbs=Verbs.COLLAGES)
 _CANVAS = parsed_by(canvas_size)
+_PAIR = Offer(takes=str | float | Sequence[float] | None)
 _HERO = replace(_COLLAGES, group=Group.ORDER, takes=str | Hero | None)
 _LEVELS = Offer(group=Group.SOLVED, verbs=Verbs.LEVELLED)
 _SAFE = Offer(group=Group.PRINTED, verbs=Verbs.COLLAGES)
@@ -127,7 +129,7 @@ class Recipe(
     Of words: how many at most, those of the largest weights; default 100. auto: as many as it
     takes for the container's shape to show."""
 
-    canvas: Annotated[str | float | None, _CANVAS] = None
+    canvas: Annotated[str | float | None, _CANVAS, _PAIR] = None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
     200x150mm, A4 (A0 to A6, letter) or A4-landscape. Its unit is that of all results.
     Default: an SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""

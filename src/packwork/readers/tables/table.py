@@ -187,10 +187,9 @@ def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, 
     >>> rows_of_frame({"land": ["Peru", "Kenya"], "kg": [2, 3]})
     [{'land': 'Peru', 'kg': 2}, {'land': 'Kenya', 'kg': 3}]
     """
-    if callable(collect := getattr(data, "collect", None)):  # polars has not asked for it yet
-        data = collect()
+    data = collected(data)
     if isinstance(data, Sized) and len(data) > MOST_ROWS:
-        raise RecipeError("data", f"has {len(data):,} rows; {MOST_ROWS:,} are the most")
+        raise RecipeError("data", f"has more than {MOST_ROWS:,} rows, which are the most")
     if hasattr(data, "columns") and hasattr(data, "to_dicts"):
         return [plain_row(row) for row in data.to_dicts()]
     if hasattr(data, "column_names") and hasattr(data, "to_pylist"):
@@ -210,6 +209,17 @@ def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, 
     )
 
 
+def collected(data: Any) -> Any:
+    """A lazy frame's rows as a frame, one more of them than may be at most; all else as it is.
+
+    Examples
+    --------
+    >>> collected({"land": ["Peru"]})
+    {'land': ['Peru']}
+    """
+    return data.head(MOST_ROWS + 1).collect() if hasattr(data, "collect") else data
+
+
 def is_frame(data: Any) -> bool:
     """Whether something is a table of pandas, polars or pyarrow.
 
@@ -218,7 +228,7 @@ def is_frame(data: Any) -> bool:
     >>> is_frame({"land": ["Peru"]})
     False
     """
-    ways = ("to_dict", "to_dicts", "to_pylist")
+    ways = ("to_dict", "to_dicts", "to_pylist", "collect")
     return hasattr(data, "columns") and any(hasattr(data, way) for way in ways)
 
 
@@ -235,6 +245,19 @@ def index_of_frame(data: Any) -> dict[str, str]:
         return {}
     names = with_index.columns[: data.index.nlevels]
     return {str(name): str(with_index[name].dtype) for name in names}
+
+
+def categorical_columns(data: Any) -> tuple[str, ...]:
+    """Columns of a data frame of pandas that hold categories, whatever these are called.
+
+    Examples
+    --------
+    >>> categorical_columns({"land": ["Peru"]})
+    ()
+    """
+    types: Any = getattr(data, "dtypes", None)
+    pairs = types.items() if hasattr(types, "items") else ()
+    return tuple(str(name) for name, kind in pairs if str(kind) == "category")
 
 
 def is_count(index: Any) -> bool:

@@ -158,7 +158,11 @@ def _steps(table: TableRead, file: str, column: str) -> WordSteps:
     columns = dict.fromkeys(key for word in table.words for key in word.columns)
     if column not in columns:
         there = enumerated(list(columns), 20) if columns else "none but those of words and weights"
-        raise RecipeError("series", f"{file} has no column {column[:40]!r}; there are {there}")
+        raise RecipeError(
+            "series",
+            f"{file} has no column {column[:40]!r} of steps; there are {there}; give a row for "
+            "each word and step",
+        )
     found = _by_step(table.words, column)
     if not 2 <= len(found) <= MOST_STEPS:
         raise RecipeError(

@@ -110,6 +110,8 @@ def read_chart(
 ) -> ChartRead:
     """Marks of a chart; where colours have names (``has_names``), numbers are categories too.
 
+    So they are in a column that holds categories.
+
     Examples
     --------
     >>> rows = ({"land": "Peru", "t": 25}, {"land": "Kenya", "t": 10}, {"land": "Fiji", "t": 0})
@@ -128,7 +130,7 @@ def read_chart(
     owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
     marks = _drawings(options, table, kinds, holes, reading)
-    column = None if has_names else options.color_by
+    column = None if has_names or options.color_by in options.categorical else options.color_by
     is_ramp = column is not None and is_numeric(rows, column)
     colours, told = _categories(rows, None if is_ramp else options.color_by)
     items = _items(

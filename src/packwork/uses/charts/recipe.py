@@ -8,7 +8,7 @@ from packwork.errors import RecipeError
 from packwork.options import Verbs
 from packwork.readers.charts import ChartOptions
 from packwork.readers.options import check_colour
-from packwork.readers.tables.table import index_of_frame
+from packwork.readers.tables.table import categorical_columns, index_of_frame
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults
@@ -42,7 +42,8 @@ def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
         own["paper"] = check_colour("background", background)
     given = {key: value for key, value in own.items() if value is not None}
     check_names({"chart": {"data": data, **given}})
-    asked = validated(ChartOptions, {"data": data, "index": index_of_frame(data), **given})
+    told = {"index": index_of_frame(data), "categorical": categorical_columns(data)}
+    asked = validated(ChartOptions, {"data": data, **told, **given})
     if asked.by is not None and container.startswith("around:"):
         raise RecipeError("by", "repeats the container, and a picture's quiet part is there once")
     chosen = with_defaults(Verbs.CHART, options)
