@@ -93,6 +93,34 @@ def wait_for(owner: Owner) -> tuple[str, ...]:
     return ()
 
 
+def test_a_full_disk_is_told_and_nothing_that_is_done_meanwhile_is_lost(dozen: pw.Layout) -> None:
+    class Stream(io.StringIO):
+        is_full = True
+
+        def write(self, text: str, /) -> int:
+            if self.is_full:
+                raise pw.WriteError("a.log", "is full")
+            return super().write(text)
+
+    disk = Stream()
+    session = Session(Document.from_layout(dozen), log=Log(disk))
+    owner = Owner(session, lambda: told.extend(owner.frame.refused), polishes=True)
+    told = list[str]()
+    with owner:
+        owner.post(Move(item=0, x=300.0, y=300.0))
+        for _ in range(2_000):
+            if told and session.is_certified:
+                break
+            time.sleep(0.005)
+        disk.is_full = False
+        owner.post(Move(item=1, x=200.0, y=200.0))
+    assert told == ["a.log: is full"]
+    session.log.flush()
+    entries = read_entries(iter(disk.getvalue().splitlines()), "log")
+    again = Session.replay(Document.from_layout(dozen), entries)
+    assert (again.document.poses.x == session.document.poses.x).all()
+
+
 def test_a_fault_in_the_thread_is_raised_at_the_end_of_the_block(dozen: pw.Layout) -> None:
     class Broken(Command):
         kind: str = "broken"

@@ -660,3 +660,21 @@ def test_a_journal_is_done_again_as_far_as_it_can_be_read(
     assert "line 2 is no entry of a log" in caplog.text
     assert "kept in a.packwork.log.spoilt" in caplog.text
     assert (tmp_path / "a.packwork.log.spoilt").read_bytes() == spoilt
+
+
+def test_a_journal_does_not_grow_beyond_what_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file, journal = tmp_path / "a.packwork", tmp_path / "a.packwork.log"
+    session = icons().edit()
+    session.save(file, journal=True)
+    session.move(0, 300, 300)
+    monkeypatch.setattr("packwork.live.file.disk.MOST_BYTES", journal.stat().st_size + 9)
+    with pytest.raises(WriteError, match="is full; save the session"):
+        session.move(1, 200, 200)
+    assert journal.stat().st_size < 300
+    monkeypatch.undo()
+    session.save()
+    session.move(2, 250, 250)
+    session.close()
+    assert is_equal(pw.Session.open(file).document, session.document)

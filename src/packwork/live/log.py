@@ -7,6 +7,7 @@ same bytes.
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
@@ -93,10 +94,20 @@ class Log:
         else:
             self._unwritten.append((kind, value))
 
+    def try_flush(self) -> None:
+        """As :meth:`flush` after what nobody asked for; the next gesture tells what is wrong."""
+        with contextlib.suppress(OSError):
+            self.flush()
+
     def flush(self) -> None:
         """Have all that was noted written to the stream and on its way to the disk.
 
         What cannot be written stays noted, for the next time.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written.
         """
         while self._stream is not None and self._unwritten:
             shared = set(self._shared)

@@ -294,7 +294,7 @@ class Session:
         if (moved := self._solver.polish(trials := min(trials, MOST_TRIALS), stop)) is None:
             return 0
         self.log.note("polish", trials)
-        self.log.flush()
+        self.log.try_flush()
         return moved
 
     def finish(self) -> Settlement:
@@ -373,7 +373,7 @@ class Session:
         self._solver.settled()
         self.requests.settled(before, self.document, self.marks.recent)
         self.log.note("settle")
-        self.log.flush()
+        self.log.try_flush()
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
         if (seen := self._solver.run(epochs, resolution)) is not None:

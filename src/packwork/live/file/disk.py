@@ -265,6 +265,8 @@ class _Lines:
     def write(self, text: str) -> None:
         """Write a line, or nothing of it."""
         begun, rest = self._file.seek(0, os.SEEK_END), memoryview(text.encode())
+        if len(rest) > LONGEST_LINE or begun + len(rest) > MOST_BYTES:
+            raise WriteError(self._path, "is full; save the session, which begins another")
         try:
             while rest:
                 rest = rest[self._file.write(rest) :]
