@@ -64,6 +64,18 @@ def test_few_words_do_not_run_together() -> None:
     assert near.metrics["exact"]["min_gap"] < 0.5 * FEW_BETWEEN * em
 
 
+@pytest.mark.parametrize(("canvas", "palette", "times"), [
+    ("10x1000", None, 1.0), ("6x1000", "black,black", OF_ONE_COLOUR),
+])  # fmt: skip
+def test_few_words_of_a_thin_page_stand_apart_by_their_letters(
+    canvas: str, palette: str | None, times: float
+) -> None:
+    asked = {"sizes": "shared", "canvas": canvas, "effort": "draft"}
+    layout = pw.words("page", dict.fromkeys(NAMES, 1.0), palette=palette, **asked)
+    gap = layout.metrics["exact"]["min_gap"] / (EM_PX * float(layout.poses.scale.min()))
+    assert 0.9 * times < gap / FEW_BETWEEN < 1.5 * times
+
+
 def test_a_padding_that_is_asked_for_is_kept(wide: pw.Layout) -> None:
     assert wide.manifest["certified"]
     assert wide.metrics["exact"]["min_gap"] >= 2.0

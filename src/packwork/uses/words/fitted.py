@@ -60,28 +60,45 @@ def least_gap(job: Job) -> float:
 
     Unless a gap was asked for: the usual one is far more than small letters need.
     """
-    return job.plan.gap if job.recipe.padding != AUTO else min(job.plan.gap, ABOVE * _em(job))
+    return job.plan.gap if job.recipe.padding != AUTO else min(job.plan.gap, ABOVE * min(_ems(job)))
 
 
 def gap_of_few(job: Job) -> float:
-    """Gap between so few words at one common scale that the usual one runs them together."""
+    """Gap between so few words at one common scale that the usual one runs them together.
+
+    On thin pages the usual one is wider than such letters need, and less.
+    """
     if job.recipe.padding != AUTO or job.plan.sizes != "shared" or len(job.items) >= FEWEST:
         return job.plan.gap
-    return max(job.plan.gap, FEW_BETWEEN * beside(job) / BESIDE * _em(job))
+    smallest, largest = (FEW_BETWEEN * em for em in _ems(job))
+    return max(min(job.plan.gap, largest), beside(job) / BESIDE * smallest)
 
 
 def beside(job: Job) -> float:
     """Room beside words, ems of the smaller: more where all have one colour."""
-    is_one = job.recipe.palette is not None and len(job.plan.palette) == 1
+    is_one = len(set(job.plan.palette)) == 1
     has_own = job.recipe.words is not None and job.recipe.words.color_by is not None
     return BESIDE * (OF_ONE_COLOUR if is_one and not has_own else 1.0)
 
 
-def _em(job: Job) -> float:
-    """Em of the smallest word, canvas units, where all cover as much as they come to."""
+def _ems(job: Job) -> tuple[float, float]:
+    """Ems of the smallest and the largest word, canvas units, that cover as much as they come to.
+
+    No larger than the container has room for each word by itself: on thin ones letters are small.
+    """
+    region = job.container.outline.region
     scales = np.sqrt(job.weights / [item.outline.area for item in job.items])
-    covered = COVERED * job.container.outline.area
-    return EM_PX * float(scales.min()) * float(np.sqrt(covered / job.weights.sum()))
+    covered = math.sqrt(COVERED * region.area / job.weights.sum())
+    x0, y0, x1, y1 = region.bounds
+    boxes = np.array([item.outline.bounds for item in job.items])
+    sides, room = boxes[:, 2:] - boxes[:, :2], np.array([x1 - x0, y1 - y0])
+    if job.plan.rotation.limit != 0.0:
+        sides, room = np.sort(sides, axis=1), np.sort(room)
+    # Limbs are about as wide as twice the area over the edge's length.
+    limb = 2.0 * region.area / region.length
+    most = np.minimum((room / sides).min(axis=1), limb / sides.min(axis=1)) / scales
+    ems = EM_PX * min(covered, float(most.min())) * scales
+    return float(ems.min()), float(ems.max())
 
 
 @final

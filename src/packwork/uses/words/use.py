@@ -184,7 +184,7 @@ class WordsUse(Use):
             return [*steps, *self._filled(job), *self.report(job)]
 
         few = job.plan.gap if is_below_hero else gap_of_few(job)
-        if not by_letters and few <= job.plan.gap:
+        if not by_letters and few == job.plan.gap:
             return _closer(job, all_of)
         gap = least_gap(job) if by_letters else few
         return [Replan(gap=gap), *all_of(job.replanned(gap=gap))]
