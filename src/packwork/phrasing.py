@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import difflib
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 MOST_NAMED = 3
 """Names in a line that stands for more, unless said otherwise. Chosen."""
+
+
+MOST_COLUMNS = 20
+"""Columns that a message names. Chosen."""
 
 
 def number_of(count: int, one: str, several: str | None = None) -> str:
@@ -37,6 +42,32 @@ def enumerated(names: Sequence[str], most: int = MOST_NAMED) -> str:
     """
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return ", ".join(names[:most]) + more
+
+
+def meant(typed: str, known: Iterable[str]) -> str:
+    """A question after the known name that is nearest to what was typed; empty if none is near.
+
+    Examples
+    --------
+    >>> meant("umsatz", ["Ort", "Umsatz"]), meant("x", ["Ort"])
+    ('did you mean Umsatz?', '')
+    """
+    by_case = {name.casefold(): name for name in known}
+    close = difflib.get_close_matches(typed.casefold(), by_case, n=1)
+    return f"did you mean {by_case[close[0]]}?" if close else ""
+
+
+def no_column(asked: str, there: Sequence[str]) -> str:
+    """What follows "there is no column": what was asked for, what may be meant, what there is.
+
+    Examples
+    --------
+    >>> no_column("umsatz", ["Ort", "Umsatz"]), no_column("x", [])
+    ("'umsatz'; did you mean Umsatz? there are Ort, Umsatz", "'x'; there are none")
+    """
+    near = meant(asked, there)
+    listed = enumerated(there, MOST_COLUMNS) or "none"
+    return f"{asked[:40]!r}; {near}{' ' if near else ''}there are {listed}"
 
 
 _FLAG = re.compile(r"(?<![\w-])--?([a-z][a-z-]*)")

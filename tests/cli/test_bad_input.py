@@ -96,6 +96,8 @@ OPTIONS = [
     ("--hero star@1%,1%", "--hero: pins star at 6, 5.52, outside"),
     ("--hero star@50%,40%=90%", "% of it lies outside the container; make it smaller or move it"),
     ("--palette puce", "--palette: 'puce' is no colour; palettes are okabe-ito"),
+    ("--palette #123;#456", "put commas between colours: #123,#456"),
+    ("--hero moon", "no item is called 'moon'; there are star: add it to the items"),
     ("--palette red,", "--palette: '' is no colour"),
     ("--target-coverage 94", "--target-coverage: "),
     ("--target-coverage 0", "--target-coverage: "),

@@ -10,7 +10,9 @@ import pytest
 
 import packwork as pw
 from packwork.readers.layouts.read import read_written
+from packwork.uses.charts.colours import UNKNOWN
 from packwork.uses.charts.framing import EM_SHARE
+from packwork.uses.charts.pen import lettering
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
 NUMBERS = [3.7, 12.0, 0.9, 5.5, 1.3]
@@ -98,6 +100,31 @@ def test_the_legend_shows_sizes_at_the_scale_of_the_chart() -> None:
         assert area == pytest.approx(float(number) * per_number, rel=TRUE)
 
 
+def test_numbers_of_a_key_stand_beside_the_middle_of_their_marks() -> None:
+    layout = pw.chart("circle", MANY, size_by="number", **QUICK)
+    keys = [
+        (a, b)
+        for a, b in zip(layout.notes, layout.notes[1:], strict=False)
+        if not a.says and b.says in {"10", "5", "2", "1", "0.5"}
+    ]
+    circle = layout.items[0].outline.bounds
+    middles = [m.matrix[1, 2] + m.matrix[0, 0] * (circle[1] + circle[3]) / 2 for m, _ in keys]
+    lines = [number.matrix[1, 2] for _, number in keys]
+    assert len(keys) > 1
+    assert np.ptp(middles) == pytest.approx(0, abs=1e-6)
+    # Digits are about 0.7 em high.
+    tall = keys[-1][1].matrix[0, 0] * lettering("1").units * 0.35
+    assert np.array(lines) - tall == pytest.approx(middles, abs=1e-6)
+
+
+def test_the_ends_of_a_ramp_are_written_as_other_numbers() -> None:
+    rows = [{"kg": "1.234,50"}, {"kg": "3.120,75"}, {"kg": "410,00"}]
+    layout = pw.chart("circle", rows, size_by="kg", color_by="kg", **QUICK)
+    said = [note.says for note in layout.notes]
+    assert {"410", "3.120,75"} <= set(said)
+    assert "3120,75" not in said
+
+
 def test_title_and_legend_have_room_of_their_own_on_the_canvas() -> None:
     layout = pw.chart("square", ROWS, size_by="number", title="Five", canvas="A4", **QUICK)
     left, top, right, bottom = layout.container.outline.bounds
@@ -125,7 +152,11 @@ def test_a_chart_ends_soon_below_its_legend(
         layout = pw.chart(container, rows, size_by="number", **options, effort="draft")
     else:
         layout = pw.chart(container, rows, size_by="number", color_by="kind", **options, **QUICK)
-    last = max(note.matrix[1, 2] for note in layout.notes)
+    marks = [note for note in layout.notes if note.fill == UNKNOWN]
+    foot = max(mark.bounds[3] for mark in (item.outline for item in layout.items))
+    low = [mark.matrix[1, 2] + foot * mark.matrix[0, 0] for mark in marks]
+    last = max(note.matrix[1, 2] for note in layout.notes if note.says)
+    last = max([last, *low])
     assert layout.container.height - last < 3.5 * EM_SHARE * layout.container.width
 
 

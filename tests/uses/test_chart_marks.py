@@ -160,6 +160,7 @@ def test_marks_go_to_the_values_of_their_names() -> None:
     ("rows", "options", "message"),
     [
         (LANDS, {"size_by": "mass"}, "no column 'mass'; there are land, kg, kind"),
+        (LANDS, {"size_by": "KG"}, "no column 'KG'; did you mean kg. there are land, kg"),
         (LANDS, {"color_by": "mass"}, "color_by: there is no column"),
         (LANDS, {"size_by": "land"}, "holds text such as 'Peru', no numbers; those of numbers"),
         ([{"a": 0}, {"a": 0}], {"size_by": "a"}, "no row can be shown: 'a' is 0 in 2 rows"),

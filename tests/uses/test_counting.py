@@ -20,10 +20,11 @@ from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
 from packwork.pipeline.state import RunContext, RunState
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container, repeating
+from packwork.scene.item import VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.steps.measure import RemarkCount
-from packwork.steps.shortfalls import Advise
+from packwork.steps.shortfalls import Advise, TellOneColour
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.icons import KnownContainer
 from packwork.uses.piles.recipe import pile_recipe
@@ -56,6 +57,19 @@ def advised(recipe: Recipe, container: Container, seen: ShapeMetrics = TAILLESS)
     metrics = cast(Any, SimpleNamespace(seen=seen))
     state = replace(RunState.of(job), layout=layout, metrics=metrics)
     return " ".join(map(str, Advise().run(state, RunContext()).findings))
+
+
+@pytest.mark.parametrize(("between", "count"), [(0.0, 1), (1.0, 0)])
+def test_items_of_one_colour_run_together_only_where_they_touch(between: float, count: int) -> None:
+    container = with_tail(12)
+    job = uses.read(recipe(items=["circle", "square"], count=2), container=container)
+    arts = (VectorArt(f'<path d="M0 0h{k}v9z"/>', np.eye(2, 3)) for k in (8, 9))
+    items = tuple(replace(one, art=art) for one, art in zip(job.items, arts, strict=True))
+    one = np.ones(2)
+    beside = job.items[0].outline.bounds[2] - job.items[1].outline.bounds[0] + between
+    layout = Layout(container, items, Poses(np.array([0, beside]), 0 * one, 0 * one, one), one)
+    state = replace(RunState.of(job), layout=layout, metrics=cast(Any, SimpleNamespace()))
+    assert len(TellOneColour().run(state, RunContext()).findings) == count
 
 
 def test_thin_parts_take_more_items() -> None:

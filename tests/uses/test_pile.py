@@ -17,6 +17,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.progress import Step
 from packwork.readers.layouts.read import read_written
+from packwork.readers.svg.curve import walled_container
 from packwork.scene.container import Container
 from packwork.settle import bottom_left
 from packwork.uses.piles.opening import opened
@@ -174,6 +175,31 @@ def test_an_opening_follows_its_container_to_other_canvases(tmp_path: Path, canv
     container = run.layout.container
     assert container.outline.bounds[1] == pytest.approx(0, abs=1e-9)
     assert container.outline.bounds[3] == pytest.approx(0.9 * container.height)
+
+
+def test_a_white_sheet_behind_a_jar_is_none_of_it(tmp_path: Path) -> None:
+    file = tmp_path / "jar.svg"
+    file.write_text(
+        JAR.replace("<path", '<rect width="100" height="100" fill="white"/><path'), encoding="utf-8"
+    )
+    jar, mouths = walled_container(str(file), None) or (None, None)
+    assert jar is not None
+    assert len(mouths) == 1
+    assert jar.outline.bounds == pytest.approx((120, 180, 480, 540))
+
+
+def test_the_handle_of_a_cup_is_no_wall(tmp_path: Path) -> None:
+    file = tmp_path / "cup.svg"
+    handle = '<path d="M60 40H80V60H60" fill="none" stroke="#000" stroke-width="6"/>'
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><rect width="100" '
+        f'height="100" fill="#fff"/><path d="M20 30H60V90H20z"/>{handle}</svg>',
+        encoding="utf-8",
+    )
+    assert walled_container(str(file), None) is None
+    run = _run(str(file), count=4, size="10%")
+    left, top, right, bottom = run.layout.container.outline.bounds
+    assert (left, top, right, bottom) == pytest.approx((120, 180, 498, 540), abs=3)
 
 
 def test_paths_that_surround_nothing_are_no_container(tmp_path: Path) -> None:

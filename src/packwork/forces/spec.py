@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import BeforeValidator
 
 from packwork.errors import RecipeError
+from packwork.phrasing import meant
 from packwork.recipe_paths import split_words
 from packwork.units import LONGEST, NUMBER, is_length, split_length
 
@@ -103,8 +103,7 @@ def _what(kind: str, said: list[str], text: str) -> dict[str, Any]:
         return {"kind": kind, "axis": said[0]}
     if kind == "balance":
         return {"kind": kind, **_balance(said, text)}
-    close = difflib.get_close_matches(kind, KINDS, n=1)
-    hint = f"did you mean {close[0]}?" if close else f"use one of {', '.join(KINDS)}"
+    hint = meant(kind, KINDS) or f"use one of {', '.join(KINDS)}"
     raise RecipeError("force", f"no force is called {kind[:40]!r}; {hint}")
 
 

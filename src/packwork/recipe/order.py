@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from dataclasses import dataclass
 from typing import Annotated
@@ -12,6 +11,7 @@ from pydantic import field_validator, model_validator
 from packwork.errors import RecipeError
 from packwork.forces.spec import DIRECTIONS
 from packwork.options import Group, Offer, Options, Verbs
+from packwork.phrasing import meant
 from packwork.recipe.refusals import parsed_by
 from packwork.recipe.typed import Anchor
 from packwork.recipe_paths import split_words
@@ -104,8 +104,7 @@ def unknown_measure(by: str, columns: str = "") -> RecipeError:
 
 
 def _meant(word: str, known: tuple[str, ...]) -> str:
-    close = difflib.get_close_matches(word, known, n=1)
-    return f"did you mean {close[0]}?" if close else f"use {', '.join(known)}"
+    return meant(word, known) or f"use {', '.join(known)}"
 
 
 class OrderOptions(Options):

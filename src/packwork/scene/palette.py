@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import logging
 import re
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from packwork.errors import RecipeError
-from packwork.phrasing import enumerated
+from packwork.phrasing import enumerated, meant
 from packwork.scene.colour import css_colour
 
 PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -179,7 +178,17 @@ def _colour(text: str) -> str:
     return f"#{red:02x}{green:02x}{blue:02x}" + ("" if opacity == 255 else f"{opacity:02x}")
 
 
+def _is_colour(text: str) -> bool:
+    try:
+        css_colour(text)
+    except ValueError:
+        return False
+    return True
+
+
 def _unknown(text: str) -> str:
-    close = difflib.get_close_matches(text.lower(), PALETTES, n=1)
-    hint = f"did you mean {close[0]}?" if close else f"palettes are {', '.join(PALETTES)}"
+    hint = meant(text, PALETTES) or f"palettes are {', '.join(PALETTES)}"
+    parts = re.split(r"[\s;]+", text)
+    if len(parts) > 1 and all(map(_is_colour, parts)):
+        hint = f"put commas between colours: {','.join(parts)[:80]}"
     return f"{text[:40]!r} is no colour; {hint}"

@@ -8,9 +8,11 @@ from collections.abc import Sequence
 from typing import final
 
 import numpy as np
+import shapely
 
 from packwork.arrays import FloatArray
 from packwork.compaction.objective import SIZE_TOLERANCE
+from packwork.geometry.outline import regions as regions_of
 from packwork.metrics.pixel import ShapeMetrics
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.findings import Finding, Sentence
@@ -41,6 +43,10 @@ passes a cat without its tail, smaller blames a heart of twelve icons. By eye, o
 LEAST_SHAPE = 0.8
 """Overlap of container and closed layout below which the same is said. Larger blames a heart of
 twelve icons (0.88), smaller passes a guitar without its head (0.72). By eye, of 40 layouts."""
+
+TOUCHING = 2e-3
+"""Distance of two items, as a share of the canvas's side, up to which they look like one if they
+have one colour: a millimetre on a poster of half a metre. Chosen."""
 
 CLEARLY_MORE = 1.15
 """How many times as many items must be needed for more of them to be the advice. Chosen."""
@@ -139,13 +145,21 @@ class Advise(RunStep):
 
 @final
 class TellOneColour(RunStep):
-    """Advice on items of one colour, which run together where no gap was asked for."""
+    """Advice on items of one colour, which run together where they touch."""
 
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the advice."""
         layout, _ = state.measured
-        is_one = are_of_one_colour(layout.items)
+        is_one = are_of_one_colour(layout.items) and _touch(layout)
         return state.with_finding(Sentence.RUN_TOGETHER) if is_one else state
+
+
+def _touch(layout: Layout) -> bool:
+    """Whether two items lie side by side without a gap that can be seen."""
+    regions = regions_of(layout.outlines)
+    reach = TOUCHING * layout.container.side
+    first, second = shapely.STRtree(regions).query(regions, "dwithin", reach)
+    return bool((first != second).any())
 
 
 def advice(job: Job, count: int, seen: ShapeMetrics) -> Finding | None:

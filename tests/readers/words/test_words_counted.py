@@ -377,7 +377,7 @@ def test_columns_of_a_table_are_chosen_by_name(tmp_path: Path, name: str, text: 
     read = read_words(WordOptions(**asked))
     assert [(word.text, word.weight) for word in read] == [("honey", 5.0), ("bees", 3.0)]
     with pytest.raises(
-        RecipeError, match=r"size_by: the table has no column 'sales'; it has .*topic"
+        RecipeError, match=r"size_by: the table has no column 'sales'; there are .*topic"
     ):
         read_words(WordOptions(**{**asked, "size_by": "sales"}))
 

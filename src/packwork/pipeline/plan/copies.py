@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.phrasing import MOST_NAMED, number_of
+from packwork.phrasing import MOST_NAMED, meant, number_of
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.recipe import Recipe
@@ -161,13 +161,13 @@ def _stem(pattern: str) -> str:
 
 
 def _names_like(asked: str, known: Sequence[str]) -> str:
-    close = difflib.get_close_matches(asked, known, n=1)
-    if close:
-        return f"did you mean {close[0]}?"
-    if len(known) <= MOST_LISTED:
-        return f"there are {', '.join(known)}"
-    near = difflib.get_close_matches(asked, known, n=MOST_NAMED, cutoff=0.0)
-    return f"there are {len(known)}, the nearest {', '.join(near)}"
+    if near := meant(asked, known):
+        return near
+    there = ", ".join(known)
+    if len(known) > MOST_LISTED:
+        nearest = difflib.get_close_matches(asked, known, n=MOST_NAMED, cutoff=0.0)
+        there = f"{len(known)}, the nearest {', '.join(nearest)}"
+    return f"there are {there}: add it to the items, or name one of them"
 
 
 WIDEST_WEIGHTS = 1e6

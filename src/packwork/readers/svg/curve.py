@@ -80,20 +80,26 @@ def walled_container(
     """Container of an SVG's open paths, and its openings; None if it draws none.
 
     What an open path and the straight line between its ends surround is the container; that
-    line is the opening, ``(2, 2)`` in canvas units. Closed paths beside it count as they are. A
-    ``side`` of None leaves the canvas's longer side to the file.
+    line is the opening, ``(2, 2)`` in canvas units. Closed paths beside it count as they are,
+    a white sheet behind all does not. Where closed paths surround more than open ones, these are
+    parts of a drawing, as the handle of a cup is, and no walls. A ``side`` of None leaves the
+    canvas's longer side to the file.
     """
     with reading_file(source):
-        drawing = read_drawing(read_bytes(source, MAX_BYTES))
+        drawing = read_drawing(read_bytes(source, MAX_BYTES), is_on_paper=True, keep_page=False)
         page = drawing.page
         shown = [line.points for line in lines_of(drawing, 1.0)] if page is None else []
         box = np.vstack(shown).max(axis=0).tolist() if shown else (1.0, 1.0)
         width, height = box if page is None else (page.width, page.height)
         lines = lines_of(drawing, max(width, height))
         unit = stated_unit(drawing.root) if side is None else None
-        if all(line.is_closed for line in lines):
-            return None
         regions = [_inside(line) for line in lines]
+        walled, whole = (
+            sum(r.area for r, line in zip(regions, lines, strict=True) if line.is_closed == closed)
+            for closed in (False, True)
+        )
+        if walled < whole or all(line.is_closed for line in lines):
+            return None
         solid = [region for region in regions if region.area > SPECK * width * height]
         if not solid:
             raise UnfitError("its open paths surround nothing; draw walls with an opening")

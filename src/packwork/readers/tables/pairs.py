@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from packwork.errors import ReadError, RecipeError
-from packwork.phrasing import enumerated
+from packwork.phrasing import enumerated, no_column
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import is_number_like, written_numbers
 from packwork.readers.tables.decoding import read_json
@@ -39,9 +39,7 @@ class PairColumns(NamedTuple):
         there = list(dict.fromkeys(str(key) for _, row in rows for key in row))
         for option, column in self._asdict().items():
             if column is not None and column not in there:
-                raise RecipeError(
-                    option, f"the table has no column {column[:40]!r}; it has {enumerated(there)}"
-                )
+                raise RecipeError(option, f"the table has no column {no_column(column, there)}")
 
 
 USUAL = PairColumns()

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
+from packwork.phrasing import no_column
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written, figure, is_blank, written_numbers
 from packwork.readers.tables.decoding import read_json
@@ -54,8 +55,7 @@ class Table:
         packwork.errors.RecipeError: size_by: there is no column 'c'; there are a, b
         """
         if column not in self.columns:
-            there = ", ".join(self.columns[:20])
-            raise RecipeError(key, f"there is no column {column[:40]!r}; there are {there}")
+            raise RecipeError(key, f"there is no column {no_column(column, self.columns)}")
 
     def with_numbers(self, column: str, decimal: str | None, *, whole: bool) -> Table:
         """The same table, where the texts of a column know which numbers they are.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from packwork.uses.charts.layout import (
     Chart,
 )
 from packwork.uses.charts.marks import ChartRead
-from packwork.uses.charts.pen import Pen, places_of, shortened, spoken
+from packwork.uses.charts.pen import MIDDLE_EM, Pen, places_of, shortened, spoken
 from packwork.uses.charts.regions import draw_regions
 from packwork.uses.charts.rows import SPECK
 
@@ -47,6 +47,9 @@ LEAST_CONTRAST = 7.0
 
 STRIPES = 48
 """Rectangles that a ramp is drawn with. Fewer show. Chosen by eye."""
+
+KEY_EM = 0.85
+"""Letters of numbers in keys. Chosen by eye."""
 
 SMALLEST_UNIT_EM = 0.25
 """Side of the mark that is the key to a unit, at least: specks would not be seen. Chosen by eye."""
@@ -251,21 +254,17 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
     heading = options.size_by or "rows"
     if not frame.keys:
         # Marks are larger than a key may be, or specks.
-        places = _places(read)
-        heading += ": " + " – ".join(
-            spoken(end, read.decimal, 0 if places and float(end).is_integer() else places)
-            for end in dict.fromkeys(read.ends)
-        )
+        ends = _ends(dict.fromkeys(read.ends), read.decimal, _places(read))
+        heading += ": " + " – ".join(ends)
     pen.write(heading, frame.left, y + 1.2 * em, em)
     tallest = (mark.bounds[3] - mark.bounds[1]) * max(scales, default=0.0)
-    low, x = y + 1.9 * em + max(tallest, em), frame.left
+    middle, x = y + 1.9 * em + max(tallest, em) / 2, frame.left
+    line = middle + MIDDLE_EM * KEY_EM * em
     for number, scale in zip(frame.keys, scales, strict=True):
-        left, _, right, bottom = (v * scale for v in mark.bounds)
-        pen.shape(mark, x - left, low - bottom, scale, UNKNOWN)
-        x = (
-            pen.write(spoken(number, read.decimal), x + right - left + 0.4 * em, low, 0.85 * em)
-            + 1.6 * em
-        )
+        left, top, right, bottom = (v * scale for v in mark.bounds)
+        pen.shape(mark, x - left, middle - (top + bottom) / 2, scale, UNKNOWN)
+        begin = x + right - left + 0.4 * em
+        x = pen.write(spoken(number, read.decimal), begin, line, KEY_EM * em) + 1.6 * em
 
 
 def _scale(options: ChartOptions, layout: Layout, mark: Outline, number: float) -> float:
@@ -276,11 +275,12 @@ def _scale(options: ChartOptions, layout: Layout, mark: Outline, number: float) 
     return key_scale(options, mark, number / values[k], own, float(layout.poses.scale[k]))
 
 
-def _end(value: float, decimal: str) -> str:
-    """An end of a ramp: numbers of four digits may be years, which have no groups."""
-    if 1e-3 <= abs(value) < 1e4 or value == 0:
-        return f"{value:.12g}".replace(".", decimal)
-    return spoken(value, decimal)
+def _ends(values: Iterable[float], decimal: str, places: int | None) -> list[str]:
+    """Ends of a range of numbers, whole ones without decimals."""
+    return [
+        spoken(value, decimal, 0 if places and float(value).is_integer() else places)
+        for value in values
+    ]
 
 
 def _ramp(
@@ -289,14 +289,19 @@ def _ramp(
     em, low, high = frame.em, *colours.ends
     pen.write(column, frame.left, y + 1.2 * em, em)
     step = min(frame.width, 16 * em) / STRIPES
-    tile = Outline.box(0.0, 0.0, step, 0.8 * em)
     for k in range(STRIPES):
         fill = between(colours.ramp, k / (STRIPES - 1))
+        # Each reaches under the next: the paper would show between edges that only meet.
+        tile = Outline.box(0.0, 0.0, step * (1.5 if k < STRIPES - 1 else 1.0), 0.8 * em)
         pen.shape(tile, frame.left + k * step, y + 1.8 * em, 1.0, fill)
-    texts = [_end(value, decimal) for value in (low, high)]
-    pen.write(texts[0], frame.left, y + 3.6 * em, 0.85 * em)
-    right = frame.left + STRIPES * step - pen.width(texts[1], 0.85 * em)
-    pen.write(texts[1], right, y + 3.6 * em, 0.85 * em)
+    places = places_of((low, high))
+    texts = _ends((low, high), decimal, places if places <= MOST_PLACES else None)
+    if places == 0 and max(abs(low), abs(high)) < 1e4:
+        # They may be years, which have no groups.
+        texts = [f"{low:.0f}", f"{high:.0f}"]
+    pen.write(texts[0], frame.left, y + 3.6 * em, KEY_EM * em)
+    right = frame.left + STRIPES * step - pen.width(texts[1], KEY_EM * em)
+    pen.write(texts[1], right, y + 3.6 * em, KEY_EM * em)
 
 
 def _categories(pen: Pen, chart: Chart, y: float) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
+from packwork.phrasing import no_column
 from packwork.raster.coverage import coverage
 from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
@@ -61,9 +62,9 @@ def check_colours(recipe: Recipe, words: WordsRead) -> None:
         _covering(by, (1, 1))
         return
     if by not in words.values:
-        there = ", ".join(words.values) or "none but word and weight"
         raise RecipeError(
-            "color_by", f"there is no column {by[:40]!r} and no such picture; there are {there}"
+            "color_by",
+            f"there is no column {no_column(by, list(words.values))}, and no such picture",
         )
     if isinstance(recipe.palette, Mapping):
         check_named(recipe.palette, by, words.values[by])
