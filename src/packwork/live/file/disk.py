@@ -83,7 +83,7 @@ class Disk:
         self._things = Things()
         self._digest = ""
         self._lock = FileLock(lock_beside(self.path), blocking=False, thread_local=False)
-        self._stream: _Lines | None = None
+        self._stream: _JournalLines | None = None
         self._log: Log | None = None
 
     @property
@@ -210,7 +210,7 @@ class Disk:
         self._end(session)
         try:
             write_atomic(self.journal, (json.dumps({"follows": self._digest}) + "\n").encode())
-            self._stream = _Lines(self.journal)
+            self._stream = _JournalLines(self.journal)
         except OSError as error:
             raise WriteError(self.journal, f"cannot be written: {error}") from error
         self._log = session.log = Log(self._stream)
@@ -255,7 +255,7 @@ class Disk:
             raise WriteError(aside, f"cannot be written: {error.strerror or error}") from error
 
 
-class _Lines:
+class _JournalLines:
     """Lines at the end of a file, each written whole or not at all."""
 
     def __init__(self, path: Path) -> None:

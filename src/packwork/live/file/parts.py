@@ -16,7 +16,7 @@ _STILL = (1980, 1, 1, 0, 0, 0)
 """Time of all parts: the same session gives the same bytes."""
 
 
-class Part(NamedTuple):
+class PackedPart(NamedTuple):
     """Packed content, its bytes once unpacked, and the CRC-32 of these."""
 
     packed: bytes
@@ -24,7 +24,7 @@ class Part(NamedTuple):
     crc: int
 
 
-def part_of(content: bytes, level: int = zlib.Z_DEFAULT_COMPRESSION) -> Part:
+def part_of(content: bytes, level: int = zlib.Z_DEFAULT_COMPRESSION) -> PackedPart:
     """A part of a content, at most ``MOST_FOLD`` times as large as it is packed.
 
     Examples
@@ -36,7 +36,7 @@ def part_of(content: bytes, level: int = zlib.Z_DEFAULT_COMPRESSION) -> Part:
     if len(content) > MOST_FOLD * len(packed):
         # Each letter takes a bit then, at least: an eighth of all.
         packed = _deflated(content, level, zlib.Z_HUFFMAN_ONLY)
-    return Part(packed, len(content), zlib.crc32(content))
+    return PackedPart(packed, len(content), zlib.crc32(content))
 
 
 def _deflated(content: bytes, level: int, strategy: int) -> bytes:
@@ -44,7 +44,7 @@ def _deflated(content: bytes, level: int, strategy: int) -> bytes:
     return deflating.compress(content) + deflating.flush()
 
 
-def packed(parts: Mapping[str, Part]) -> bytes:
+def packed(parts: Mapping[str, PackedPart]) -> bytes:
     """A zip of parts by their paths."""
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w") as archive:

@@ -22,7 +22,7 @@ from packwork.live.file.documents import (
     records_of,
     rows_of,
 )
-from packwork.live.file.parts import MOST_FOLD, Part, packed, part_of
+from packwork.live.file.parts import MOST_FOLD, PackedPart, packed, part_of
 from packwork.live.file.records import ContainerRecord, ItemRecord
 from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
 from packwork.live.history import MOST_ENTRIES, Marks, SessionState, UndoHistory
@@ -122,13 +122,13 @@ def session_bytes(kept: SessionState, things: Things, follows: str = "") -> byte
     return packed({"session.json": part_of(first), **parts})
 
 
-def _parts_of(record: SessionRecord, things: Things) -> dict[str, Part]:
+def _parts_of(record: SessionRecord, things: Things) -> dict[str, PackedPart]:
     paths = [*record.items, *record.containers]
     needed = sorted({need for path in paths for need in things.needs[path]})
     return {path: things.part(path) for path in (*paths, *needed)}
 
 
-def _is_opened_again(first: bytes, parts: Mapping[str, Part]) -> bool:
+def _is_opened_again(first: bytes, parts: Mapping[str, PackedPart]) -> bool:
     """Whether reading accepts what is written."""
     sizes = [len(first), *(max(part.size, len(part.packed)) for part in parts.values())]
     in_all = sum(sizes) + _HEAD_BYTES * len(sizes)

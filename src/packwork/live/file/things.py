@@ -14,7 +14,7 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from packwork.geometry.outline import Outline
-from packwork.live.file.parts import Part, part_of
+from packwork.live.file.parts import PackedPart, part_of
 from packwork.live.file.records import (
     HASH,
     BackdropRecord,
@@ -112,7 +112,7 @@ class Things:
         """Paths of fonts and maps by that of the item or container that has them."""
         self._needed: set[str] = set()
         self._keys: dict[object, str] = {}
-        self._parts: dict[str, Part] = {}
+        self._parts: dict[str, PackedPart] = {}
 
     def item(self, item: Item) -> str:
         """Path of an item, which is encoded unless it has been."""
@@ -129,8 +129,8 @@ class Things:
         self._needed.add(f"{kind}/{key}")
         return key
 
-    def part(self, path: str) -> Part:
-        """What lies at a path, packed."""
+    def part(self, path: str) -> PackedPart:
+        """Part at a path, packed."""
         if path not in self._parts:
             # Numbers of maps are packed as well, six times as fast.
             level = 1 if path.startswith("maps/") else zlib.Z_DEFAULT_COMPRESSION
