@@ -161,14 +161,10 @@ class Offered:
         return self.field.get_default(call_default_factory=True)
 
     @property
-    def type(self) -> Any:
-        """Type of the value, without annotations."""
-        return _plain(self.field.annotation)
-
-    @property
     def forms(self) -> tuple[Any, ...]:
-        """Alternatives of the type, without None."""
-        forms = get_args(self.type) if _is_union(self.type) else (self.type,)
+        """Alternatives of the type, without annotations and None."""
+        plain = _plain(self.field.annotation)
+        forms = get_args(plain) if _is_union(plain) else (plain,)
         return tuple(form for form in forms if form is not NoneType)
 
     @property

@@ -55,13 +55,8 @@ _UNASKED: Mapping[str, Any] = {
 }  # fmt: skip
 
 RUN = [
-    inspect.Parameter(
-        name,
-        inspect.Parameter.KEYWORD_ONLY,
-        default=_UNASKED[name],
-        annotation=kind.__forward_arg__,  # as it is written
-    )
-    for name, kind in RunKeywords.__annotations__.items()
+    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_UNASKED[name])
+    for name in RunKeywords.__annotations__
 ]
 """Parameters for :class:`RunKeywords`."""
 
@@ -87,12 +82,7 @@ def of_model(model: type[Options]) -> Callable[[Signed], Signed]:
 
 
 def _parameter(option: Offered, default: Any) -> inspect.Parameter:
-    return inspect.Parameter(
-        option.name,
-        inspect.Parameter.KEYWORD_ONLY,
-        default=default,
-        annotation=option.type,
-    )
+    return inspect.Parameter(option.name, inspect.Parameter.KEYWORD_ONLY, default=default)
 
 
 def described(text: str, options: Iterable[Offered]) -> str:
@@ -115,13 +105,19 @@ def _showing(
 ) -> Callable[[Signed], Signed]:
     def signed(function: Signed) -> Signed:
         own = inspect.signature(function)
-        kept = {
-            name: each for name, each in own.parameters.items() if each.kind != each.VAR_KEYWORD
-        }
-        added = [each for each in parameters if each.name not in kept]
+        *kept, gathered = own.parameters.values()
+        there = {each.name for each in kept}
+        # Types as they are written: what Python takes, which validators make the fields' of.
+        table = gathered.annotation.removeprefix("Unpack[").removesuffix("]")
+        kinds = function.__globals__[table].__annotations__
+        added = [
+            each.replace(annotation=kinds[each.name].__forward_arg__)
+            for each in parameters
+            if each.name not in there
+        ]
         changed: Any = function
         changed.__doc__ = changed.__doc__ and described(changed.__doc__, described_by)
-        changed.__signature__ = own.replace(parameters=[*kept.values(), *added])
+        changed.__signature__ = own.replace(parameters=[*kept, *added])
         return function
 
     return signed
