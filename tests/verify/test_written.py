@@ -162,3 +162,20 @@ def test_strips_see_what_is_too_near_in_any_of_them(tiles, gap):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(verified, "STRIP", 2)
         assert is_clear(layout, max(least, 1e-9)) == (nearest > max(least, 1e-9))
+
+
+def test_strips_lie_across_the_longer_side(monkeypatch):
+    count, seen, regions_of = 40, [], verified.regions_of
+    x, y = np.random.default_rng(0).uniform(2, 3, count), 2.5 * np.arange(count) + 2
+    item = Item("tile", outline=Outline.box(-1, -1, 1, 1))
+    layout = Layout(
+        blank(5.0, 110.0).container, (item,) * count, Poses(x, y, np.zeros(count), np.ones(count)),
+        np.ones(count),
+    )  # fmt: skip
+    monkeypatch.setattr(verified, "STRIP", 4)
+    monkeypatch.setattr(
+        verified, "regions_of", lambda placed: seen.append(len(placed)) or regions_of(placed)
+    )
+    assert is_clear(layout, 0.4)
+    assert not is_clear(layout, 0.6)
+    assert max(seen) <= 4 + 2

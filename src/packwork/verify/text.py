@@ -174,7 +174,7 @@ what lies at the edge of a strip."""
 def is_clear(layout: Layout, gap: float) -> bool:
     """Whether no item is nearer than a gap to another one, or to the container's edge.
 
-    By strips from left to right: only their regions are in memory.
+    By strips across the longer side: only their regions are in memory.
     """
     if not layout.items:
         return True
@@ -184,9 +184,9 @@ def is_clear(layout: Layout, gap: float) -> bool:
     parts = np.array_split(np.arange(len(layout.items)), -(-len(layout.items) // STRIP))
     boxes = np.array([one.bounds for part in parts for one in layout.placed(part.tolist())])
     tree = shapely.STRtree(shapely.box(*boxes.T))
-    from_left = np.argsort(boxes[:, 0], kind="stable")
-    for begin in range(0, len(from_left), STRIP):
-        own = from_left[begin : begin + STRIP]
+    order = np.argsort(max(boxes[:, 0], boxes[:, 1], key=np.ptp), kind="stable")
+    for begin in range(0, len(order), STRIP):
+        own = order[begin : begin + STRIP]
         grown = boxes[own] + gap * np.array([-1.0, -1.0, 1.0, 1.0])
         others = np.setdiff1d(tree.query(shapely.box(*grown.T))[1], own)
         regions = regions_of(layout.placed(np.concatenate([own, others]).tolist()))
