@@ -361,6 +361,22 @@ def test_tables_are_read(tmp_path: Path, name: str, text: str) -> None:
     assert counted(str(file)) == {"bear": 2.0, "fox": 1.0}
 
 
+def test_columns_that_no_name_tells_are_told(tmp_path: Path) -> None:
+    (tmp_path / "t.csv").write_bytes(b"Land;Ort;Jahr;Umsatz\nW;Bonn;2020;1.234,50\nN;Kiel;2021;2\n")
+    columns = "Land and Ort are taken of the columns Land, Ort, Jahr, Umsatz; "
+    others = "--label-by and --size-by take others"
+    with pytest.raises(ReadError) as refused:
+        read_words(WordOptions(source=str(tmp_path / "t.csv")))
+    assert str(refused.value).endswith(
+        f"not 'Bonn'; {columns}{others}, as --label-by Land --size-by Umsatz"
+    )
+    (tmp_path / "u.csv").write_bytes(b"Ort;Umsatz;Land\nBonn;3;W\nKiel;2;N\n")
+    told = ranked_words(WordOptions(source=str(tmp_path / "u.csv"))).told
+    assert f"Ort and Umsatz are taken of the columns Ort, Umsatz, Land; {others}" in str(told[0])
+    asked = WordOptions(source=str(tmp_path / "u.csv"), label_by="Ort", size_by="Umsatz")
+    assert not ranked_words(asked).told
+
+
 @pytest.mark.parametrize(
     ("name", "text"),
     [

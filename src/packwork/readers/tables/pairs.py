@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import logging
 import math
+import shlex
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from packwork.errors import ReadError, RecipeError
-from packwork.phrasing import enumerated, no_column
+from packwork.phrasing import MOST_COLUMNS, enumerated, no_column
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import is_number_like, written_numbers
 from packwork.readers.tables.decoding import read_json
@@ -75,10 +76,16 @@ class Pair:
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """Rows of a table of names and numbers, and what has to be told of how they were read."""
+    """Rows of a table of names and numbers, and what has to be told of how they were read.
+
+    ``taken``: which of more than two columns were taken by their place, and how to take others;
+    ``instead``: options that would take a column of numbers. Both are empty where names tell.
+    """
 
     rows: tuple[Pair, ...]
     notices: tuple[str, ...] = ()
+    taken: str = ""
+    instead: str = ""
 
 
 def read_pairs(
@@ -97,7 +104,7 @@ def read_pairs(
     sheet = read_sheet(read_bytes(file, most_bytes), file, ending, asked)
     usual = "." if sheet.delimiter == "," else ""
     found = _pairs(_rows(sheet, any(columns)), file, asked, usual, columns)
-    return Pairs(found.rows, (sheet.notice,) if sheet.notice else ())
+    return replace(found, notices=(sheet.notice,) if sheet.notice else ())
 
 
 def pairs_of_rows(rows: Sequence[Mapping[str, Any]], columns: PairColumns = USUAL) -> Pairs:
@@ -171,8 +178,36 @@ def _pairs(
             for (where, row), (first, second), cell, number in zip(
                 rows, columns, cells, numbers, strict=True
             )
-        )
+        ),
+        (),
+        *_told_of_columns([row for _, row in rows], columns, wanted),
     )
+
+
+def _told_of_columns(
+    rows: Sequence[Mapping[str, Any]], columns: Sequence[tuple[str, str]], wanted: PairColumns
+) -> tuple[str, str]:
+    """What was taken of more than two columns, and what to take instead; empty if names tell."""
+    if not rows or len(rows[0]) < 3:
+        return "", ""
+    usual = NAME_COLUMNS, NUMBER_COLUMNS
+    if all(
+        asked is not None or str(taken).strip().lower() in names
+        for asked, taken, names in zip(wanted, columns[0], usual, strict=True)
+    ):
+        return "", ""
+    there = list(map(str, rows[0]))
+    first, second = columns[0]
+    taken = (
+        f"{first} and {second} are taken of the columns {enumerated(there, MOST_COLUMNS)}; "
+        "--label-by and --size-by take others"
+    )
+    numeric = [key for key in rows[0] if all(is_number_like(str(row.get(key, ""))) for row in rows)]
+    texts = [key for key in rows[0] if key not in numeric]
+    if not numeric or not texts:
+        return taken, ""
+    label = first if first in texts else texts[0]
+    return taken, f"--label-by {shlex.quote(str(label))} --size-by {shlex.quote(str(numeric[-1]))}"
 
 
 def _columns(row: Mapping[str, Any], asked: PairColumns) -> tuple[str, str]:

@@ -52,13 +52,16 @@ def words_of(table: Pairs, file: str, *, keeps_totals: bool = False) -> TableRea
     sound = [pair for pair in table.rows if pair.is_sound]
     odd = [pair for pair in table.rows if not pair.is_sound]
     if odd and not sound:
-        raise ReadError(file, f"{odd[0].where}: {odd[0].wanted('word')}")
+        taken = f"; {table.taken}" if table.taken else ""
+        instead = f", as {table.instead}" if table.instead else ""
+        raise ReadError(file, f"{odd[0].where}: {odd[0].wanted('word')}{taken}{instead}")
     said: dict[str, list[Pair]] = {}
     for pair in odd:
         said.setdefault(_why(pair), []).append(pair)
     count = len(table.rows)
     notices = {why: _left_out(why, which, count) for why, which in said.items()}
-    told = [text for why, text in notices.items() if why in _EMPTY]
+    told = [table.taken] if table.taken else []
+    told += [text for why, text in notices.items() if why in _EMPTY]
     numbered = [pair for pair in table.rows if math.isfinite(pair.number)]
     numbers = [pair.number for pair in numbered]
     found = {} if keeps_totals else total_rows([[pair.name] for pair in numbered], numbers)
