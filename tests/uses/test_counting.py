@@ -23,6 +23,7 @@ from packwork.scene.container import Container, repeating
 from packwork.scene.item import VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.steps import shortfalls
 from packwork.steps.measure import RemarkCount
 from packwork.steps.shortfalls import Advise, TellOneColour
 from packwork.uses.charts.recipe import chart_recipe
@@ -204,6 +205,14 @@ def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     assert "; --repeat auto," in advised(six, with_tail(4))
     graded = words_recipe("tail", weights, sizes="graded")
     assert "; --repeat auto," in advised(graded, with_tail(4))
+
+
+def test_where_the_most_items_may_not_do_another_container_is_advised(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(shortfalls, "items_needed", lambda *_: SimpleNamespace(count=MOST))
+    told = advised(recipe(items=["star"], count=9), with_tail(12))
+    assert told.endswith("; a container of fewer and larger parts would show")
 
 
 def test_what_a_run_cannot_do_is_no_advice() -> None:

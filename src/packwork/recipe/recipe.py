@@ -161,8 +161,8 @@ class Recipe(
 
     padding: Annotated[str | float, length_of("padding", may_be_zero=True, word=AUTO)] = AUTO
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,
-    0.5cm, 0.1in, or 1% of the canvas' longer side; auto: 0.3% between words and 0.2% in charts,
-    less where there are so many, and else none but between icons of one colour."""
+    0.5cm, 0.1in, or 1% of the canvas' longer side; auto: 0.3% of words, 0.2% in charts, 0.4% of
+    cropped photos with borders, less of so many; else none but between icons of one colour."""
 
     margin: Annotated[str | float, length_of("margin", may_be_zero=True), _SAFE] = "0"
     """Free edge of the sheet, in which nothing is placed, a length as for the padding: what a

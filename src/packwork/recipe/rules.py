@@ -21,8 +21,9 @@ from packwork.units import parse_length
 AUTO = "auto"
 """Word for what the run finds."""
 
-WORDS_APART, MARKS_APART = "0.3%", "0.2%"
-"""Usual gaps between words and between marks of charts. Larger cover less. By eye."""
+WORDS_APART, MARKS_APART, BORDERS_APART = "0.3%", "0.2%", "0.4%"
+"""Usual gaps between words, marks of charts, and borders of photos cut at the edge, where a hair
+would look like a fault of the print. Larger cover less. By eye."""
 
 
 def usual_padding(asked: Mapping[str, Any]) -> str:
@@ -32,9 +33,15 @@ def usual_padding(asked: Mapping[str, Any]) -> str:
     --------
     >>> usual_padding({"words": {"source": "poem.txt"}}), usual_padding({"items": ["star"]})
     ('0.3%', '0')
+    >>> usual_padding({"photos": {"border": "4%", "edge": "crop"}})
+    '0.4%'
     """
     if asked.get("pile"):
         return "0"
+    photos = dict(asked.get("photos") or {})
+    has_border = float(str(photos.get("border", "0")).strip().rstrip("%") or 0) > 0
+    if photos.get("edge") == "crop" and has_border:
+        return BORDERS_APART
     return WORDS_APART if asked.get("words") else MARKS_APART if asked.get("chart") else "0"
 
 

@@ -18,7 +18,7 @@ from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.findings import Finding, Sentence
 from packwork.pipeline.hero import HERO
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.counts import items_needed, lines_width, widest_cu
+from packwork.pipeline.plan.counts import MOST, items_needed, lines_width, widest_cu
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.pipeline.plan.plan import VoidPlan
 from packwork.pipeline.state import RunContext, RunState, RunStep
@@ -184,7 +184,9 @@ def _remedy(job: Job, count: int) -> str:
     plan = job.plan
     needed = items_needed(job.container, "free", plan.size_ratio).count
     if plan.sizes == "free" and needed > CLEARLY_MORE * count:
-        return Sentence.MORE_ITEMS.of(count=needed)
+        # As many as are ever advised may not do, as of a photograph whose dark specks are filled.
+        is_too_fine = needed == MOST
+        return Sentence.PLAINER.of() if is_too_fine else Sentence.MORE_ITEMS.of(count=needed)
     if plan.sizes == "fixed":
         return Sentence.FREE_SIZES.of()
     if plan.sizes == "shared":
