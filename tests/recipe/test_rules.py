@@ -9,8 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.errors import RecipeError
+from packwork.readers.photo_options import PhotoOptions
 from packwork.recipe import make_recipe
-from packwork.recipe.rules import HERO_SIZE, UPRIGHT, Rotation, Rule, hero_rule
+from packwork.recipe.rules import HERO_SIZE, UPRIGHT, Rotation, Rule, hero_rule, usual_padding
 
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": []}, "items: use a name, a pattern"),
@@ -123,3 +124,17 @@ def test_any_text_is_a_hero_or_refused(text: str) -> None:
 def test_upright_is_a_word_for_a_limit() -> None:
     assert make_recipe(container="heart", rotate="upright").rotation == Rotation.parse("30")
     assert Rotation.parse(f"{UPRIGHT:g}") == Rotation.parse(" Upright ")
+
+
+@pytest.mark.parametrize(
+    ("photos", "gap"),
+    [
+        (PhotoOptions(sources=("a.jpg",), border="4%", edge="crop"), "0.4%"),
+        (PhotoOptions(sources=("a.jpg",), edge="crop"), "0"),
+        ({"border": "4%"}, "0"),
+        ({"border": ["x"], "edge": "crop"}, "0.4%"),
+        ("x", "0"),
+    ],
+)
+def test_photos_with_borders_lie_apart_whatever_a_file_says_of_them(photos: Any, gap: str) -> None:
+    assert usual_padding({"photos": photos}) == gap

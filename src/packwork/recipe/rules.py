@@ -38,9 +38,9 @@ def usual_padding(asked: Mapping[str, Any]) -> str:
     """
     if asked.get("pile"):
         return "0"
-    photos = dict(asked.get("photos") or {})
-    has_border = float(str(photos.get("border", "0")).strip().rstrip("%") or 0) > 0
-    if photos.get("edge") == "crop" and has_border:
+    photos = asked.get("photos")
+    said = photos if isinstance(photos, Mapping) else getattr(photos, "__dict__", {})
+    if said.get("edge") == "crop" and str(said.get("border", "")).strip("0.% "):
         return BORDERS_APART
     return WORDS_APART if asked.get("words") else MARKS_APART if asked.get("chart") else "0"
 
