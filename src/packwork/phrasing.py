@@ -58,7 +58,7 @@ def meant(typed: str, known: Iterable[str]) -> str:
 
 
 def no_column(asked: str, there: Sequence[str]) -> str:
-    """What follows "there is no column": what was asked for, what may be meant, what there is.
+    """End of "there is no column": the one asked for, those that may be meant, those there are.
 
     Examples
     --------

@@ -52,7 +52,7 @@ MOST_TRIALS = 10_000
 
 
 class Stream(Protocol):
-    """Where lines are written to."""
+    """Stream that lines are written to."""
 
     def write(self, text: str, /) -> object:
         """Write a line, or nothing of it: OSError then."""

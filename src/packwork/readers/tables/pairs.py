@@ -187,7 +187,7 @@ def _pairs(
 def _told_of_columns(
     rows: Sequence[Mapping[str, Any]], columns: Sequence[tuple[str, str]], wanted: PairColumns
 ) -> tuple[str, str]:
-    """What was taken of more than two columns, and what to take instead; empty if names tell."""
+    """Columns taken of more than two, and options that take others; empty if names tell."""
     if not rows or len(rows[0]) < 3:
         return "", ""
     usual = NAME_COLUMNS, NUMBER_COLUMNS
