@@ -224,7 +224,7 @@ def test_indexes_and_tables_of_arrow_survive() -> None:
         (lambda: pw.finish("heart"), "layout: is str; give a layout, such as"),
         (lambda: pw.run(None), "recipe: is NoneType; give a recipe file, or options as a dict"),
         (lambda: pw.photos("heart", []), "sources: none were given; give photos"),
-        (lambda: pw.words("heart", [3, 4]), "source: is list; use a text, a file, or"),
+        (lambda: pw.words("heart", [3, 4]), "source: holds 3 as a word; use a text, a file, or"),
         (lambda: pw.fill("heart", "star", **QUICK).save(None), "path: is NoneType; give a path"),
         (
             lambda: pw.fill("heart", "star", start=pw.Poses([1], [float("nan")])),

@@ -54,7 +54,7 @@ def test_words_are_counted_left_out_and_brought_back(
     label = "document.activeElement.getAttribute('aria-label')"
     assert desk.look(label) == "Leave moss out"
     # What is left is as large as before, in the room of what has gone.
-    assert desk.look("studio.collage.state.covered") > 0.9 * covered
+    desk.until(f"studio.collage.state.covered > {0.9 * covered}")
     desk.picture("words-table")
     # The document keeps it, whoever opens it.
     desk.page.reload()
