@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 72_119,
+    "lines of code": 72_107,
     "lines of docstrings": 19_883,
     "files": 601,
     "functions of the road in one plain fill": 94,

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from packwork.errors import RecipeError
 from packwork.phrasing import enumerated, meant
-from packwork.scene.colour import css_colour
+from packwork.scene.colour import css_colour, known_colour
 
 PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -178,17 +178,9 @@ def _colour(text: str) -> str:
     return f"#{red:02x}{green:02x}{blue:02x}" + ("" if opacity == 255 else f"{opacity:02x}")
 
 
-def _is_colour(text: str) -> bool:
-    try:
-        css_colour(text)
-    except ValueError:
-        return False
-    return True
-
-
 def _unknown(text: str) -> str:
     hint = meant(text, PALETTES) or f"palettes are {', '.join(PALETTES)}"
     parts = re.split(r"[\s;]+", text)
-    if len(parts) > 1 and all(map(_is_colour, parts)):
+    if len(parts) > 1 and all(map(known_colour, parts)):
         hint = f"put commas between colours: {','.join(parts)[:80]}"
     return f"{text[:40]!r} is no colour; {hint}"

@@ -21,7 +21,7 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal
 from packwork.readers.svg_syntax.coordinates import parse_transform
 from packwork.readers.svg_syntax.path_data import parse_path
-from packwork.scene.colour import css_colour, hex_colour
+from packwork.scene.colour import css_colour, hex_colour, known_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout, Note
@@ -127,7 +127,7 @@ def notes_of(root: ET.Element, to_canvas: FloatArray) -> tuple[Note, ...]:
                 continue
             data, fill = path.get("d", ""), path.get("fill", "#000000")
             # Written as they are, so nothing else may stand in them.
-            if not _PATH.fullmatch(data) or not _is_colour(fill):
+            if not _PATH.fullmatch(data) or not known_colour(fill):
                 raise UnfitError(f"has a {name[:5]} that is no path of one colour")
             place = affine.compose(to_canvas, parse_transform(path.get("transform")))
             found.append(Note(data, place, fill, "".join(titles), name == "labels"))
@@ -150,19 +150,11 @@ def with_halos(root: ET.Element, layout: Layout) -> Layout:
         if k == len(items):
             break
         halo, item = path.get("fill", ""), items[k]
-        if not _is_colour(halo):
+        if not known_colour(halo):
             raise UnfitError(f"has a halo of the colour {halo[:20]!r}")
         items[k] = made.setdefault((item, halo), replace(item, halo=halo))
         k += 1
     return replace(layout, items=tuple(items))
-
-
-def _is_colour(text: str) -> bool:
-    try:
-        css_colour(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _middle(data: str) -> FloatArray:
