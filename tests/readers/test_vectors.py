@@ -74,7 +74,8 @@ def test_parquet(tmp_path: Path) -> None:
         ("a.csv", b"name,x,y\nowl,1,2\nfox,,3\n", "'fox': number 1 is none"),
         ("a.csv", b"name,x\nowl,one\nfox,2\n", "'owl': number 1 is none"),
         ("a.csv", b"name\nowl\nfox\n", "has names alone"),
-        ("a.xlsx", b"PK", "is a spreadsheet"),
+        ("a.ods", b"PK", "is a spreadsheet"),
+        ("a.xlsx", b"PK", "is no workbook of Excel"),
         ("a.bin", b"PK", "is no table"),
     ],
 )

@@ -119,7 +119,7 @@ class _FillWordsPhotos(TypedDict, total=False):
     and of words a column of their table."""
 
     embeddings: Value | None
-    """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of
+    """Vectors of the items (.npy, .csv, .xlsx, .json, .parquet; a row an item, or a first column of
     names): those with like ones come to lie together. auto: of words, by which of them stand near
     each other in the text."""
 

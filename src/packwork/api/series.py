@@ -114,7 +114,7 @@ def series(
     Parameters
     ----------
     table
-        Words and weights with a column of steps: a file (.csv, .tsv, .json), a data frame, rows as
+        Words and weights with a column of steps: a file (.csv, .xlsx, .json), a data frame, rows as
         dicts; or by step a dict of weights by word, such as ``to_dict()`` of a crosstab with a
         column for each step.
     by

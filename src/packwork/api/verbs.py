@@ -118,7 +118,7 @@ def words(
     Parameters
     ----------
     source
-        A text or the file that holds it, a table ``word,weight`` (.csv, .tsv, .json), or
+        A text or the file that holds it, a table ``word,weight`` (.csv, .xlsx, .json), or
         weights by word: a dict, a ``Counter``, a pandas Series; or a list of words, each as heavy
         as it occurs often.
     add
@@ -259,7 +259,7 @@ def chart(
     container
         As for :func:`fill`; ``"none"`` shows the groups of ``by`` as bars.
     data
-        A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, a dict of
+        A table (.csv, .xlsx, .json, with pandas .parquet), a data frame, rows as dicts, a dict of
         columns, or a Series of sizes. ``size_by``, ``color_by`` and the like are names of columns,
         or the cells themselves.
     options

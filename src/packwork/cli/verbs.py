@@ -90,7 +90,7 @@ def words(
         str | None,
         typer.Argument(
             metavar="SOURCE",
-            help="A text, a table of word,weight (.csv, .tsv, .json), or - for standard input.",
+            help="A text, a table of word,weight (.csv, .xlsx, .json), or - for standard input.",
         ),
     ] = None,
     **asked: Any,
@@ -169,7 +169,7 @@ def chart(
     data: Annotated[
         str,
         typer.Argument(
-            metavar="DATA", help="A table: .csv, .tsv, .json, or (with pandas) .parquet."
+            metavar="DATA", help="A table: .csv, .xlsx, .json, or (with pandas) .parquet."
         ),
     ],
     **asked: Any,

@@ -21,7 +21,7 @@ class ChartOptions(Options):
     offers = Offer(group=Group.MARKS, verbs=Verbs.CHART)
 
     data: Annotated[str | tuple[dict[str, Any], ...], NOT_OFFERED]
-    """A table: .csv, .tsv, .json or (with pandas) .parquet; in Python also a data frame, rows
+    """A table: .csv, .xlsx, .json or (with pandas) .parquet; in Python also a data frame, rows
     as dicts, or a dict of columns."""
 
     index: Annotated[dict[str, str], NOT_OFFERED] = Field(default_factory=dict)

@@ -10,10 +10,11 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.phrasing import MOST_NAMED, enumerated
-from packwork.readers.reading import exists, read_bytes
-from packwork.readers.tables.delimited import ENDINGS, TextTable, read_sheet
+from packwork.readers.reading import exists
+from packwork.readers.tables.delimited import ENDINGS, TextTable, sheet_of_file
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import SPREADSHEETS
+from packwork.readers.tables.workbook import ending_of
 from packwork.sources import here_of
 
 _LOG = logging.getLogger("packwork")
@@ -60,7 +61,7 @@ def is_cut_list(path: str | Path) -> bool:
     >>> is_cut_list("parts.csv"), is_cut_list("part.dxf")
     (True, False)
     """
-    return Path(path).suffix.lower() in {*ENDINGS, *SPREADSHEETS, UNICODE_TEXT}
+    return ending_of(str(path)) in {*ENDINGS, *SPREADSHEETS, UNICODE_TEXT}
 
 
 def read_cut_list(path: str | Path, rules: Collection[str] = ()) -> tuple[CutListRow, ...]:
@@ -76,10 +77,9 @@ def read_cut_list(path: str | Path, rules: Collection[str] = ()) -> tuple[CutLis
     ReadError
         If it is no such table, a count is none, or there is no such file.
     """
-    ending = Path(path).suffix.lower()
-    if ending in SPREADSHEETS:
-        raise ReadError(path, "is a spreadsheet; save the sheet as CSV (UTF-8) and give that")
-    sheet = read_sheet(read_bytes(path, MAX_LIST_BYTES), str(path), ending, TableFormat())
+    if ending_of(str(path)) in SPREADSHEETS:
+        raise ReadError(path, "is a spreadsheet; save it as .xlsx or CSV (UTF-8) and give that")
+    sheet = sheet_of_file(str(path), MAX_LIST_BYTES, TableFormat())
     lines = sheet.lines()
     columns = _columns(sheet, next(lines, (1, []))[1], rules)
     rows = tuple(_rows(sheet, lines, columns))

@@ -23,7 +23,7 @@ WAYS = (*DIRECTIONS, "outwards", "inwards", "around", "along")
 MEASURES = ("weight", "hue", "lightness", "name")
 """What items may be put in order by, beside the numbers of a file."""
 
-FILES = (".csv", ".tsv", ".json")
+FILES = (".csv", ".tsv", ".xlsx", ".json")
 """Endings of files of numbers."""
 
 _DEGREES = re.compile(rf"({NUMBER})(?:deg|°)")
@@ -172,7 +172,7 @@ class EmbeddingOptions(Options):
     embeddings: Annotated[
         str | None, Offer(metavar="FILE|auto", after="arrange", flags="--embeddings")
     ] = None
-    """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of
+    """Vectors of the items (.npy, .csv, .xlsx, .json, .parquet; a row an item, or a first column of
     names): those with like ones come to lie together. auto: of words, by which of them stand near
     each other in the text."""
 

@@ -10,11 +10,13 @@ from dataclasses import dataclass, field
 
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
+from packwork.readers.reading import read_bytes
+from packwork.readers.tables import workbook
 from packwork.readers.tables.cells import is_number_like
 from packwork.readers.tables.decoding import decoded
 from packwork.readers.tables.format import TableFormat
 
-ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t"}
+ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t", **dict.fromkeys(workbook.ENDINGS, "\t")}
 """What parts the cells of a line, by the file's ending, where the lines do not show it."""
 
 NAMES = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
@@ -89,6 +91,23 @@ class TextTable:
         for number, cells in lines_of_cells(self.text, self.file, self.delimiter):
             if number > self.head.last:
                 yield number + self.skipped, cells
+
+
+def sheet_of_file(file: str, most: int, asked: TableFormat) -> TextTable:
+    """Lines of cells of a file of at most ``most`` bytes: text, or one sheet of a workbook.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read, or is no table.
+    """
+    path, name = workbook.parted(file)
+    ending, data = workbook.ending_of(file), read_bytes(path, most)
+    if ending not in workbook.ENDINGS:
+        return read_sheet(data, file, ending, asked)
+    text = workbook.text_of_sheet(data, path, name, check_size)
+    head = _head(_parted(_sample(text), "\t"))
+    return TextTable(file, text, "\t", notice=head.notice, head=head)
 
 
 def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextTable:

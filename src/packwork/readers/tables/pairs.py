@@ -12,10 +12,9 @@ from typing import Any, NamedTuple
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import MOST_COLUMNS, enumerated, no_column
-from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import is_number_like, written_numbers
 from packwork.readers.tables.decoding import read_json
-from packwork.readers.tables.delimited import TextTable, check_size, read_sheet
+from packwork.readers.tables.delimited import TextTable, check_size, sheet_of_file
 from packwork.readers.tables.format import TableFormat
 
 MOST_NAMED = 6
@@ -98,10 +97,9 @@ def read_pairs(
 
     Its first line may name the columns, and then there may be more of them.
     """
-    ending = Path(file).suffix.lower()
-    if ending == ".json":
+    if file.lower().endswith(".json"):
         return _pairs(_entries(read_json(file, asked), file), file, asked, ".", columns)
-    sheet = read_sheet(read_bytes(file, most_bytes), file, ending, asked)
+    sheet = sheet_of_file(file, most_bytes, asked)
     usual = "." if sheet.delimiter == "," else ""
     found = _pairs(_rows(sheet, any(columns)), file, asked, usual, columns)
     return replace(found, notices=(sheet.notice,) if sheet.notice else ())

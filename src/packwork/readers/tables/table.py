@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
@@ -13,9 +12,16 @@ from packwork.phrasing import no_column
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written, figure, is_blank, written_numbers
 from packwork.readers.tables.decoding import read_json
-from packwork.readers.tables.delimited import ENDINGS, MOST_ROWS, TextTable, check_size, read_sheet
+from packwork.readers.tables.delimited import (
+    ENDINGS,
+    MOST_ROWS,
+    TextTable,
+    check_size,
+    sheet_of_file,
+)
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.parquet import rows_of_parquet
+from packwork.readers.tables.workbook import ending_of
 
 MAX_TABLE_BYTES = 128_000_000
 """Size of a table's file: a million rows of a hundred letters, which take, as text, four times
@@ -24,7 +30,7 @@ that at most. Derived from a gigabyte in all."""
 JSON = ".json"
 PARQUET = (".parquet", ".pq")
 
-SPREADSHEETS = (".xlsx", ".xls", ".xlsm", ".ods", ".numbers")
+SPREADSHEETS = (".xls", ".xlsb", ".ods", ".numbers")
 """Files that hold several tables, pictures and macros."""
 
 Row: TypeAlias = dict[str, Any]
@@ -98,7 +104,7 @@ def _may_be_number(cell: Any) -> bool:
 def read_table(
     data: str | Sequence[Row], asked: TableFormat | None = None, needed: Iterable[str] = ()
 ) -> Table:
-    """Table of a file (.csv, .tsv, .json, .parquet), or of rows.
+    """Table of a file (.csv, .tsv, .xlsx, .json, .parquet), or of rows.
 
     Of large files the columns that are ``needed`` are read in any case.
 
@@ -110,21 +116,21 @@ def read_table(
     if not isinstance(data, str):
         return _table("data", data)
     said = asked or TableFormat()
-    ending = Path(data).suffix.lower()
+    ending = ending_of(data)
     if ending in PARQUET:
         rows = rows_of_parquet(data, read_bytes(data, MAX_TABLE_BYTES), needed)
         return _table(data, [plain_row(row) for row in rows])
     if ending == JSON:
         return _table(data, _rows_of_json(read_json(data, said), data))
     if ending in ENDINGS:
-        sheet = read_sheet(read_bytes(data, MAX_TABLE_BYTES), data, ending, said)
+        sheet = sheet_of_file(data, MAX_TABLE_BYTES, said)
         table = _table(data, _rows_of_sheet(sheet))
         usual = "." if sheet.delimiter == "," else ""
         told = (sheet.notice,) if sheet.notice else ()
         return replace(table, usual_decimal=usual, notices=told)
     known = ", ".join((*ENDINGS, JSON, PARQUET[0]))
     if ending in SPREADSHEETS:
-        raise ReadError(data, "is a spreadsheet; save the sheet as CSV (UTF-8) and give that")
+        raise ReadError(data, "is a spreadsheet; save it as .xlsx or CSV (UTF-8) and give that")
     raise ReadError(data, f"is no table; give a file that ends in {known}")
 
 

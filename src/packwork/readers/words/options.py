@@ -122,7 +122,7 @@ class WordOptions(Options):
     offers = Offer(group=Group.PLACED, verbs=Verbs.WORDS)
 
     source: Annotated[str | dict[str, float], NOT_OFFERED]
-    """Text, a table of word,weight (.csv, .tsv, .json), or - for standard input; in Python
+    """Text, a table of word,weight (.csv, .xlsx, .json), or - for standard input; in Python
     also the text itself, or a dict of weights."""
 
     count: Annotated[

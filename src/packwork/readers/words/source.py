@@ -17,6 +17,7 @@ from packwork.readers.tables.decoding import Decoded, check_no_document, decoded
 from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
+from packwork.readers.tables.workbook import ending_of
 from packwork.readers.words.options import Word, WordOptions, sound
 from packwork.readers.words.plurals import without_clitics, without_plurals
 from packwork.readers.words.table import MAX_BYTES, read_word_table
@@ -345,8 +346,8 @@ def _piped(most: int) -> bytes:
 
 
 def _is_table(source: str) -> bool:
-    ending = Path(source[-20:]).suffix.lower()
-    return ending in {".json", *ENDINGS} and len(source) < 1_000 and "\n" not in source
+    is_name = len(source) < 1_000 and "\n" not in source
+    return is_name and ending_of(source) in {".json", *ENDINGS}
 
 
 def _merged(words: Iterable[Word]) -> list[Word]:

@@ -8,7 +8,7 @@ import { tell } from "./toasts.js";
 
 const DRAWINGS = ".svg,.svgz,.dxf,image/*";
 const MAPS = `${DRAWINGS},.geojson`;
-const ANY = `${MAPS},.packwork,.toml,.csv,.tsv,.txt,.md,.ttf,.otf,.ttc,.otc`;
+const ANY = `${MAPS},.packwork,.toml,.csv,.tsv,.xlsx,.txt,.md,.ttf,.otf,.ttc,.otc`;
 const AT_ONCE = 4;
 const MOST = 1000;
 const MOST_TOLD = 3;

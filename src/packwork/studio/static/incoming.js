@@ -10,7 +10,7 @@ import { tell } from "./toasts.js";
 
 /** @type {Record<string, Kind>} */
 const KINDS = {
-  packwork: "document", toml: "document", geojson: "document", csv: "table", tsv: "table", txt: "text", md: "text",
+  packwork: "document", toml: "document", geojson: "document", csv: "table", tsv: "table", xlsx: "table", txt: "text", md: "text",
   ttf: "font", otf: "font", ttc: "font", otc: "font",
 };
 /** Bytes of a text that is taken into the field of words. */

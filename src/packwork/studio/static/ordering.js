@@ -8,7 +8,7 @@ import { h } from "./dom.js";
 const MEASURES = /** @type {const} */ ([["hue", "their hue"], ["lightness", "their lightness"], ["weight", "their weight"], ["name", "their name"]]);
 const WAYS = /** @type {const} */ ([["around", "around the middle"], ["outwards", "from the middle outwards"], ["inwards", "from the rim inwards"],
   ["right", "from left to right"], ["left", "from right to left"], ["down", "from top to bottom"], ["up", "from bottom to top"], ["along", "along the container"]]);
-const TABLES = ".csv,.tsv,.json,.npy,.parquet";
+const TABLES = ".csv,.tsv,.xlsx,.json,.npy,.parquet";
 
 export class Ordering {
   /** @param {import("./studio.js").Studio} studio */

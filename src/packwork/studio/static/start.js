@@ -10,7 +10,7 @@ import { tell } from "./toasts.js";
 const TEMPLATES = /** @type {const} */ ([
   ["icons", "Icons in a heart", ""], ["letters", "A word of icons", ""], ["words", "A word cloud", ""],
   ["names", "A wall of names", ""], ["badge", "A badge", ""], ["paper", "Wrapping paper", ""], ["jar", "A jar of icons", ""], ["nest", "Parts on a sheet", ""],
-  ["photos", "Your photographs", "image/*"], ["mosaic", "A mosaic of icons", "image/*"], ["chart", "A chart of your table", ".csv,.tsv,.json"],
+  ["photos", "Your photographs", "image/*"], ["mosaic", "A mosaic of icons", "image/*"], ["chart", "A chart of your table", ".csv,.tsv,.xlsx,.json"],
 ]);
 const UNITS = /** @type {const} */ ([["day", 86400], ["hour", 3600], ["minute", 60]]);
 

@@ -1,0 +1,365 @@
+"""Workbooks of Excel (.xlsx): the cells of one sheet as lines of text, as they are shown.
+
+Parts are streamed, so that memory goes by what is kept, and bounded by what their archive states,
+beyond which nothing is unpacked. Formulas have the values that were saved with them, macros are
+never run. Elements are those of ECMA-376, part 1 (SpreadsheetML), of any namespace.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import posixpath
+import re
+import zipfile
+import zlib
+from collections.abc import Callable, Mapping, Sequence
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Literal, NamedTuple, NoReturn, TypeAlias, final
+from xml.parsers import expat
+
+from packwork.errors import ReadError
+from packwork.phrasing import enumerated
+from packwork.readers.reading import exists
+
+ENDINGS = (".xlsx", ".xlsm")
+
+MOST_UNPACKED = 256_000_000
+"""Bytes of a sheet: a million rows of four cells. Chosen."""
+
+MOST_BESIDES = 64_000_000
+"""Bytes of any other part: texts take four times that in memory. Derived."""
+
+MOST_LETTERS = 128_000_000
+"""Letters of a sheet's cells, of which many may have one text. Chosen."""
+
+LONGEST_CELL = 32_767
+"""Letters of a cell, as Excel has it."""
+
+MOST_COLUMNS = 16_384
+"""Columns of a sheet, as Excel has it."""
+
+Shown: TypeAlias = Literal["number", "share", "date", "time", "year"]
+
+_BUILT_IN: dict[int, Shown] = {
+    **dict.fromkeys((9, 10), "share"),
+    **dict.fromkeys((*range(14, 18), 22, *range(27, 37), *range(50, 59)), "date"),
+    **dict.fromkeys((*range(18, 22), *range(45, 48)), "time"),
+}
+"""Number formats that files name by their numbers alone."""
+
+_QUOTED = re.compile(r'"[^"]*"|\\.|_.|\*.|\[[^\]]*\]')
+_REFERENCE = re.compile(r"([A-Z]{1,3})[0-9]+")
+
+_Start: TypeAlias = Callable[[str, Mapping[str, str]], None]
+
+
+class _Cell(NamedTuple):
+    column: int
+    kind: str
+    style: int
+
+
+def parted(file: str) -> tuple[str, str]:
+    """A file's own name, and that of the sheet behind it; empty for the first one.
+
+    Examples
+    --------
+    >>> parted("sales.xlsx#May"), parted("sales.xlsx"), parted("a#b.csv")
+    (('sales.xlsx', 'May'), ('sales.xlsx', ''), ('a#b.csv', ''))
+    """
+    path, mark, sheet = file.rpartition("#")
+    is_sheet = mark and path.lower().endswith(ENDINGS) and not exists(file)
+    return (path, sheet) if is_sheet else (file, "")
+
+
+def ending_of(file: str) -> str:
+    """Ending of a file's name, in small letters, without a sheet's.
+
+    Examples
+    --------
+    >>> ending_of("sales.XLSX#May"), ending_of("a.csv")
+    ('.xlsx', '.csv')
+    """
+    return Path(parted(file)[0]).suffix.lower()
+
+
+def text_of_sheet(
+    data: bytes, file: str, sheet: str, check: Callable[[str, int, int], None]
+) -> str:
+    """Cells of one sheet, parted by tabs, in the rows in which they stand.
+
+    Parameters
+    ----------
+    sheet
+        Name; empty for the first that is shown.
+    check
+        Is given the file and how many rows and cells there are so far, and refuses too many.
+
+    Raises
+    ------
+    ReadError
+        If it is no workbook, is too large, or has no such sheet.
+    """
+    if data.startswith(b"\xd0\xcf\x11\xe0"):
+        raise ReadError(file, "has a password or is an old .xls; save it as .xlsx without one")
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return _Workbook(archive, file).text(sheet, check)
+    except (zipfile.BadZipFile, zlib.error, expat.ExpatError, EOFError, KeyError, ValueError,
+            IndexError, OverflowError, RuntimeError) as error:  # fmt: skip
+        why = " ".join(str(error).split())[:80]
+        raise ReadError(
+            file, f"is no workbook of Excel ({why}); save the sheet as CSV (UTF-8) and give that"
+        ) from None
+
+
+@final
+class _Workbook:
+    def __init__(self, archive: zipfile.ZipFile, file: str) -> None:
+        self._archive, self._file = archive, file
+
+    def text(self, wanted: str, check: Callable[[str, int, int], None]) -> str:
+        """Lines of a sheet by its name."""
+        main = next(
+            target for kind, target in self._targets("").values() if kind == "officeDocument"
+        )
+        sheets: list[Mapping[str, str]] = []
+        since_1904 = False
+
+        def start(name: str, told: Mapping[str, str]) -> None:
+            nonlocal since_1904
+            if name == "sheet":
+                sheets.append(told)
+            elif name == "workbookPr":
+                since_1904 = told.get("date1904") in {"1", "true"}
+
+        self._parse(main, start)
+        targets = self._targets(main)
+        tables = {one["name"]: targets[one["id"]] for one in sheets}
+        parts = {name: part for name, (kind, part) in tables.items() if kind == "worksheet"}
+        if not parts:
+            raise ValueError("it has no sheet of cells")
+        hidden = {one["name"] for one in sheets if one.get("state", "visible") != "visible"}
+        first = next((name for name in parts if name not in hidden), next(iter(parts)))
+        if (wanted or first) not in parts:
+            raise ReadError(
+                self._file, f"has no sheet {wanted[:40]!r}; there are {enumerated([*parts], 6)}"
+            )
+        others = dict(targets.values())
+        texts = self._texts(others["sharedStrings"]) if "sharedStrings" in others else []
+        shown = self._shown(others["styles"]) if "styles" in others else []
+        reader = _SheetReader(self._file, texts, shown, since_1904, check)
+        self._parse(parts[wanted or first], reader.start, reader.end, reader.letters, MOST_UNPACKED)
+        return reader.text
+
+    def _targets(self, part: str) -> dict[str, tuple[str, str]]:
+        """Kinds and names of parts that a part refers to, by their marks."""
+        folder, name = posixpath.split(part)
+        found: dict[str, tuple[str, str]] = {}
+
+        def start(element: str, told: Mapping[str, str]) -> None:
+            if element == "Relationship" and told.get("TargetMode") != "External":
+                target = posixpath.normpath(posixpath.join("/", folder, told["Target"]))[1:]
+                found[told["Id"]] = told["Type"].rpartition("/")[2], target
+
+        self._parse(posixpath.join(folder, "_rels", f"{name}.rels"), start)
+        return found
+
+    def _texts(self, part: str) -> list[str]:
+        """Texts that cells share, without how they are spoken."""
+        found: list[str] = []
+        now: list[str] = []
+        within: list[str] = []
+
+        def start(name: str, _: Mapping[str, str]) -> None:
+            within.append(name)
+            if name == "si":
+                now.clear()
+
+        def end(name: str) -> None:
+            within.pop()
+            if name == "si":
+                found.append("".join(now))
+
+        def letters(text: str) -> None:
+            if within[-1] == "t" and "rPh" not in within[-3:]:
+                now.append(text)
+
+        self._parse(part, start, end, letters)
+        return found
+
+    def _shown(self, part: str) -> list[Shown]:
+        """Kinds of what the styles of cells show numbers as."""
+        own: dict[int, Shown] = {}
+        found: list[Shown] = []
+        is_of_cells = False
+
+        def start(name: str, told: Mapping[str, str]) -> None:
+            nonlocal is_of_cells
+            if name == "numFmt":
+                own.setdefault(int(told["numFmtId"]), shown_by(told["formatCode"]))
+            elif name in {"cellXfs", "cellStyleXfs"}:
+                is_of_cells = name == "cellXfs"
+            elif name == "xf" and is_of_cells:
+                number = int(told.get("numFmtId", 0))
+                found.append(own.get(number, _BUILT_IN.get(number, "number")))
+
+        self._parse(part, start)
+        return found
+
+    def _parse(
+        self, part: str, start: _Start, end: Callable[[str], None] = lambda _: None,
+        letters: Callable[[str], None] = lambda _: None, most: int = MOST_BESIDES,
+    ) -> None:  # fmt: skip
+        info = self._archive.getinfo(part)
+        if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise ValueError("it is packed in an unknown way")
+        # The archive's reader ends where the file's own account does.
+        if info.file_size > most:
+            raise ReadError(
+                self._file, f"unpacks to more than {most / 1e6:g} MB; give fewer rows, or CSV"
+            )
+        parser = expat.ParserCreate(namespace_separator=" ")
+        parser.buffer_text = True
+        parser.StartDoctypeDeclHandler = _refuse
+        # "namespace name", of elements and attributes alike.
+        parser.StartElementHandler = lambda name, told: start(
+            name.rpartition(" ")[2], {key.rpartition(" ")[2]: value for key, value in told.items()}
+        )
+        parser.EndElementHandler = lambda name: end(name.rpartition(" ")[2])
+        parser.CharacterDataHandler = letters
+        with self._archive.open(info) as stream:
+            parser.ParseFile(stream)
+
+
+def _refuse(*_: object) -> NoReturn:
+    raise ValueError("it declares a type of document, as no workbook does")
+
+
+def shown_by(code: str) -> Shown:
+    """Kind of what a number format shows.
+
+    Examples
+    --------
+    >>> [shown_by(code) for code in ("0.0%", "dd/mm/yyyy", "h:mm", "yyyy", '#,##0.00 "days"')]
+    ['share', 'date', 'time', 'year', 'number']
+    """
+    plain = _QUOTED.sub("", code.partition(";")[0]).casefold()
+    if "%" in plain:
+        return "share"
+    if set(plain) == {"y"}:
+        return "year"
+    if "general" in plain or not set(plain) & set("ymdhs"):
+        return "number"
+    return "date" if set(plain) & set("yd") or not set(plain) & set("hs") else "time"
+
+
+def _plain(number: float) -> str:
+    """The 15 digits that Excel counts with; a fraction of three is none that groups thousands.
+
+    >>> _plain(0.1 + 0.2), _plain(1.234), _plain(3.0)
+    ('0.3', '1.2340', '3')
+    """
+    digits, mark, power = f"{number:.15g}".partition("e")
+    return digits + "0" * (len(digits.partition(".")[2]) == 3) + mark + power
+
+
+def written(number: float, shown: Shown, *, since_1904: bool = False) -> str:
+    """A number as its format shows it, with all its digits.
+
+    Examples
+    --------
+    >>> written(0.125, "share"), written(45352.0, "date"), written(45352.5, "date")
+    ('12.5%', '2024-03-01', '2024-03-01 12:00')
+    """
+    if shown == "share":
+        return f"{_plain(100.0 * number)}%"
+    if shown == "number" or not 0.0 <= number < 2_958_466.0:
+        return _plain(number)
+    begin = datetime(1904, 1, 1) if since_1904 else datetime(1899, 12, 30)
+    when = begin + timedelta(seconds=round(86_400 * number))
+    if shown == "year":
+        return str(when.year)
+    clock = when.strftime("%H:%M:%S").removesuffix(":00")
+    if shown == "time" and number < 1.0:
+        return clock
+    return f"{when:%Y-%m-%d}" + (f" {clock}" if number % 1.0 else "")
+
+
+@final
+class _SheetReader:
+    """Handlers of a sheet's elements, which write its rows as they end."""
+
+    def __init__(
+        self, file: str, texts: Sequence[str], shown: Sequence[Shown], since_1904: bool,
+        check: Callable[[str, int, int], None],
+    ) -> None:  # fmt: skip
+        self._file, self._texts, self._shown, self._check = file, texts, shown, check
+        self._since_1904 = since_1904
+        self._lines = io.StringIO(newline="")
+        self._writer = csv.writer(self._lines, delimiter="\t", lineterminator="\n")
+        self._row: dict[int, str] = {}
+        self._cell = _Cell(0, "n", 0)
+        self._parts: list[str] | None = None
+        self._at = self._rows = self._cells = self._letters = 0
+
+    @property
+    def text(self) -> str:
+        """Lines so far."""
+        return self._lines.getvalue()
+
+    def start(self, name: str, told: Mapping[str, str]) -> None:
+        """Begin a row, a cell, or a cell's value."""
+        if name == "row":
+            number = int(told.get("r", self._at + 1))
+            # Lines have the numbers of their rows.
+            if not self._at < number <= 1 << 20:
+                raise ValueError(f"its row {number} follows row {self._at}")
+            self._lines.write("\n" * (number - 1 - self._at))
+            self._row, self._at, self._cell = {}, number, _Cell(0, "n", 0)
+        elif name == "c":
+            column = self._cell.column + 1
+            if met := _REFERENCE.fullmatch(told.get("r", "")):
+                column = 0
+                for letter in met[1]:
+                    column = 26 * column + ord(letter) - ord("A") + 1
+            if column > MOST_COLUMNS:
+                raise ValueError(f"it has a column {column:,}")
+            self._cell = _Cell(column, told.get("t", "n"), int(told.get("s", 0)))
+        elif name in {"v", "t"}:
+            self._parts = [] if self._parts is None else self._parts
+
+    def letters(self, text: str) -> None:
+        """Take letters of a value."""
+        if self._parts is not None:
+            self._parts.append(text)
+
+    def end(self, name: str) -> None:
+        """End a value, or write a row."""
+        if name in {"v", "t"} and self._parts is not None:
+            text = self._meant("".join(self._parts)[:LONGEST_CELL])
+            before = self._row.get(self._cell.column, "") if name == "t" else ""
+            self._row[self._cell.column] = before + text
+            self._parts = None
+            self._letters += len(text)
+            if self._letters > MOST_LETTERS:
+                raise ReadError(self._file, f"has more than {MOST_LETTERS:,} letters; give fewer")
+        elif name == "row":
+            width = max(self._row, default=0)
+            self._rows, self._cells = self._rows + bool(width), self._cells + width
+            self._check(self._file, self._rows - 1, self._cells)
+            self._writer.writerow([self._row.get(k, "") for k in range(1, width + 1)])
+
+    def _meant(self, text: str) -> str:
+        """A value as the sheet shows it, in one line."""
+        kind, style = self._cell.kind, self._cell.style
+        if kind == "s":
+            text = self._texts[int(text)]
+        elif kind == "b":
+            text = "TRUE" if text.strip() == "1" else "FALSE"
+        elif kind == "n" and text.strip():
+            shown = self._shown[style] if style < len(self._shown) else "number"
+            text = written(float(text), shown, since_1904=self._since_1904)
+        return " ".join(text.split("\n")).replace("\r", " ").replace("\0", "")

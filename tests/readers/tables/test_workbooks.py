@@ -1,0 +1,150 @@
+"""Workbooks of Excel as tables: what their sheets show, and files that mean harm."""
+
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from packwork.errors import ReadError
+from packwork.readers.cut_list import read_cut_list
+from packwork.readers.tables.pairs import read_weights
+from packwork.readers.tables.table import read_table
+from packwork.readers.tables.workbook import MOST_BESIDES
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.source import read_words
+
+MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+RELATIONS = "http://schemas.openxmlformats.org/package/2006/relationships"
+
+STYLES = (
+    '<numFmts><numFmt numFmtId="164" formatCode="dd/mm/yyyy\\ hh:mm"/></numFmts>'
+    '<cellStyleXfs><xf numFmtId="14"/></cellStyleXfs>'
+    '<cellXfs><xf numFmtId="0"/><xf numFmtId="10"/><xf numFmtId="164"/></cellXfs>'
+)
+ROWS = (
+    "<row><c t='s'><v>0</v></c><c t='s'><v>1</v></c></row>"
+    "<row><c t='inlineStr'><is><r><t>Pe</t></r><r><t>ru</t></r></is></c><c><v>2</v></c></row>"
+    "<row r='4'><c r='A4' t='str'><f>A2</f><v>Chad</v></c><c r='B4'><v>0.5</v></c></row>"
+)
+TEXTS = "<si><t>name</t><rPh><t>spoken</t></rPh></si><si><r><t>k</t></r><r><t>g</t></r></si>"
+
+
+def _relations(targets: Mapping[str, tuple[str, str]]) -> str:
+    told = "".join(
+        f'<Relationship Id="{key}" Type="{OFFICE}/{kind}" Target="{target}"/>'
+        for key, (kind, target) in targets.items()
+    )
+    return f'<Relationships xmlns="{RELATIONS}">{told}</Relationships>'
+
+
+def _book(file: Path, sheets: Mapping[str, str], *, before: str = "", **other: str) -> str:
+    """A workbook of sheets by their names, of the elements of their rows."""
+    parts = {f"s{k}": ("worksheet", f"/xl/sheets/{k}.xml") for k in range(len(sheets))}
+    named = "".join(
+        f'<sheet name="{name}" r:id="s{k}" state="{"hidden" if name == "Secret" else "visible"}"/>'
+        for k, name in enumerate(sheets)
+    )
+    written = {
+        "_rels/.rels": _relations({"a": ("officeDocument", "xl/workbook.xml")}),
+        "xl/_rels/workbook.xml.rels": _relations(
+            {**parts, "t": ("sharedStrings", "texts.xml"), "y": ("styles", "styles.xml")}
+        ),
+        "xl/workbook.xml": (
+            f'<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}">{other.get("properties", "")}'
+            f"<sheets>{named}</sheets></workbook>"
+        ),
+        "xl/texts.xml": f'<sst xmlns="{MAIN}">{other.get("texts", TEXTS)}</sst>',
+        "xl/styles.xml": f'<styleSheet xmlns="{MAIN}">{STYLES}</styleSheet>',
+    }
+    for k, rows in enumerate(sheets.values()):
+        written[f"xl/sheets/{k}.xml"] = (
+            f'{before}<worksheet xmlns="{MAIN}"><sheetData>{rows}</sheetData></worksheet>'
+        )
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, text in written.items():
+            archive.writestr(name, text)
+    return str(file)
+
+
+def test_texts_formulas_and_gaps_of_the_first_sheet_that_is_shown(tmp_path: Path) -> None:
+    file = _book(tmp_path / "a.xlsx", {"Secret": "", "Sales": ROWS})
+    table = read_table(file)
+    assert table.rows == ({"name": "Peru", "kg": "2"}, {"name": "Chad", "kg": "0.5"})
+
+
+def test_a_sheet_by_its_name_wherever_tables_are_read(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text("<svg/>", encoding="utf-8")
+    parts = (
+        "<row><c t='str'><v>file</v></c><c t='str'><v>count</v></c></row>"
+        "<row><c t='str'><v>a.svg</v></c><c><v>12</v></c></row>"
+    )
+    file = _book(tmp_path / "a.xlsx", {"Parts": parts, "Sales": ROWS})
+    assert read_weights(f"{file}#Sales") == {"Peru": 2.0, "Chad": 0.5}
+    words = read_words(WordOptions(source=f"{file}#Sales"))
+    assert [(word.text, word.weight) for word in words] == [("Peru", 2.0), ("Chad", 0.5)]
+    (part,) = read_cut_list(f"{file}#Parts")
+    assert (Path(part.file).name, part.count) == ("a.svg", 12)
+    with pytest.raises(ReadError, match="has no sheet 'May'; there are Parts, Sales"):
+        read_table(f"{file}#May")
+
+
+@pytest.mark.parametrize(
+    ("properties", "day"), [("", "2024-03-01 12:30"), ('<workbookPr date1904="1"/>', "2028-03-02")]
+)
+def test_days_and_shares_are_as_they_are_shown(tmp_path: Path, properties: str, day: str) -> None:
+    rows = (
+        "<row><c t='str'><v>share</v></c><c t='str'><v>day</v></c><c t='str'><v>kg</v></c></row>"
+        "<row><c s='1'><v>0.125</v></c><c s='2'><v>45352.520833333336</v></c>"
+        "<c s='0'><v>1.234</v></c></row>"
+    )
+    file = _book(tmp_path / "a.xlsx", {"S": rows}, properties=properties)
+    table = read_table(file)
+    (row,) = table.rows
+    assert (row["share"], row["day"][: len(day)]) == ("12.5%", day)
+    # No reader may take it for 1234.
+    (row,) = table.with_numbers("kg", None, whole=True).rows
+    assert row["kg"].number == 1.234
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        ({"sheets": {"S": ROWS}, "before": "<!DOCTYPE a [<!ENTITY b 'c'>]>"}, "declares a type"),
+        ({"sheets": {"S": "<row r='9999999'/>"}}, "its row 9999999 follows row 0"),
+        ({"sheets": {"S": "<row r='2'/><row r='2'/>"}}, "its row 2 follows row 2"),
+        ({"sheets": {"S": "<row><c r='ZZZ1'><v>1</v></c></row>"}}, "has a column 18,278"),
+        ({"sheets": {"S": "<row><c t='s'><v>7</v></c></row>"}}, "is no workbook of Excel"),
+        ({"sheets": {"S": "<row><c><v>x</v></c></row>"}}, "is no workbook of Excel"),
+        ({"sheets": {}}, "it has no sheet of cells"),
+        ({"sheets": {"S": "<row>"}}, "is no workbook of Excel"),
+    ],
+)
+def test_a_workbook_that_cannot_be_is_one_line(
+    tmp_path: Path, made: dict[str, Any], said: str
+) -> None:
+    file = _book(tmp_path / "a.xlsx", **made)
+    with pytest.raises(ReadError, match=said) as met:
+        read_table(file)
+    assert "\n" not in str(met.value)
+
+
+def test_what_unpacks_or_repeats_to_much_is_refused(tmp_path: Path) -> None:
+    wide = "<row><c r='XFD1'><v>1</v></c></row>" + "<row><c r='XFD9'><v>1</v></c></row>" * 300
+    with pytest.raises(ReadError, match="more than 4,000,000 cells"):
+        read_table(_book(tmp_path / "a.xlsx", {"S": wide}))
+    texts = f"<si><t>{'a' * 30_000}</t></si>"
+    many = "<row><c t='s'><v>0</v></c></row>" * 5_000
+    with pytest.raises(ReadError, match="more than 128,000,000 letters"):
+        read_table(_book(tmp_path / "a.xlsx", {"S": many}, texts=texts))
+    texts = " " * (MOST_BESIDES + 1)
+    with pytest.raises(ReadError, match="unpacks to more than"):
+        read_table(_book(tmp_path / "a.xlsx", {"S": ROWS}, texts=texts))
+
+
+def test_a_file_with_a_password_is_told_as_such(tmp_path: Path) -> None:
+    (tmp_path / "a.xlsx").write_bytes(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(512))
+    with pytest.raises(ReadError, match="has a password or is an old"):
+        read_table(str(tmp_path / "a.xlsx"))
