@@ -20,7 +20,6 @@ from packwork.recipe.typed import Anchor, Force, Hero
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 
-
 class PinTable(TypedDict, total=False):
     """Given parts of one item's pose."""
 
@@ -35,7 +34,6 @@ class PinTable(TypedDict, total=False):
 
     size: str | float | None
     """Longer side of the item as drawn; % are of the canvas' longer side."""
-
 
 class RuleTable(TypedDict, total=False):
     """Rule for the items of some names."""
@@ -73,7 +71,6 @@ class RuleTable(TypedDict, total=False):
 
     title: str | None
     """Text that is shown when a pointer rests on it."""
-
 
 class _FillWordsPhotos(TypedDict, total=False):
     """Options of fill, words, photos."""
@@ -162,7 +159,6 @@ class _FillWordsPhotos(TypedDict, total=False):
     filler: Value | Iterable[Value] | None
     """Items to put into the voids, in place of smaller copies of the items."""
 
-
 class _FillWordsPhotosPile(TypedDict, total=False):
     """Options of fill, words, photos, pile."""
 
@@ -170,7 +166,6 @@ class _FillWordsPhotosPile(TypedDict, total=False):
     """How many items in all; the given ones are repeated in turn. Default: one of each. Of words:
     how many at most, those of the largest weights; default 100. auto: as many as it takes for the
     container's shape to show."""
-
 
 class _FillPhotosPile(TypedDict, total=False):
     """Options of fill, photos, pile."""
@@ -189,7 +184,6 @@ class _FillPhotosPile(TypedDict, total=False):
     """Where folders hold more items than the count: seed draws from all of them, first takes the
     first by name. No others are read, unless weights, vectors or a picture speak of all. Default:
     'seed'."""
-
 
 class _Every(TypedDict, total=False):
     """Options of fill, words, photos, chart, pile."""
@@ -259,7 +253,6 @@ class _Every(TypedDict, total=False):
     rules: Sequence[RuleTable]
     """What is asked of single items (in Python and recipe files)."""
 
-
 class _FillPhotos(TypedDict, total=False):
     """Options of fill, photos."""
 
@@ -269,7 +262,6 @@ class _FillPhotos(TypedDict, total=False):
 
     apart: bool
     """Keep copies of one item from lying side by side, as far as that goes. Default: False."""
-
 
 class _FillWords(TypedDict, total=False):
     """Options of fill, words."""
@@ -283,7 +275,6 @@ class _FillWords(TypedDict, total=False):
     told by their names; new ones go into voids, and those no longer asked for leave. Default:
     False."""
 
-
 class _FillWordsPile(TypedDict, total=False):
     """Options of fill, words, pile."""
 
@@ -296,7 +287,6 @@ class _FillWordsPile(TypedDict, total=False):
     them) or even (alike on all of them: of larger ones thinner, before items grow together).
     Default: 'scaled'."""
 
-
 class _FillWordsChartPile(TypedDict, total=False):
     """Options of fill, words, chart, pile."""
 
@@ -308,7 +298,6 @@ class _FillWordsChartPile(TypedDict, total=False):
     holes: Literal["fill", "keep"]
     """keep: the holes of items stay free, so that small items may sit in them. Default: 'fill'."""
 
-
 class _FillPile(TypedDict, total=False):
     """Options of fill, pile."""
 
@@ -316,7 +305,6 @@ class _FillPile(TypedDict, total=False):
     """What --palette does to drawings of several colours: tint (each in the tints and shades of one
     colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
     (they keep their own, as among words). Default: 'tint'."""
-
 
 class _FillWordsPhotosChart(TypedDict, total=False):
     """Options of fill, words, photos, chart."""
@@ -343,14 +331,12 @@ class _FillWordsPhotosChart(TypedDict, total=False):
     """Weights of losses, by name, module:function or (in Python) as functions: in place of the
     preset's, or beside them; 0 switches one off."""
 
-
 class _WordsPhotos(TypedDict, total=False):
     """Options of words, photos."""
 
     share: str | Mapping[str, float | str] | None
     """Shares of the area where words, photos and other items are mixed:
     words=50%,photos=30%,items=20%."""
-
 
 class _WordsChart(TypedDict, total=False):
     """Options of words, chart."""
@@ -361,7 +347,6 @@ class _WordsChart(TypedDict, total=False):
 
     background: str | None
     """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
-
 
 class FillKeywords(
     _FillWordsPhotos,
@@ -385,10 +370,8 @@ class FillKeywords(
     preset: Literal["default", "paper"]
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
-
 class FillRun(RunKeywords, FillKeywords, total=False):
     """All parameters of :func:`packwork.fill` that are given by name."""
-
 
 class WordsKeywords(
     _FillWordsPhotos,
@@ -494,10 +477,8 @@ class WordsKeywords(
     """Least contrast of words and background, as WCAG counts it; 1 leaves colours alone. Default:
     3.0."""
 
-
 class WordsRun(RunKeywords, WordsKeywords, total=False):
     """All parameters of :func:`packwork.words` that are given by name."""
-
 
 class PhotosKeywords(
     _FillWordsPhotos,
@@ -533,10 +514,8 @@ class PhotosKeywords(
     """What becomes of photos at the container's edge: inside (all of each photo is seen) or crop
     (they cover the edge and are cut at its line, for a clean rim). Default: 'inside'."""
 
-
 class PhotosRun(RunKeywords, PhotosKeywords, total=False):
     """All parameters of :func:`packwork.photos` that are given by name."""
-
 
 class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsChart, total=False):
     """Options of :func:`packwork.chart`."""
@@ -585,10 +564,8 @@ class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsCh
     legend: bool
     """Keys to sizes, colours and marks under the chart. Default: True."""
 
-
 class ChartRun(RunKeywords, ChartKeywords, total=False):
     """All parameters of :func:`packwork.chart` that are given by name."""
-
 
 class PileKeywords(
     _FillWordsPhotosPile,
@@ -626,10 +603,8 @@ class PileKeywords(
     """Report how tight the pile is: shares of its hull, its smallest circle and its box. Default:
     False."""
 
-
 class PileRun(RunKeywords, PileKeywords, total=False):
     """All parameters of :func:`packwork.pile` that are given by name."""
-
 
 class SaveKeywords(TypedDict, total=False):
     """Options of drawing a layout."""
@@ -685,7 +660,6 @@ class SaveKeywords(TypedDict, total=False):
     spot: str | Mapping[str, str] | None
     """Spot inks of a PDF, each with the colour that is printed in it, as 'PANTONE 186
     C=#c8102e,Gold=#b58b2a'."""
-
 
 class FilmKeywords(TypedDict, total=False):
     """Options of films."""
