@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from packwork.readers.budget.expansion import DASHES, curve_length
+from packwork.readers.gate.css.calc import UNCOMPUTABLE, calculated
+from packwork.readers.gate.css.selectors import UnknownSelectorError, inside_brackets
 from packwork.readers.svg_syntax.coordinates import (
     PLAIN_VIEWPORT,
     PX_PER_UNIT,
@@ -53,9 +54,6 @@ def _settle_dashes_of(element: ET.Element, dashes: str, offset: str) -> None:
 
 PLAIN_FONT_PX = 16.0
 """Default size of a font, as in every browser."""
-
-MAX_TERMS = 60
-"""Words of one ``calc()``. Chosen."""
 
 _ACROSS = frozenset({"x", "x1", "x2", "cx", "width", "rx", "dx", "refX", "markerWidth", "fx"})
 _DOWN = frozenset({"y", "y1", "y2", "cy", "height", "ry", "dy", "refY", "markerHeight", "fy"})
@@ -206,76 +204,11 @@ def _calculated(text: str, context: Context, whole: float) -> str:
     match = _CALC.search(text)
     if match is None:
         return text
-    terms = list(_TERM.finditer(text, match.start()))
-    if len(terms) > MAX_TERMS:
-        return text
     try:
-        value, used = _Sums(terms, context, whole).call()
-    except (KeyError, IndexError, ValueError, ZeroDivisionError):
+        _, end = inside_brackets(text, match.end())
+        value = calculated(
+            text[match.start() : end], lambda unit: context.factor(unit, whole) if unit else 1.0
+        )
+    except (UnknownSelectorError, *UNCOMPUTABLE):
         return text
-    return f"{text[: match.start()]}{_written(value)}{text[terms[used - 1].end() :]}"
-
-
-class _Sums:
-    """Recursive descent over the terms of one calculation."""
-
-    def __init__(self, terms: list[re.Match[str]], context: Context, whole: float) -> None:
-        self._terms, self._context, self._whole = terms, context, whole
-        self._at = 0
-
-    def call(self) -> tuple[float, int]:
-        """Value of the call that the terms begin with, and how many of them it takes."""
-        return self._factor(), self._at
-
-    def _next(self) -> re.Match[str]:
-        self._at += 1
-        return self._terms[self._at - 1]
-
-    def _peek(self) -> str:
-        return self._terms[self._at][3] or ""
-
-    def _sum(self) -> float:
-        value = self._product()
-        while True:
-            term = self._terms[self._at]
-            if self._peek() in {"+", "-"}:
-                sign = 1.0 if self._next()[3] == "+" else -1.0
-                value += sign * self._product()
-            elif term[1] is not None and term[1][0] in "+-":
-                # A sign that was read as part of its number.
-                value += self._product()
-            else:
-                return value
-
-    def _product(self) -> float:
-        value = self._factor()
-        while self._peek() in {"*", "/"}:
-            value = value * self._factor() if self._next()[3] == "*" else value / self._factor()
-        return value
-
-    def _factor(self) -> float:
-        term = self._next()
-        if term[1] is not None:
-            unit = (term[2] or "").lower()
-            return float(term[1]) * (self._context.factor(unit, self._whole) if unit else 1.0)
-        word = term[3].lower()
-        if word == "-":
-            return -self._factor()
-        if word != "(" and self._next()[3] != "(":
-            raise ValueError(word)
-        values = [self._sum()]
-        while self._peek() == ",":
-            self._next()
-            values.append(self._sum())
-        if self._next()[3] != ")":
-            raise ValueError(word)
-        return _CALLS[word](values)
-
-
-_CALLS: dict[str, Callable[[list[float]], float]] = {
-    "(": lambda values: values[0],
-    "calc": lambda values: values[0],
-    "min": min,
-    "max": max,
-    "clamp": lambda values: max(values[0], min(values[1], values[2])),
-}
+    return f"{text[: match.start()]}{_written(value)}{text[end:]}"

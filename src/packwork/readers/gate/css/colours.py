@@ -5,15 +5,14 @@ Colours outside sRGB are clipped, channel by channel, as browsers do.
 
 from __future__ import annotations
 
-import ast
 import contextlib
 import math
-import operator
 import re
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from packwork.readers.gate.css.calc import UNCOMPUTABLE, calculated
 from packwork.readers.gate.css.selectors import split_outside
 from packwork.scene.colour import css_colour
 
@@ -34,9 +33,6 @@ _WORDS = frozenset({
 })  # fmt: skip
 _CALC = re.compile(r"\bcalc((\((?:[^()]|\([^()]*\))*\)))", re.IGNORECASE)
 _UNIT = re.compile(r"(?<=[\d.])(%|[a-z]+)", re.IGNORECASE)
-_OPERATORS = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv
-}  # fmt: skip
 
 
 @lru_cache(maxsize=4096)
@@ -71,7 +67,7 @@ def plain_colour(value: str) -> str:
     call = _CALL.fullmatch(text)
     if call is None or len(value) > _LONGEST or call[1].lower() not in _OLD | _NEW:
         return text
-    with contextlib.suppress(ValueError, SyntaxError, ArithmeticError):
+    with contextlib.suppress(*UNCOMPUTABLE):
         text = _CALC.sub(_computed, text)
     if call[1].lower() in _OLD:
         # Most are read at once; turns and radians are not.
@@ -114,17 +110,7 @@ def _computed(call: re.Match[str]) -> str:
     units, numbers = set(met), re.findall(r"[\d.]+", call[1])
     if len(units) > 1 or (met and len(met) < len(numbers) and re.search(r"[+-]", call[1])):
         raise ValueError("units are mixed")
-    return f"{_value(ast.parse(_UNIT.sub('', call[1]), mode='eval').body):.12g}{''.join(units)}"
-
-
-def _value(node: ast.expr) -> float:
-    if isinstance(node, ast.Constant) and type(node.value) in {int, float}:
-        return float(node.value)  # type: ignore[arg-type]
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        return -_value(node.operand)
-    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
-        return float(_OPERATORS[type(node.op)](_value(node.left), _value(node.right)))
-    raise ValueError("no number")
+    return f"{calculated(call[0], lambda unit: 1.0):.12g}{''.join(units)}"
 
 
 def _mixed(parts: Sequence[str]) -> Color:

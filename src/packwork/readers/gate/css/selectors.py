@@ -240,7 +240,7 @@ def parse_selector(text: str, depth: int = 0) -> Selector:
             continue
         is_started = True
         if token["call"]:
-            inside, place = _inside(text, place)
+            inside, place = inside_brackets(text, place)
             _call(steps[-1], token["pseudo"].lower(), inside, depth)
         else:
             _condition(steps[-1], token)
@@ -271,7 +271,7 @@ def split_outside(text: str, mark: str) -> list[str]:
     return [*parts, text[begin:]]
 
 
-def _inside(text: str, place: int) -> tuple[str, int]:
+def inside_brackets(text: str, place: int) -> tuple[str, int]:
     """Text between brackets, the first of which has been passed."""
     depth = 1
     for k in range(place, len(text)):
