@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import pickle
 import re
@@ -10,11 +11,13 @@ import sys
 import tomllib
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
 
 import packwork as pw
+from packwork import writers
 from packwork.installed import EXTRAS
 
 ROOT = Path(__file__).parents[1]
@@ -116,3 +119,19 @@ def test_the_package_and_all_that_it_offers_are_pickled_by_name() -> None:
     for name in pw.__all__:
         one = getattr(pw, name)
         assert pickle.loads(pickle.dumps(one)) == one  # noqa: S301
+
+
+@pytest.mark.parametrize("package", [pw, writers], ids=["packwork", "writers"])
+def test_checkers_are_told_of_the_very_names_that_are_loaded(package: ModuleType) -> None:
+    tree = ast.parse(Path(str(package.__file__)).with_suffix(".pyi").read_text(encoding="utf-8"))
+    homes = {
+        alias.asname or alias.name: (str(node.module), alias.name)
+        for node in tree.body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    (listed,) = (ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign))
+    assert set(listed) - {"__version__"} == homes.keys()
+    assert package is not pw or listed == pw.__all__
+    for name, (module, own) in homes.items():
+        assert getattr(package, name) is getattr(import_module(module), own)

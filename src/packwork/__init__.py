@@ -19,82 +19,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from typing import Any
 
-    from packwork.api.batches import Batch, batch
-    from packwork.api.history import History
-    from packwork.api.inputs import read_container, read_items
-    from packwork.api.judging import finish, measure
-    from packwork.api.layout import Layout
-    from packwork.api.nesting import Nest, nest
-    from packwork.api.parts import Placement
-    from packwork.api.series import Series, chart_series, series
-    from packwork.api.session import Session
-    from packwork.api.verbs import chart, fill, photos, pile, run, words
-    from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
-    from packwork.fit.fitted import FittedOutline, fit_outline
-    from packwork.geometry.outline import Outline
-    from packwork.losses.term import ImageLoss, PosedItems, PoseTerm, Term
-    from packwork.metrics.measure import Metrics
-    from packwork.progress import Step
-    from packwork.raster.colour import render_colour, render_colour_pullback
-    from packwork.raster.coverage import coverage as render
-    from packwork.raster.coverage import coverage_pullback as render_pullback
-    from packwork.recipe.typed import Anchor, Force, Hero
     from packwork.scene import layout as scene
-    from packwork.scene.container import Container
-    from packwork.scene.item import FlatArt, Item
-    from packwork.scene.pose import Poses
 
-    __version__: str
-
-__all__ = [
-    "Anchor",
-    "Batch",
-    "Container",
-    "FittedOutline",
-    "FlatArt",
-    "Force",
-    "Hero",
-    "History",
-    "ImageLoss",
-    "Item",
-    "Layout",
-    "Metrics",
-    "Nest",
-    "Outline",
-    "PackworkError",
-    "Placement",
-    "PoseTerm",
-    "PosedItems",
-    "Poses",
-    "ReadError",
-    "RecipeError",
-    "Series",
-    "Session",
-    "ShapeError",
-    "Step",
-    "Term",
-    "WriteError",
-    "__version__",
-    "batch",
-    "chart",
-    "chart_series",
-    "fill",
-    "finish",
-    "fit_outline",
-    "measure",
-    "nest",
-    "photos",
-    "pile",
-    "read_container",
-    "read_items",
-    "render",
-    "render_colour",
-    "render_colour_pullback",
-    "render_pullback",
-    "run",
-    "series",
-    "words",
-]
 
 _HOMES = {
     "packwork.api.batches": ("Batch", "batch"),
@@ -126,18 +52,17 @@ _OTHERWISE = {"render": "coverage", "render_pullback": "coverage_pullback"}
 
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
+__all__ = sorted(["__version__", *_HOME_OF])
 
-# A checker that saw it would take any name for one of ours.
-if not TYPE_CHECKING:
 
-    def __getattr__(name: str) -> Any:
-        """Load a public name when it is first used, so that importing stays cheap."""
-        if name == "__version__":
-            return importlib.import_module("importlib.metadata").version("packwork")
-        if name not in _HOME_OF:
-            raise AttributeError(f"module 'packwork' has no attribute {name!r}")
-        module = importlib.import_module(_HOME_OF[name])
-        return getattr(module, _OTHERWISE.get(name, name))
+def __getattr__(name: str) -> Any:
+    """Load a public name when it is first used, so that importing stays cheap."""
+    if name == "__version__":
+        return importlib.import_module("importlib.metadata").version("packwork")
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'packwork' has no attribute {name!r}")
+    module = importlib.import_module(_HOME_OF[name])
+    return getattr(module, _OTHERWISE.get(name, name))
 
 
 def _layout_of_session(path: str | Path) -> scene.Layout:
