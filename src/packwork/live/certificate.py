@@ -10,6 +10,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from packwork.geometry.rectangles import touches_alone
 from packwork.live.chart_groups import stray
 from packwork.live.commands.aligning import LineUp
 from packwork.live.commands.command import Command
@@ -51,13 +52,16 @@ class Certificate:
 
     def violations(self, document: Document) -> tuple[Violation, ...]:
         """Conflicts of a document, items by their numbers."""
-        return self._brought_to(document).violations
+        found = self._brought_to(document).violations
+        if promise_of(document).gap > 0.0:
+            return found
+        return tuple(one for one in found if not _only_touches(one, document))
 
     def in_the_way(self, document: Document) -> tuple[str, ...]:
         """Reasons that keep a document from its certificate, a sentence each."""
         place = {number: k for k, number in enumerate(document.ids.tolist())}
         reasons = []
-        for one in self._brought_to(document).violations:
+        for one in self.violations(document):
             other = None if one.other is None else place[one.other]
             placed = replace(one, item=place[one.item], other=other)
             name = document.items[placed.item].name
@@ -78,6 +82,16 @@ class Certificate:
         standing.change({**gone, **placed})
         self._standing, self._seen = standing, now
         return standing
+
+
+def _only_touches(one: Violation, document: Document) -> bool:
+    """Whether straight rectangles touch, of which no gap is asked, and overlap nowhere."""
+    both = [one.item] if one.other is None else [one.item, one.other]
+    rows = np.flatnonzero(np.isin(document.ids, both)).tolist()
+    if any(document.items[k].coarseness > 0.0 for k in rows):
+        return False
+    placed = [document.items[k].outline.mapped(document.poses.matrix(k)) for k in rows]
+    return touches_alone(placed, document.container.outline)
 
 
 def beyond(wrong: Iterable[Violation], near: set[int]) -> set[int]:

@@ -119,8 +119,11 @@ def unclean(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str,
         found.append(f"items overlap by {exact.overlap_area:.3g} {unit}² in all")
     if exact.outside_area > 0:
         found.append(f"items stick out by {exact.outside_area:.3g} {unit}² in all")
-    if not found and exact.min_gap < least:
-        found.append(f"the smallest gap is {exact.min_gap:.3g} instead of {least:.3g} or more")
+    gap = exact.min_gap
+    if promise.gap == 0.0 and exact.gap_beside is not None:
+        gap = exact.gap_beside
+    if not found and gap < least:
+        found.append(f"the smallest gap is {gap:.3g} instead of {least:.3g} or more")
     return (*found, *changed_since(layout.manifest))
 
 

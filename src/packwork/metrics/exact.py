@@ -57,6 +57,8 @@ class ExactMetrics:
     ``overlap_area``, ``outside_area``: the same two in squared canvas units.
     ``min_gap``: smallest distance between two items, or of an item from the container's edge,
     canvas units. 0 if items touch or overlap or one is not inside; infinite without items.
+    ``gap_beside``: the same without pairs of which both are straight upright rectangles, whose
+    coordinates are compared exactly: they may touch. None where there are no such rectangles.
     """
 
     coverage: float
@@ -65,6 +67,7 @@ class ExactMetrics:
     overlap_area: float
     outside_area: float
     min_gap: float
+    gap_beside: float | None = None
 
     @property
     def is_clean(self) -> bool:

@@ -14,6 +14,7 @@ from packwork.geometry.outline import PORTION, regions
 from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
 from packwork.metrics.pixel import PixelMetrics, ShapeMetrics, pixel_metrics, shape_metrics
 from packwork.metrics.torus import in_cell, torus_metrics
+from packwork.metrics.touching import touching_metrics
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
@@ -162,7 +163,7 @@ def exact_of(layout: Layout) -> ExactMetrics:
     container = layout.container
     if container.lattice is not None:
         return torus_metrics(layout.outlines, container.lattice)
-    return exact_metrics(layout.outlines, container.outline)
+    return touching_metrics(layout) or exact_metrics(layout.outlines, container.outline)
 
 
 def _by_pixels(layout: Layout) -> tuple[PixelMetrics, ShapeMetrics]:

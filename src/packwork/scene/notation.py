@@ -57,8 +57,8 @@ def number(value: float, digits: int) -> str:
     return "0" if text == "-0" else text
 
 
-def matrix_text(matrix: FloatArray) -> str:
-    """Affine map (2 x 3), in user units, as an SVG ``transform``, to 12 significant digits.
+def matrix_text(matrix: FloatArray, digits: int = 12) -> str:
+    """Affine map (2 x 3), in user units, as an SVG ``transform``, to so many significant digits.
 
     Examples
     --------
@@ -67,7 +67,7 @@ def matrix_text(matrix: FloatArray) -> str:
     'matrix(2 0 0 2 5 7.5)'
     """
     # Adding nothing makes a plain zero of a negative one.
-    return "matrix(" + " ".join(f"{v + 0.0:.12g}" for v in matrix.T.ravel()) + ")"
+    return "matrix(" + " ".join(f"{v + 0.0:.{digits}g}" for v in matrix.T.ravel()) + ")"
 
 
 def path_data(outline: Outline, digits: int) -> str:

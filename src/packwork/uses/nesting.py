@@ -10,6 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import shapely
@@ -33,6 +34,7 @@ from packwork.separation.windows import (
 )
 from packwork.uses.fewer_sheets import advice_on_sheets
 from packwork.uses.nested import NestedSheet, NestedSheets, Sheet, SheetPart, layout_on, measured
+from packwork.uses.tilings import tiling_of
 from packwork.uses.tool_reach import tell_unreached
 
 _LOG = logging.getLogger("packwork")
@@ -103,6 +105,16 @@ def nest(
     if tool:
         tell_unreached(parts, tool, sheets[0].unit)
     margin = _margin(margin, gap, sheets[0].unit)
+    about = {
+        "unit": sheets[0].unit,
+        "height": None if sheets[0].is_square else sheets[0].height,
+        "sheet_length": None if sheets[0].is_strip else sheets[0].length,
+        "gap": gap, "margin": margin, "effort": work.name or None, "passes": 0,
+        "seed": seed, "workers": workers,
+    }  # fmt: skip
+    tiled = None if margin else _tiled(parts, sheets, about)
+    if tiled is not None and tiled[1]:
+        return tiled[0]
     # What is certified of a layout is a hair of its longer side.
     hair = 2.0 * HAIR * max(_longest(parts, sheet) for sheet in sheets)
     least, edge = gap + hair, margin + hair
@@ -129,13 +141,7 @@ def nest(
         laid, missing = lay_on_sheets(
             kept, free, seed=seed, workers=workers, work=work, stop=stop
         )  # fmt: skip
-    about = {
-        "unit": sheets[0].unit,
-        "height": None if sheets[0].is_square else sheets[0].height,
-        "sheet_length": None if sheets[0].is_strip else sheets[0].length,
-        "gap": gap, "margin": margin, "effort": work.name or None, "passes": work.done,
-        "seed": seed, "workers": workers,
-    }  # fmt: skip
+    about["passes"] = work.done
     by_sheet = {one.sheet: one for one in laid}
     found = list[NestedSheet]()
     for k, kind in enumerate(kinds):
@@ -143,15 +149,48 @@ def nest(
             on_it = by_sheet.get(k, LaidSheet(k, (), np.zeros((0, 4))))
             layout = layout_on(sheets[kind], [parts[n] for n in on_it.kinds], on_it.poses, edge)
             found.append(measured(layout, Promise(gap), edge, about))
+    result = _result(found, parts, missing, about)
+    if tiled is not None and _rank(tiled[0]) < _rank(result):
+        return tiled[0]
+    if result.unplaced or any(sheet.held is not None for sheet in sheets):
+        return result
+    return replace(result, advice=advice_on_sheets(found, parts, gap, edge, work))
+
+
+def _result(
+    found: Sequence[NestedSheet], parts: Sequence[SheetPart], missing: Counter[int],
+    about: dict[str, Any],
+) -> NestedSheets:  # fmt: skip
     unplaced, optional = (
         tuple((parts[n].item, missing[n]) for n in sorted(missing) if parts[n].is_optional is left)
         for left in (False, True)
     )
     areas = [one.item.outline.region.area * one.scale**2 for one in parts]
     lacking = sum(areas[n] * count for n, count in missing.items() if not parts[n].is_optional)
-    is_free = not unplaced and all(sheet.held is None for sheet in sheets)
-    advice = advice_on_sheets(found, parts, gap, edge, work) if is_free else ()
-    return NestedSheets(tuple(found), unplaced, optional, about, lacking, advice)
+    return NestedSheets(tuple(found), unplaced, optional, about, lacking)
+
+
+def _tiled(
+    parts: Sequence[SheetPart], sheets: Sequence[Sheet], about: dict[str, Any]
+) -> tuple[NestedSheets, bool] | None:
+    """Rectangles that touch, certified, and whether they cannot lie on less; None of others."""
+    tiling = tiling_of(parts, sheets, about["seed"])
+    if tiling is None:
+        return None
+    found = [
+        measured(
+            layout_on(sheets[0], [tiling.parts[n] for n in one.kinds], one.poses, 0.0),
+            Promise(), 0.0, about,
+        )
+        for one in tiling.sheets
+    ]  # fmt: skip
+    result = _result(found, parts, tiling.missing, about)
+    return (result, tiling.is_least) if result.certified else None
+
+
+def _rank(found: NestedSheets) -> tuple[float, int, float]:
+    """Order of nests, the best first: what has no room, sheets, and the last one's length."""
+    return found.unplaced_area, len(found.sheets), found.length
 
 
 def _lay_at_once(

@@ -31,7 +31,7 @@ from packwork.scene.notation import decimals, sound_text
 from packwork.units import convert
 from packwork.writers.cutting import CutOptions, cut_rings
 from packwork.writers.geojson import PRECISION
-from packwork.writers.promise import is_nest, promised, stated_weights
+from packwork.writers.promise import finest, is_nest, promised, stated_weights
 from packwork.writers.svg import NAME_LENGTH
 
 if TYPE_CHECKING:
@@ -272,7 +272,7 @@ def _to_paper(layout: Layout, lines: Iterable[ArcLine]) -> Iterator[ArcLine]:
     container = layout.container
     scale = convert(1.0, container.unit, paper_unit(container.unit))
     flip = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * container.height]])
-    digits = decimals(container.side * scale * PRECISION)
+    digits = decimals(container.side * scale * finest(layout, PRECISION))
     for line in lines:
         drawn = line.mapped(flip, 0.0)
         yield replace(drawn, points=np.round(drawn.points, digits))

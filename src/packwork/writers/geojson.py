@@ -23,6 +23,7 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.notation import decimals
 from packwork.scene.swatch import representative_colour
+from packwork.writers.promise import finest
 
 PRECISION = 1e-9
 """Last digit of a coordinate, as a share of the canvas's longer side: what is measured
@@ -43,7 +44,7 @@ def geojson_text(layout: Layout) -> str:
     [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]]]
     """
     container = layout.container
-    digits = decimals(container.side * PRECISION)
+    digits = decimals(container.side * finest(layout, PRECISION))
     collection = {
         "type": "FeatureCollection",
         "canvas": container.canvas,

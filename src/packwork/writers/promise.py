@@ -10,6 +10,10 @@ from collections.abc import Mapping
 
 from packwork.scene.layout import Layout
 
+EXACT = 1e-14
+"""Last digit of coordinates that are compared exactly, over the canvas: a hundredth of what is
+taken for rounding. Derived."""
+
 _USUAL = {"rotate": ("free", ""), "sizes": ("free",), "size_ratio": ("2.0", "2")}
 """Options of items as files leave them out."""
 
@@ -20,6 +24,15 @@ def promised(layout: Layout) -> tuple[str, bool]:
     if not isinstance(found, Mapping):
         return "", False
     return f"{float(found.get('gap', 0.0)):.12g}", found.get("areas_in_shares") is True
+
+
+def finest(layout: Layout, usual: float) -> float:
+    """Share of the canvas that the last digit of a coordinate counts: ``usual``.
+
+    Far less of straight rectangles that may touch, so that they do in the file.
+    """
+    may_touch = promised(layout)[0] == "0" and any(one.coarseness == 0.0 for one in layout.items)
+    return min(usual, EXACT) if may_touch else usual
 
 
 def stated_weights(layout: Layout) -> list[str]:

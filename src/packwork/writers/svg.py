@@ -36,7 +36,7 @@ from packwork.units import Unit
 from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import PictureFrame
 from packwork.writers.options import TextChoice
-from packwork.writers.promise import promised, stated_limits, stated_weights
+from packwork.writers.promise import finest, promised, stated_limits, stated_weights
 from packwork.writers.svg_lines import NAMESPACE, layer_attributes, line_layers
 from packwork.writers.svg_live_text import LiveWords
 from packwork.writers.svg_symbols import (
@@ -157,9 +157,10 @@ def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
 
 def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
     """SVG document of a layout on a sheet of any size: :func:`svg_text`, and rendering."""
-    digits = decimals(layout.container.side * _STEP_SHARE)
+    share = finest(layout, _STEP_SHARE)
+    digits = decimals(layout.container.side * share)
     live = LiveWords(layout.items if options.text == "live" else ())
-    shapes = _shapes(layout)
+    shapes = _shapes(layout, share)
     before, after = _repeated(layout.container, sheet, options.tiles)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
@@ -194,17 +195,17 @@ class _Shape:
     turn_digits: int
 
 
-def _shapes(layout: Layout) -> dict[Hashable, _Shape]:
+def _shapes(layout: Layout, share: float) -> dict[Hashable, _Shape]:
     """One definition for each distinct drawing, fine enough for its largest copy."""
     first = {shape_key(item): item for item in reversed(layout.items)}
     return {
-        key: _shape(f"shape-{n}", first[key], scale, layout.container.side)
+        key: _shape(f"shape-{n}", first[key], scale, layout.container.side, share)
         for n, (key, scale) in enumerate(largest_scales(layout, shape_key).items(), start=1)
     }
 
 
-def _shape(name: str, item: Item, scale: float, side: float) -> _Shape:
-    radius, step = max(item.ink.radius, item.outline.radius), side * _STEP_SHARE
+def _shape(name: str, item: Item, scale: float, side: float, share: float) -> _Shape:
+    radius, step = max(item.ink.radius, item.outline.radius), side * share
     # As fine as the largest that the canvas has room for needs it: how one copy is written must
     # not depend on how large another one has become.
     reach = max(side, radius * scale)

@@ -71,7 +71,8 @@ def line_layers(
         matrix = affine.identity() if art is None else art.matrix
         digits += finer_decimals(matrix)
         scale = float(layout.poses.scale[k]) * abs(np.linalg.det(matrix[:, :2])) ** 0.5
-        within, width = "" if art is None else matrix_text(matrix), f"{hair / scale:.4g}"
+        exactly = 17 if item.coarseness == 0.0 else 12
+        within, width = "" if art is None else matrix_text(matrix, exactly), f"{hair / scale:.4g}"
         head = {"transform": place + within, "stroke-width": width}
         artwork += _painted(item, k + 1, ids[k], place)
         if item not in paths:

@@ -236,7 +236,7 @@ class ItemRecord(Options):
     weight: Length = 1.0
     own_art: ArtRecord | None = None
     """How it was drawn before another colour was put on it."""
-    coarseness: Length = 1.0
+    coarseness: Annotated[float, Field(allow_inf_nan=False, ge=0, le=FARTHEST)] = 1.0
     parts: Annotated[tuple[PartRecord, ...], Field(max_length=MOST_LINES)] = ()
     """Of a group."""
 

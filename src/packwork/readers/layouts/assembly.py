@@ -15,6 +15,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
+from packwork.geometry.rectangles import exact_boxes
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.scene.container import Backdrop, Container, repeating
@@ -29,14 +30,22 @@ length, and count as that. Larger: what another program skews a little is unskew
 rounding of a file's digits."""
 
 
+_EXACTLY = 1e-14
+"""Share by which a pose may differ from its map and be exactly that. Derived: rounding of sines."""
+
+
 @dataclass(frozen=True, eq=False)
 class FoundItem:
-    """An item as a file shows it: a region in canvas units, or an item and a 2 x 3 map to them."""
+    """An item as a file shows it: a region in canvas units, or an item and a 2 x 3 map to them.
+
+    ``is_straight``: whether neither it nor the container has curves.
+    """
 
     name: str
     shape: Region | Item
     weight: float = 1.0
     place: FloatArray | None = None
+    is_straight: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -157,15 +166,25 @@ def _placed(found: FoundItem, what: str) -> tuple[Item, Pose]:
         outline = sound_outline(found.shape, what)
         x, y = (float(value) for value in outline.centroid)
         own = outline.mapped(affine.similarity(-x, -y, 0.0, 1.0))
-        return Item(found.name, found.name, own, own, FlatArt()), (x, y, 0.0, 1.0, 1.0)
+        item = Item(found.name, found.name, own, own, FlatArt())
+        return as_exact(item, is_straight=found.is_straight), (x, y, 0.0, 1.0, 1.0)
     place = affine.identity() if found.place is None else found.place
     pose = _pose_of(place)
     if pose is not None:
-        return found.shape, pose
+        off = np.abs(affine.similarity(*pose[:4]) - place).max() / pose[3]
+        is_straight = found.is_straight and pose[4] == 1.0 and off <= _EXACTLY
+        return as_exact(found.shape, is_straight=is_straight), pose
     # Mirrored or skewed, as no pose is: the item itself is.
     bent = place.copy()
     bent[:, 2] = 0.0
     return _bent(found.shape, bent, what), (float(place[0, 2]), float(place[1, 2]), 0.0, 1.0, 1.0)
+
+
+def as_exact(item: Item, *, is_straight: bool) -> Item:
+    """The item as one without curves, if it is a rectangle of straight lines."""
+    if not is_straight or exact_boxes([item.outline]) is None:
+        return item
+    return replace(item, coarseness=0.0)
 
 
 def _pose_of(place: FloatArray) -> Pose | None:

@@ -245,7 +245,10 @@ def layout_of_dxf(text: str, name: str, *, outlines_only: bool = False) -> Layou
     gap, shares = _promise(walls[0])
     # Lines of items have a layer of their own where others are cut.
     layer = "items" if any(line.layer == "items" for line in lines) else "cut"
-    paper = _Paper(height, MEASURED_FLATTENING * max(width, height), convert(1.0, "px", unit))
+    is_straight = not any(wall.line.bulges.any() for wall in walls)
+    paper = _Paper(
+        height, MEASURED_FLATTENING * max(width, height), convert(1.0, "px", unit), is_straight
+    )
     kept = [
         line for line in lines
         if line.layer == layer or (line.is_engraved and not outlines_only)
@@ -290,11 +293,15 @@ def _lost(wall: DxfLine, items: Sequence[FoundItem]) -> list[str]:
 
 @dataclass(frozen=True)
 class _Paper:
-    """Height of a sheet, how far chords may lie off arcs, and the length of a px there."""
+    """Height of a sheet, how far chords may lie off arcs, the length of a px there.
+
+    ``is_straight``: whether the container has no arcs.
+    """
 
     height: float
     tolerance: float
     pixel: float
+    is_straight: bool
 
     def region(self, lines: Sequence[DxfLine]) -> Region:
         """Region that closed lines enclose, y down."""
@@ -330,8 +337,9 @@ def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[Foun
     number, name, weight = lines[0].said
     around = [line for line in lines if not line.is_engraved]
     shape = paper.region(around)
+    is_straight = paper.is_straight and not any(one.line.bulges.any() for one in around)
     if plain or not (len(around) < len(lines) or any(one.line.bulges.any() for one in around)):
-        return FoundItem(name, shape, sound_weight(weight)), 0
+        return FoundItem(name, shape, sound_weight(weight), is_straight=is_straight), 0
     outline = sound_outline(shape, f"item {number} ({name})")
     cut = tuple(paper.turned(one.line) for one in around)
     marks = [one for one in lines if one.is_engraved]
@@ -347,4 +355,5 @@ def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[Foun
     own = outline.mapped(back)
     item = Item(name, name, own, own, replace(art, matrix=back))
     place = affine.similarity(x, y, 0.0, 1.0)
-    return FoundItem(name, item, sound_weight(weight), place), len(marks) - len(engraved)
+    found = FoundItem(name, item, sound_weight(weight), place, is_straight)
+    return found, len(marks) - len(engraved)

@@ -18,6 +18,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.json_text import opened_collection, parsed
 from packwork.readers.layouts import MAX_LAYOUT_BYTES
+from packwork.readers.layouts.assembly import as_exact
 from packwork.readers.reading import UnfitError, read_text, reading_file
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
@@ -261,7 +262,9 @@ def _item(outline: Outline, of: _ItemMembers, where: str) -> Item:
     datum = None
     if said is not None:
         datum = Datum(said.row, said.value, str(said.category), str(said.group))
-    return Item(name, source, shape, shape, FlatArt(of.fill), label, datum=datum)
+    item = Item(name, source, shape, shape, FlatArt(of.fill), label, datum=datum)
+    # Its lines are straight, whatever they were before.
+    return as_exact(item, is_straight=of.stretch == 1.0)
 
 
 def _outline(geometry: _Geometry, where: str) -> Outline:

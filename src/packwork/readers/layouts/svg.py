@@ -11,7 +11,6 @@ import base64
 import binascii
 import math
 import operator
-import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from typing import final
@@ -45,6 +44,7 @@ from packwork.readers.layouts.foreign_svg import (
 )
 from packwork.readers.layouts.lettering import LetteringOutlines, bare, lettering_path
 from packwork.readers.layouts.lines import LineParts
+from packwork.readers.layouts.paths import is_straight, polygon_of
 from packwork.readers.layouts.sheet import (
     backdrop_of,
     drawing_of,
@@ -75,9 +75,6 @@ _SPECK = 1.5 * SPECK
 """Specks that are passed over: somewhat larger ones than where items are read, as one that was
 left out there may seem larger when it is followed more finely."""
 
-_OF_POLYGONS = frozenset({"id", "d", "fill-rule", "data-name", "data-weight", "fill"})
-_RINGS = re.compile(r"(?:M-?\d++(?:\.\d++)?+(?: -?\d++(?:\.\d++)?+)++Z)++")
-_LEAST_NUMBERS = 6
 _SAME = 1e-9
 _SPACE = "{http://www.w3.org/2000/svg}"
 _NOT_OURS = "as packwork writes it; give an SVG of ours, or the layout saved as .geojson"
@@ -118,15 +115,15 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
     to_items = affine.compose(to_canvas, place)
     said = items.attrib if items is not None and walls is not None else {}
     gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
+    page = shapely.box(0, 0, width, height)
+    walled = to_canvas if walls is None else affine.compose(to_canvas, _place(walls))
+    container = page if walls is None else _placed(drawings.wall(walls), walled)
     found = [
         _outline_of(drawings, one, to_items, is_kept)
         if outlines_only
         else _found(drawings, arts, parts, one, number, to_items, is_kept)
         for number, one in enumerate(zip(elements, drawn, sources, strict=True), start=1)
     ]
-    page = shapely.box(0, 0, width, height)
-    walled = to_canvas if walls is None else affine.compose(to_canvas, _place(walls))
-    container = page if walls is None else _placed(drawings.wall(walls), walled)
     changed, unseen = (
         ([], [])
         if outlines_only
@@ -176,6 +173,7 @@ class _Drawings:
         self._outlines: dict[ET.Element, Outline] = {}
         self._letterings = LetteringOutlines(_SPECK)
         self._stated = 0
+        self._has_straight_walls = True
         self.places = {one: place_and_art(self.source(one), one)[0] for one in drawn}
         """Maps (2 x 3) from each item's units to where it lies."""
         for one, place in self.places.items():
@@ -187,7 +185,16 @@ class _Drawings:
         paths = [_path(e.get("d", "")) for e in group if tag(e) == "path"]
         if not paths:
             raise UnfitError(f"has no path in the group named container, {_NOT_OURS}")
+        self._has_straight_walls = all(is_straight(one) for one in paths)
         return self._followed(paths, 1.0)
+
+    def is_straight(self, source: ET.Element) -> bool:
+        """Whether a drawing, as all walls, is a path without curves, and nothing but that is told.
+
+        Its paint may have no stroke, but where it is a line to cut.
+        """
+        is_stroked = not self._of_lines and {"stroke", "style", "class"} & source.attrib.keys()
+        return self._has_straight_walls and not is_stroked and is_straight(source)
 
     @property
     def on_trust(self) -> tuple[str, ...]:
@@ -272,7 +279,7 @@ class _Drawings:
         """Region that elements paint, in their own units, fine enough for a copy of that size."""
         if not size > 0:
             raise UnfitError(f"has an item without any size, {_NOT_OURS}")
-        polygon = _polygon(elements[0]) if len(elements) == 1 else None
+        polygon = polygon_of(elements[0]) if len(elements) == 1 else None
         if polygon is not None:
             return polygon
         document = ET.Element(f"{_SPACE}svg")
@@ -298,7 +305,8 @@ def _found(
         else parts.item(drawn, source, label, ink, arts, keeps_holes=keeps_holes)
     )
     place = affine.compose(to_canvas, drawings.places[drawn])
-    return FoundItem(item.name, item, sound_weight(drawn.get("data-weight", "1")), place)
+    weight = sound_weight(drawn.get("data-weight", "1"))
+    return FoundItem(item.name, item, weight, place, drawings.is_straight(source))
 
 
 def _outline_of(
@@ -306,12 +314,13 @@ def _outline_of(
     to_canvas: FloatArray, keeps_holes: bool,
 ) -> FoundItem:  # fmt: skip
     """An item of which nothing but its outline is known."""
-    _, drawn, _ = element
+    _, drawn, source = element
     name = drawn.get("data-name", "item")
     outline = drawings.outline(drawn, keeps_holes)
     place = affine.compose(to_canvas, drawings.places[drawn])
     weight = sound_weight(drawn.get("data-weight", "1"))
-    return FoundItem(name, Item(name, name, outline, outline, FlatArt()), weight, place)
+    item = Item(name, name, outline, outline, FlatArt())
+    return FoundItem(name, item, weight, place, drawings.is_straight(source))
 
 
 def _not_kept(root: ET.Element, items: ET.Element | None, texts: int) -> list[str]:
@@ -379,21 +388,6 @@ def _picture(image: ET.Element) -> Region:
 
 def _path(data: str, rule: str = "evenodd") -> ET.Element:
     return ET.Element(f"{_SPACE}path", {"d": data, "fill-rule": rule})
-
-
-def _polygon(element: ET.Element) -> Region | None:
-    """Region of a plain path that is nothing but rings of absolute points; None of all others."""
-    is_plain = tag(element) == "path" and element.attrib.keys() <= _OF_POLYGONS
-    if not (is_plain and element.get("fill-rule") == "evenodd"):
-        return None
-    data = element.get("d", "")
-    if not _RINGS.fullmatch(data):
-        return None
-    rings = [np.array(ring.split(), dtype=np.float64) for ring in data[1:-1].split("ZM")]
-    if any(len(ring) < _LEAST_NUMBERS or len(ring) % 2 for ring in rings):
-        return None
-    region = Outline.from_rings([ring.reshape(-1, 2) for ring in rings]).region
-    return region if region.is_valid else None
 
 
 def _placed(region: Region, matrix: FloatArray) -> Region:
