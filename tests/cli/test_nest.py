@@ -112,7 +112,7 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest 40mm bracket.svg --rotate none", "bracket is 50.0004297 mm high"),
         ("nest 300x40mm disc.svg --margin 1mm --kerf 2mm", "whose sides are 2 mm longer"),
         ("nest 300,5x200mm disc.svg", "a number with decimals has a point, as 600.5x400mm"),
-        ("nest hide.geojson disc.svg", "a sheet's outline is an SVG or DXF"),
+        ("nest hide.geojson disc.svg", "say how long its longer side is: hide.geojson@1200mm"),
         ("nest 300x40mm disc.svg --margin 25mm", "no room within its margin"),
         ("nest 300mm,200x100mm disc.svg", "a strip of open length has no end"),
         ("nest nowhere.svg disc.svg", "nowhere.svg"),
@@ -526,3 +526,21 @@ def test_more_sheets_than_the_parts_ask_for_are_told(shop: Path, packwork: Comma
     large = packwork("nest 99x40mm board.svg*2 --passes 20 -o a.dxf")
     assert "2 sheets" in large.output
     assert "may do" not in large.output
+
+
+def test_an_outline_without_a_size_is_as_long_as_is_told(shop: Path, packwork: Command) -> None:
+    ring = [[0, 0], [300, 10], [350, 150], [40, 210], [0, 0]]
+    hide = {"type": "Polygon", "coordinates": [ring]}
+    (shop / "skin.geojson").write_text(
+        json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {}, "geometry": hide}]}), encoding="utf-8",
+    )  # fmt: skip
+    result = packwork("nest skin.geojson disc.svg*2 --passes 2 -o a.svg")
+    assert result.exit_code == 2
+    assert "say how long its longer side is: skin.geojson@1200mm" in result.output
+    assert packwork("nest skin.geojson@700mm disc.svg*2 --passes 2 -o a.svg").exit_code == 0
+    ground = pw.Layout.load(shop / "a.svg").container
+    assert (ground.width, ground.height, ground.unit) == (700.0, 420.0, "mm")
+    (sheet,) = read_sheets(f"{shop / 'bracket.svg'}@16in*3")
+    assert (sheet.length, sheet.height) == pytest.approx((16.0, 10.0))
+    assert (sheet.unit, sheet.count) == ("in", 3)

@@ -97,9 +97,10 @@ def nest(
         typer.Argument(
             metavar="SHEET",
             help="Width x height with a unit (600x400mm: as many as are needed, 600x400mm*2: two), "
-            "an outline (hide.svg), an earlier nest, whose parts stay (nest-1.dxf); several with "
-            "commas between them. One number is a strip of that height and open length (400mm); "
-            "square is the smallest one. Or a strip packing instance (.json).",
+            "an outline (hide.svg, scan.png@900mm), an earlier nest, whose parts stay "
+            "(nest-1.dxf); several with commas between them. One number is a strip of that "
+            "height and open length (400mm); square is the smallest one. Or a strip packing "
+            "instance (.json).",
         ),
     ],
     parts: Annotated[

@@ -101,6 +101,10 @@ def read_sheets(text: str) -> list[Sheet]:
         if not source:
             raise RecipeError("sheet", f"{text[:40]!r} names an empty one; write it as 600x400mm,"
                               "hide.svg")  # fmt: skip
+        met = None if exists(source) else _SIZED.fullmatch(source)
+        if met and exists(met["source"]):
+            found.append(_of_size(met["source"], met["side"], 1 if count is None else count))
+            continue
         if exists(source) and _is_nest(source):
             if count is not None and count != 1:
                 raise ReadError(source, "is one sheet with parts on it; there are no more of it")
@@ -143,13 +147,29 @@ def read_sheets(text: str) -> list[Sheet]:
     return [one.scaled(convert(1.0, one.unit, unit), unit) for one in found]
 
 
+def _of_size(source: str, side: str, count: int) -> Sheet:
+    """Sheet of an outline whose longer side is told, whatever its file says of its size."""
+    size = canvas_size(side)
+    read = read_container(source)
+    x0, y0, x1, y1 = read.outline.bounds
+    scale = size.width / max(x1 - x0, y1 - y0)
+    to_sheet = np.array([[scale, 0.0, -x0 * scale], [0.0, scale, -y0 * scale]])
+    return Sheet(
+        height=(y1 - y0) * scale, length=(x1 - x0) * scale, unit=size.unit, name=read.name,
+        outline=read.outline.mapped(to_sheet), count=count,
+    )  # fmt: skip
+
+
 def _earlier(source: str) -> Layout:
     """Layout of an earlier nest; of a GeoJSON that is none, it is said what would do."""
     try:
         return read_written(source)
     except ReadError as error:
         if Path(source).suffix.lower() == ".geojson":
-            meant = "a sheet's outline is an SVG or DXF, a GeoJSON an earlier nest"
+            sized = f"{source}@1200mm"
+            meant = (
+                f"of an outline that is no earlier nest say how long its longer side is: {sized}"
+            )
             raise ReadError(source, f"{error.problem}; {meant}") from None
         raise
 
