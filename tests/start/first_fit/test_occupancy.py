@@ -37,9 +37,9 @@ def _touching(mask: BoolArray, free: BoolArray, row: int, column: int) -> float 
     return float(taken[fringe].mean())
 
 
-def _random(seed: int, width: int) -> tuple[BoolArray, BoolArray]:
+def _random(seed: int, width: int, open_share: float = 0.97) -> tuple[BoolArray, BoolArray]:
     rng = np.random.default_rng(seed)
-    free = rng.random((24, width)) < 0.97
+    free = rng.random((24, width)) < open_share
     mask = rng.random((rng.integers(1, 6), rng.integers(1, 12))) < 0.8
     mask[0, 0] = mask[-1, -1] = True
     return free, mask
@@ -63,10 +63,11 @@ def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
     assert scores[row, column] == pytest.approx(score)
 
 
-@pytest.mark.parametrize("pull", [0.3, 5.0])
+@pytest.mark.parametrize("pull", [0.3, 1.0, 5.0])
+@pytest.mark.parametrize("open_share", [0.97, 0.9995])
 @pytest.mark.parametrize("seed", [0, 1, 2])
-def test_a_field_draws_to_where_it_is_worth_most(seed: int, pull: float) -> None:
-    free, mask = _random(seed, 70)
+def test_a_field_draws_to_where_it_is_worth_most(seed: int, open_share: float, pull: float) -> None:
+    free, mask = _random(seed, 70, open_share)
     field = np.random.default_rng(seed).random(free.shape)
     noise = np.zeros(free.shape)
     place = Occupancy(free, REACH).best_place(_stencil(mask), noise, True, field, pull)

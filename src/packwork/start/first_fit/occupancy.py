@@ -16,7 +16,7 @@ from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.raster.coverage import TOUCHED, Rasteriser
-from packwork.start.first_fit.kernels import row_bits
+from packwork.start.first_fit.kernels import row_bits, touching
 
 Bits: TypeAlias = NDArray[np.uint64]
 """Rows of pixels, 64 in a word, the lowest bit leftmost."""
@@ -203,8 +203,8 @@ class Occupancy:
             fringe = fringe[:: -(-len(fringe) // self._most_fringe)]
         width = self.taken.shape[1]
         steps, begin = fringe[:, 0] * width + fringe[:, 1], self._margin * (width + 1)
-        score, row, column = row_bits.best_touching(
-            free, self.taken[top:], begin, steps, worth[top:],
+        score, row, column = touching.best_touching(
+            free, self.taken[top:], begin, steps, stencil.reach, worth[top:],
             worth[top:] if field is None else field[top:], 0.0 if field is None else float(pull),
             np.array(stencil.origin), is_everywhere,
         )  # fmt: skip

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from packwork.arrays import BoolArray, IntArray
 from packwork.fields.distance_transform import distance_inside
-from packwork.start.first_fit.kernels import row_bits
+from packwork.start.first_fit.kernels import row_bits, touching
 from packwork.start.first_fit.occupancy import (
     NOISE,
     NearestTaken,
@@ -172,8 +172,8 @@ class TileBoard:
             field, pull, corner = np.zeros_like(self._noise), 1.0, np.array(stencil.origin)
             part = self._part(self._clearance.distances, *tile)
             field[: part.shape[0], : part.shape[1]] = part
-        score, row, column = row_bits.best_touching(
-            free, self._taken, begin, steps, self._noise, field, pull, corner, pull > 0.0
+        score, row, column = touching.best_touching(
+            free, self._taken, begin, steps, 0, self._noise, field, pull, corner, pull > 0.0
         )
         return float(score), tile.top + int(row), 64 * tile.word + int(column)
 
