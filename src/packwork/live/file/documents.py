@@ -37,6 +37,8 @@ small file fill the memory. Chosen: all that can be undone with four thousand it
 
 _HELD = 2 ** np.arange(len(PROPERTIES))
 
+_PLAIN = ("next_id", "options", "manifest", "put")
+
 Column: TypeAlias = Literal[
     "x", "y", "angle", "scale", "stretch", "weights", "smallest", "largest", "items", "held"
 ]
@@ -102,38 +104,30 @@ def records_of(
     """Records of documents, each but the first by what differs from the one before."""
     before: Document | None = None
     then: dict[Column, FloatArray] = {}
+    was: dict[str, Any] = {}
     for document in documents:
-        now = _columns(document, place)
+        now, said = _columns(document, place), _said(document, place)
         if before is None or not np.array_equal(before.ids, document.ids):
-            yield DocumentRecord(
-                ids=tuple(document.ids.tolist()),
-                container=place(document.container),
-                columns={name: tuple(now[name].tolist()) for name in COLUMNS},
-                options=document.options,
-                next_id=document.next_id,
-                manifest=dict(document.manifest),
-                pictures=_pictures_record(document, place),
-                put=tuple(sorted(document.put)) or None,
-                notes=tuple(map(_note_record, document.notes)) if before is None else None,
-            )
+            notes = tuple(map(_note_record, document.notes)) if before is None else None
+            columns: dict[Column, Any] = {name: tuple(now[name].tolist()) for name in COLUMNS}
+            ids = tuple(document.ids.tolist())
+            yield DocumentRecord(ids=ids, columns=columns, notes=notes, **said)
         else:
-            is_moved = before.container is not document.container
-            yield DocumentRecord(
-                container=place(document.container) if is_moved else None,
-                columns=_changed(then, now),
-                options=None if before.options == document.options else document.options,
-                next_id=None if before.next_id == document.next_id else document.next_id,
-                manifest=(
-                    None if before.manifest is document.manifest else dict(document.manifest)
-                ),
-                pictures=(
-                    None
-                    if before.mosaic is document.mosaic and before.behind is document.behind
-                    else _pictures_record(document, place)
-                ),
-                put=None if before.put == document.put else tuple(sorted(document.put)),
-            )
-        before, then = document, now
+            new = {name: value for name, value in said.items() if value != was[name]}
+            yield DocumentRecord(columns=_changed(then, now), **new)
+        before, then, was = document, now, said
+
+
+def _said(document: Document, place: Callable[[object], int]) -> dict[str, Any]:
+    """All of a document beside its items' columns and notes, by the names of the record."""
+    return {
+        "container": place(document.container),
+        "options": document.options,
+        "next_id": document.next_id,
+        "manifest": dict(document.manifest),
+        "pictures": _pictures_record(document, place),
+        "put": tuple(sorted(document.put)),
+    }
 
 
 def rows_of(records: Iterable[DocumentRecord]) -> int:
@@ -201,17 +195,16 @@ def _document(
     columns = {name: _column(record, name, then, len(ids)) for name in COLUMNS}
     chosen = _indices(columns["items"], len(items), "items")
     held = _indices(columns["held"], 2 ** len(PROPERTIES), "held")
-    next_id = record.next_id if was is None or record.next_id is not None else was.next_id
-    options = record.options if was is None or record.options is not None else was.options
-    manifest = record.manifest if was is None or record.manifest is not None else was.manifest
-    put = (() if was is None else was.put) if record.put is None else record.put
-    pictures = record.pictures
+    said: dict[str, Any] = {name: getattr(record, name) for name in _PLAIN}
+    if was is not None:
+        said = {name: getattr(was, name) if v is None else v for name, v in said.items()}
     mosaic, behind = (None, None) if was is None else (was.mosaic, was.behind)
-    if pictures is not None:
-        mosaic, behind = _pictures_of(pictures, items)
-    if next_id is None or options is None or manifest is None:
+    if record.pictures is not None:
+        mosaic, behind = _pictures_of(record.pictures, items)
+    said["put"] = frozenset(said["put"] or ())
+    if None in said.values():
         raise UnfitError("holds a document with something left out")
-    _check_ids(ids, next_id)
+    _check_ids(ids, said["next_id"])
     document = Document(
         container=_container(record, was, containers),
         items=tuple(items[k] for k in chosen),
@@ -221,13 +214,10 @@ def _document(
         smallest=columns["smallest"],
         largest=columns["largest"],
         held=(held[:, None] & _HELD) > 0,
-        options=options,
-        next_id=next_id,
-        manifest=manifest,
         notes=tuple(map(_note_of, record.notes or ())) if before is None else before.notes,
         mosaic=mosaic,
         behind=behind,
-        put=frozenset(put),
+        **said,
     )
     _check_numbers(document)
     return sized(document, "item"), columns

@@ -51,14 +51,15 @@ def kept_text(text: str) -> str:
     >>> kept_text("a\x07b") == "a\N{REPLACEMENT CHARACTER}b"
     True
     """
-    sound = (
-        text
-        if all(map(_is_sound, text))
-        else "".join(
-            letter if _is_sound(letter) else "\N{REPLACEMENT CHARACTER}" for letter in text
-        )
-    )
-    return sound[:MOST_NAMED]
+    if not all(map(_is_sound, text)):
+        text = "".join(c if _is_sound(c) else "\N{REPLACEMENT CHARACTER}" for c in text)
+    return text[:MOST_NAMED]
+
+
+def plain_fields(value: object, *names: str) -> dict[str, Any]:
+    """Values of some fields, or of all that a dataclass has, its texts as a file keeps them."""
+    read = {name: getattr(value, name) for name in names or vars(value)}
+    return {name: kept_text(v) if isinstance(v, str) else v for name, v in read.items()}
 
 
 def _turning(matrix: tuple[float, ...]) -> tuple[float, ...]:

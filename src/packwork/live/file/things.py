@@ -27,6 +27,7 @@ from packwork.live.file.records import (
     RunRecord,
     WordRecord,
     kept_text,
+    plain_fields,
 )
 from packwork.live.file.values import (
     art_of,
@@ -54,6 +55,8 @@ from packwork.scene.pose import Poses
 _LOG = logging.getLogger("packwork")
 
 _Model = TypeVar("_Model", bound=BaseModel)
+
+_OF_RUNS = ("text", "x", "y", "size", "steps", "advance", "is_leftward", "angle")
 
 
 class Shared:
@@ -155,24 +158,18 @@ class Things:
 
 def item_record(item: Item, things: Things) -> ItemRecord:
     """An item as plain values; its fonts go to ``things``."""
-    label, datum, own = item.label, item.datum, item.own_art
+    datum, own = item.datum, item.own_art
     outline, ink = outline_record(item.outline), outline_record(item.ink)
     return ItemRecord(
-        name=kept_text(item.name),
-        source=kept_text(item.source),
+        **plain_fields(item, "name", "source", "halo", "weight", "coarseness"),
         outline=outline,
         ink=None if ink == outline else ink,
         art=art_record(item.art, item.outline, item.name),
-        label=LabelRecord(
-            name=kept_text(label.name), link=kept_text(label.link), title=kept_text(label.title)
-        ),
+        label=LabelRecord(**plain_fields(item.label)),
         text=None if item.text is None else _word_record(item.text, things),
-        halo=item.halo,
         datum=None if datum is None else _datum_record(datum),
-        weight=item.weight,
         own_art=None if own is None else art_record(own, item.outline, item.name),
         parts=() if item.parts is None else _part_records(item.parts, things),
-        coarseness=item.coarseness,
     )
 
 
@@ -227,12 +224,8 @@ def container_record(container: Container, things: Things) -> ContainerRecord:
         art = photo_record(behind.art, container.side / across)
         backdrop = BackdropRecord(art=art, matrix=matrix_record(behind.matrix))
     return ContainerRecord(
-        name=kept_text(container.name),
-        source=kept_text(container.source),
+        **plain_fields(container, "name", "source", "width", "height", "unit"),
         outline=outline_record(container.outline),
-        width=container.width,
-        height=container.height,
-        unit=container.unit,
         backdrop=backdrop,
         walls=None if walls is None else tuple(text_of(wall) for wall in walls),
         repeats=None if container.lattice is None else container.lattice.kind,
@@ -269,26 +262,19 @@ def decoded(model: type[_Model], data: bytes) -> _Model:
 def _word_record(text: LiveText, things: Things) -> WordRecord:
     runs = [
         RunRecord(
-            text=run.text, font=things.shared("fonts", run.font.data), font_name=run.font.name,
-            index=run.font.index, weight=run.font.weight, x=run.x, y=run.y, size=run.size,
-            steps=run.steps, advance=run.advance, is_leftward=run.is_leftward, angle=run.angle,
+            **plain_fields(run, *_OF_RUNS),
+            **plain_fields(run.font, "index", "weight"),
+            font=things.shared("fonts", run.font.data),
+            font_name=run.font.name,
         )
         for run in text.runs
-    ]  # fmt: skip
+    ]
     return WordRecord(runs=tuple(runs), path=text.path, language=text.language)
 
 
 def _text_of(record: WordRecord, shared: Shared) -> LiveText:
-    return LiveText(
-        tuple(_run_of(run, shared) for run in record.runs), record.path, record.language
-    )
-
-
-def _run_of(run: RunRecord, shared: Shared) -> TextRun:
-    return TextRun(
-        run.text, shared.font(run), run.x, run.y, run.size, run.steps, run.advance,
-        run.is_leftward, run.angle,
-    )  # fmt: skip
+    runs = (TextRun(font=shared.font(run), **plain_fields(run, *_OF_RUNS)) for run in record.runs)
+    return LiveText(tuple(runs), record.path, record.language)
 
 
 def _datum_record(datum: Datum) -> DatumRecord:
