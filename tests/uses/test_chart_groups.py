@@ -121,7 +121,8 @@ def test_parts_of_marks_end_those_of_one_colour(colour: dict[str, str]) -> None:
     ordered = np.lexsort((layout.poses.x, -np.round(feet, 2)))
     read = [(kinds[k], bool(areas[k] < 0.99 * areas.max())) for k in ordered]
     assert read == sorted(read)
-    assert sum(is_part for _, is_part in read) == 3
+    # What is left over of those alike is one part.
+    assert sum(is_part for _, is_part in read) == (2 if colour else 1)
 
 
 def test_marks_that_turn_or_differ_in_size_fall() -> None:

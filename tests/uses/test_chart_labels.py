@@ -88,10 +88,22 @@ def test_labels_are_no_items_and_let_pointers_through(tmp_path: Path) -> None:
     assert len(read_written(tmp_path / "chart.svg").items) == 5
 
 
-def test_marks_of_one_row_have_one_label() -> None:
+def test_marks_of_one_row_have_one_label_where_their_colours_tell_them() -> None:
     rows = {"land": ["Peru", "Mali"], "kg": [5.0, 2.0]}
-    layout = pw.chart("circle", rows, size_by="kg", unit=1, label_by="land", **QUICK)
+    asked = {"size_by": "kg", "unit": 1, "label_by": "land", **QUICK}
+    layout = pw.chart("circle", rows, color_by="land", **asked)
     assert sorted(note.says for note in labels(layout)) == ["Mali", "Peru"]
+    # One of five alike would say nothing of the others.
+    layout = pw.chart("circle", rows, **asked)
+    assert sorted(note.says for note in labels(layout)) == ["Mali"] * 2 + ["Peru"] * 5
+
+
+def test_a_bar_has_one_part_of_a_mark_of_all_that_is_left_over() -> None:
+    rows = {"year": [1, 1, 1, 2], "kind": ["a", "a", "b", "a"], "kg": [1.5, 1.75, 0.5, 2.25]}
+    layout = pw.chart("none", rows, size_by="kg", unit=1, by="year", color_by="kind", **QUICK)
+    values = [item.datum.value for item in layout.items if item.datum]
+    assert sorted(values) == [0.25, 0.25, 0.5, 1.0, 1.0, 1.0, 1.0, 1.0]
+    assert sum(values) == 6.0
 
 
 def test_without_a_column_nothing_is_written_on_marks() -> None:

@@ -84,7 +84,7 @@ def test_nested_and_odd_columns_of_parquet_are_read_as_text(tmp_path) -> None:
 
 
 def test_a_unit_has_whole_marks_and_a_part_of_that_area() -> None:
-    read = chart(size_by="kg", unit=10)
+    read = chart(size_by="kg", unit=10, label_by="land")
     areas = [item.outline.area for item in read.items]
     assert read.values.tolist() == [10, 10, 5, 10]
     assert areas[2] / areas[0] == pytest.approx(0.5, rel=1e-9)

@@ -58,6 +58,9 @@ def in_rows(job: Job, chart: Chart, ranks: IntArray) -> Poses:
         ordered = own[np.lexsort((is_part[own], ranks[own]))]
         row, column = np.divmod(np.arange(len(own)), across)
         middle = common * (boxes[ordered, 0] + boxes[ordered, 2]) / 2
+        # The left part of a mark lies where that of a whole one would.
+        left_part = common * (boxes[ordered, 0] + size[0] / 2)
+        middle = np.where(is_part[ordered], left_part, middle)
         x[ordered] = cell.middle + (column - (across - 1) / 2) * pitch[0] - middle
         y[ordered] = foot - gap - row * pitch[1] - common * boxes[ordered, 3]
     return Poses(x, y, np.zeros(len(units)), common * units)

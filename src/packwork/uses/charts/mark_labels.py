@@ -69,10 +69,14 @@ class _Block:
 def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
     """Labels that fit on their marks; how many do not is told.
 
-    One for each row: of several marks of one row the largest on which it fits has it.
+    One for each row: of several marks of one row the largest on which it fits has it, but all of
+    them where nothing else tells them from those of other rows.
     """
-    if chart.options.label_by is None:
+    options = chart.options
+    if options.label_by is None:
         return ()
+    others = (options.color_by, options.mark_by, options.by)
+    has_many = options.unit is not None and options.label_by not in others
     ems = np.geomspace(LARGEST_EM * chart.frame.em, SMALLEST_SHARE * layout.container.side, TRIED)
     notes: list[Note] = []
     rows: dict[int, bool] = {}
@@ -81,10 +85,10 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
         if item.datum is None or item.label.name in ("", MISSING):
             continue
         row = int(chart.read.row_of[k])
-        if not rows.get(row):
+        if has_many or not rows.get(row):
             drawn = _label(item, layout.inks[k], ems)
             notes += drawn
-            rows[row] = bool(drawn)
+            rows[row] = rows.get(row, False) or bool(drawn)
     fitting = sum(rows.values())
     if fitting < len(rows):
         _LOG.warning(

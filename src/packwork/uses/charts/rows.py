@@ -237,8 +237,8 @@ def read_amounts(
     which = [k for k in found if member[k] >= 0]
     if not which:
         raise RecipeError("by", f"no row has both a group in {options.by!r} and a size")
-    if options.size_by is None and options.unit is not None:
-        return _counted(table, options, groups, which)
+    if options.unit is not None:
+        return _pooled(table, options, groups, {k: found[k] for k in which})
     return Amounts(
         [table.rows[k] for k in which],
         np.array([found[k] for k in which]),
@@ -246,27 +246,33 @@ def read_amounts(
     )
 
 
-def _counted(
-    table: Table, options: ChartOptions, groups: Groups | None, which: Sequence[int]
+def _pooled(
+    table: Table, options: ChartOptions, groups: Groups | None, found: Mapping[int, float]
 ) -> Amounts:
-    """Rows that are shown alike as one, with their number."""
+    """Rows that are shown alike as one, with the sum of their sizes or their number.
+
+    So a bar of a colour has one part of a mark, of all that is left over.
+    """
     shown_of = (options.color_by, options.mark_by, options.label_by)
     columns = list(dict.fromkeys(column for column in shown_of if column is not None))
-    counts = Counter(
-        (
-            0 if groups is None else groups.of_row[k],
-            tuple(cell_text(table.rows[k].get(column)) for column in columns),
+    alike: dict[tuple[int, tuple[str, ...]], list[int]] = {}
+    for k in found:
+        cells = tuple(cell_text(table.rows[k].get(column)) for column in columns)
+        alike.setdefault((0 if groups is None else groups.of_row[k], cells), []).append(k)
+    rows, amounts = list[Row](), list[float]()
+    for (group, cells), own in alike.items():
+        amounts.append(
+            float(len(own)) if options.size_by is None else math.fsum(found[k] for k in own)
         )
-        for k in which
-    )
-    rows = [
-        dict(zip(columns, cells, strict=True)) | {"rows": n} for (_, cells), n in counts.items()
-    ]
-    if groups is not None and options.by is not None and options.by not in columns:
-        for row, (group, _) in zip(rows, counts, strict=True):
+        if options.size_by is not None and len(own) == 1:
+            rows.append(table.rows[own[0]])
+            continue
+        row: Row = dict(zip(columns, cells, strict=True))
+        row[options.size_by or "rows"] = amounts[-1] if options.size_by else len(own)
+        if groups is not None and options.by is not None and options.by not in columns:
             row[options.by] = groups.names[group]
-    amounts = np.array(list(counts.values()), dtype=np.float64)
-    return Amounts(rows, amounts, np.array([group for group, _ in counts]))
+        rows.append(row)
+    return Amounts(rows, np.array(amounts), np.array([group for group, _ in alike]))
 
 
 def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
