@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 import packwork as pw
 from packwork.compaction import separate
+from packwork.live import refilling
 from packwork.live.refilling import MOST_RUINED
+from packwork.progress import never
 
 QUICK = {"effort": "draft"}
 WEIGHTS = {f"word{k}": 30.0 / (k + 3) for k in range(16)}
@@ -63,3 +69,22 @@ def test_where_nothing_is_left_an_item_has_no_place(monkeypatch: pytest.MonkeyPa
     session.add("star")
     session.move(1, "50%", "50%")
     assert not session.settle().certified
+
+
+def test_of_several_runs_the_fullest_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = {"river": 30, "stone": 28, "moss": 27, "heron": 26, "otter": 24}
+    session = pw.words("heart", words, sizes="shared", **QUICK).edit()
+    before = session.document
+    # As if the gesture had left all of them small.
+    settled = before.with_poses(replace(before.poses, scale=before.poses.scale / 2))
+    shares = iter((0.7, 0.9, 0.8))
+
+    def poured(*_: object, **__: object) -> SimpleNamespace:
+        scale = before.poses.scale * next(shares)
+        smaller = before.with_poses(replace(before.poses, scale=scale))
+        return SimpleNamespace(applied=lambda *_: smaller)
+
+    monkeypatch.setattr(refilling, "poured_again", poured)
+    found = refilling.refilled(before, before, settled, np.array([0]), never)
+    assert found is not None
+    assert found.document.covered == pytest.approx(0.81 * before.covered)

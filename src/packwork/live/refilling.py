@@ -32,7 +32,8 @@ ROUNDING = 1e-3
 """The same, of what they covered, of marks of a chart. Derived: far above the digits of files."""
 
 SEEDS = 3
-"""Runs that are tried at most until one places all. More take longer. Chosen."""
+"""Runs that are tried at most until one places all and fills it as before. More take longer.
+Chosen."""
 
 MOST_NEW = 0.5
 """Share of the words that are new from which on nothing is settled first: it takes as long as
@@ -88,6 +89,9 @@ def refilled(
     # In proportion as they are, unless a run may find what else sizes gave way to.
     weights = asked.weights if gives_way(asked) and is_other else asked.areas
     pinned = replace(asked, held=held, weights=weights)
+    # Of other words nobody knows how far they can fill it.
+    aim = 0.0 if is_other_cloud(before, asked) else before.covered - MOST_LOST
+    fullest = None
     for seed in range(SEEDS):
         try:
             poured = poured_again(pinned, seed, stop=stop).applied(pinned, Library())
@@ -97,16 +101,21 @@ def refilled(
         if stop():
             return None
         kept = replace(poured, held=asked.held, weights=asked.weights)
-        if not Certificate().in_the_way(kept):
+        if Certificate().in_the_way(kept):
+            continue
+        if fullest is None or kept.covered > fullest.covered:
+            fullest = kept
+        # Of few words one run may fill less by a fifth than the next.
+        if fullest.covered >= aim:
             break
-    else:
+    if fullest is None:
         return None
-    if not was_wrong and poured.covered <= settled.covered + MOST_LOST:
+    if not was_wrong and fullest.covered <= settled.covered + MOST_LOST:
         return None
     what = "words" if word_rows(asked) else "items"
-    share = f"{100 * poured.covered:.0f} % of the container"
+    share = f"{100 * fullest.covered:.0f} % of the container"
     message = f"the {what} were poured anew, for they would not fill it else: {share}"
-    return Refilled(kept, message)
+    return Refilled(fullest, message)
 
 
 def sent_back(before: Document, asked: Document) -> Refilled | None:
