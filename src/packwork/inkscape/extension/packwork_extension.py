@@ -48,7 +48,8 @@ class PackworkExtension(inkex.EffectExtension):
         if "error" in answer:
             raise inkex.AbortExtension(answer["error"])
         for name, transform in answer["transforms"].items():
-            self.svg.getElementById(name).set("transform", transform)
+            # Their ``set`` keeps six digits, and nothing of a map that changes nothing.
+            self.svg.getElementById(name).attrib["transform"] = transform
         if answer["new"]:
             self._add(answer["new"])
         for line in answer["remarks"]:
@@ -92,7 +93,7 @@ class PackworkExtension(inkex.EffectExtension):
             raise inkex.AbortExtension("Choose the objects that are to be nested.")
         return {
             "container": None if ground is None else ground.get_id(),
-            "page": self.svg.get_viewbox(),
+            "page": [*self.svg.get_viewbox()[:2], self.svg.viewbox_width, self.svg.viewbox_height],
             "objects": names,
             "options": self._options("rotate", "mirror", "margin", "time", "seed", kerf="gap"),
         }
@@ -114,7 +115,7 @@ class PackworkExtension(inkex.EffectExtension):
         found = {to: getattr(self.options, name or to) for to, name in renamed.items()}
         for to, name in renamed.items():
             if (name or to) in LENGTHS and found[to] is not None:
-                found[to] = self.svg.unittouu(f"{found[to]}{self.options.unit}")
+                found[to] = self.svg.viewport_to_unit(f"{found[to]}{self.options.unit}")
         return {to: value for to, value in found.items() if value not in (None, "")}
 
     def _drawing(self, chosen):
