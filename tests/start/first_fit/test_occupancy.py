@@ -82,6 +82,17 @@ def test_a_field_draws_to_where_it_is_worth_most(seed: int, open_share: float, p
     assert scores[place[1:]] == pytest.approx(place[0])
 
 
+@pytest.mark.parametrize("away", range(REACH + 2))
+def test_a_place_so_far_from_what_is_taken_touches_as_much_as_a_look_tells(away: int) -> None:
+    free, mask = np.ones((24, 70), dtype=bool), np.ones((3, 4), dtype=bool)
+    free[12, 20:23] = False
+    row, column = 13 + away, 21
+    worth = np.full(free.shape, -np.inf)
+    worth[row, column] = 0.0
+    place = Occupancy(free, REACH).best_place(_stencil(mask), worth, True)
+    assert place == (pytest.approx(_touching(mask, free, row, column)), row, column)
+
+
 def test_what_is_put_meets_nothing_until_nothing_fits() -> None:
     free, mask = _random(5, 70)
     occupancy, left, count = Occupancy(free, REACH), free.copy(), 0
