@@ -127,10 +127,10 @@ class Outline:
     @cached_property
     def area(self) -> float:
         """Area in squared units of the points, holes taken off."""
-        return float(self._ring_areas.sum())
+        return float(self.ring_areas.sum())
 
     @cached_property
-    def _ring_areas(self) -> FloatArray:
+    def ring_areas(self) -> FloatArray:
         """Signed area of each ring: shoelace sums about its first vertex."""
         return _signed_areas(self.points, self.starts)
 
@@ -159,12 +159,12 @@ class Outline:
     @cached_property
     def has_holes(self) -> bool:
         """Whether any ring is a hole."""
-        return bool((self._ring_areas < 0).any())
+        return bool((self.ring_areas < 0).any())
 
     @property
     def solid_rings(self) -> list[FloatArray]:
         """Those of the rings that are no holes."""
-        return [ring for ring, area in zip(self.rings, self._ring_areas, strict=True) if area > 0]
+        return [ring for ring, area in zip(self.rings, self.ring_areas, strict=True) if area > 0]
 
     @property
     def parts(self) -> list[list[FloatArray]]:
@@ -176,7 +176,7 @@ class Outline:
         >>> [len(part) for part in Outline.from_rings([tile, hole, tile + 9]).parts]
         [2, 1]
         """
-        begins = np.flatnonzero(self._ring_areas > 0)
+        begins = np.flatnonzero(self.ring_areas > 0)
         ends = [*begins[1:].tolist(), len(self.rings)]
         return [self.rings[k:end] for k, end in zip(begins.tolist(), ends, strict=True)]
 
@@ -198,7 +198,7 @@ class Outline:
 
         None if they do not: ten times faster than to find where they lie.
         """
-        outer = np.flatnonzero(self._ring_areas > 0)
+        outer = np.flatnonzero(self.ring_areas > 0)
         if len(outer) == 0 or outer[0] != 0:
             return None
         groups = np.split(np.arange(len(self.rings)), outer[1:])

@@ -15,13 +15,15 @@ import shapely
 from PIL import Image
 
 from packwork.arrays import FloatArray
+from packwork.geometry import affine
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser
+from packwork.readers.fonts.drawn import drawn_outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, shaped_word
+from packwork.readers.words.items import EM_PX, WORD_SPACE, lines_to_set, shaped_word
 from packwork.readers.words.options import Word
 from packwork.scene.container import Container, placed_container
 from packwork.scene.layout import Layout
@@ -90,11 +92,34 @@ class CloudSettings:
 
 
 @dataclass(frozen=True, eq=False)
+class DrawnWord:
+    """A word as it is drawn on pixels: rings about their centre, an em being ``EM_PX``.
+
+    ``place`` (2 x 3) brought them there. Rings may lie over each other: where letters meet, their
+    union would take several times as long as all else.
+    """
+
+    word: Word
+    outline: Outline
+    place: FloatArray
+    has_pictures: bool = False
+
+    @classmethod
+    def of(cls, word: Word, fonts: Fonts, em: float) -> DrawnWord:
+        """Word of an em of such a share of the picture's side; an UnfitError if it has no form."""
+        found = drawn_outline(fonts, lines_to_set(word), em, COARSEST, EM_PX)
+        if found is not None:
+            return cls(word, *found)
+        shaped = shaped_word(word, fonts, "keep", em, COARSEST)
+        return cls(word, shaped.ink, shaped.place, bool(shaped.drawn.pictures))
+
+
+@dataclass(frozen=True, eq=False)
 class PlacedWords:
     """Words in place, by number of those asked for, and why others could not be drawn."""
 
     container: Container
-    words: tuple[ShapedWord, ...]
+    words: tuple[DrawnWord, ...]
     poses: Poses
     entries: tuple[int, ...]
     undrawn: dict[str, str]
@@ -103,14 +128,21 @@ class PlacedWords:
     @cached_property
     def outlines(self) -> tuple[Outline, ...]:
         """Outlines of the words, in place."""
-        return tuple(word.ink.mapped(self.poses.matrix(k)) for k, word in enumerate(self.words))
+        return tuple(word.outline.mapped(self.poses.matrix(k)) for k, word in enumerate(self.words))
 
     @cached_property
     def layout(self) -> Layout:
         """One item per entry, its curves followed as finely as in a print."""
-        items = tuple(shaped_word(word.word, self.fonts, "keep").item for word in self.words)
+        shaped = [shaped_word(word.word, self.fonts, "keep") for word in self.words]
+        items = tuple(word.item for word in shaped)
         areas = np.array([item.outline.area for item in items]) * self.poses.scale**2
-        return Layout(self.container, items, self.poses, areas)
+        # Centres of what is drawn and of what it covers are not quite the same.
+        off = [
+            one.place[:, 2] - two.place[:, 2] for one, two in zip(self.words, shaped, strict=True)
+        ]
+        moved = [affine.apply(self.poses.matrix(k), way[None])[0] for k, way in enumerate(off)]
+        x, y = np.reshape(moved, (-1, 2)).T
+        return Layout(self.container, items, replace(self.poses, x=x, y=y), areas)
 
 
 def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) -> Container:
@@ -214,7 +246,7 @@ class _ReadCloud:
     def __init__(
         self, asked: CloudSettings, words: Sequence[str], steps: FloatArray, random: Random
     ) -> None:
-        self.shaped, self.undrawn = dict[int, ShapedWord](), dict[str, str]()
+        self.shaped, self.undrawn = dict[int, DrawnWord](), dict[str, str]()
         self.numbers: list[int] = []
         self._asked, self._words, self._steps = asked, words, steps
         upright, turned = 0.0, -np.pi / 2
@@ -245,14 +277,13 @@ class _ReadCloud:
             return (0.0,)
         return angles[: 1 if horizontal >= 1 else 2]
 
-    def _word(self, number: int, em: float) -> ShapedWord | None:
+    def _word(self, number: int, em: float) -> DrawnWord | None:
         """The word in its font, its counters open; None if it cannot be drawn."""
         text = self._words[number]
         if number not in self.shaped and text not in self.undrawn:
             try:
                 word = Word(text.replace("|", " "), 1.0)
-                fonts = self._asked.fonts
-                self.shaped[number] = shaped_word(word, fonts, "keep", em, COARSEST)
+                self.shaped[number] = DrawnWord.of(word, self._asked.fonts, em)
             except UnfitError as error:
                 self.undrawn[text] = str(error)
         return self.shaped.get(number)

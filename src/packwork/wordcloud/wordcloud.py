@@ -221,7 +221,7 @@ class WordCloud:
         self._check_generated()
         size = (int(self.width * self.scale), int(self.height * self.scale))
         shown = Image.new("RGBA", size, rgba(self.background_color))
-        if any(word.drawn.pictures for word in self._placed.words):
+        if any(word.has_pictures for word in self._placed.words):
             data = png_bytes(self.layout, max(size), SvgOptions())
             with Image.open(io.BytesIO(data)) as drawn:
                 shown.alpha_composite(_without_traces(drawn.convert("RGBA").crop((0, 0, *size))))

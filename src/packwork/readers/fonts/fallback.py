@@ -47,12 +47,12 @@ class Fonts:
         >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
         True
         """
-        return lettering_of(self.settings(lines), self._language, em, most_coarse)
+        return lettering_of(self.settings(lines), self.asked_language, em, most_coarse)
 
     def bent(self, line: str, curve: Curve, start: float, end: float) -> Lettering:
         """Line along a curve, in ems, from one arc length to another."""
         [setting] = self.settings([line])
-        return bent_lettering(setting, curve, start, end, self._language)
+        return bent_lettering(setting, curve, start, end, self.asked_language)
 
     def settings(self, lines: Sequence[str]) -> list[list[TypeSetting]]:
         """Pieces of lines, each with the font that draws it: the first that has all characters.
@@ -74,13 +74,14 @@ class Fonts:
         return mixed
 
     @property
-    def _language(self) -> str:
+    def asked_language(self) -> str:
+        """The language of words; ``UNKNOWN_LANGUAGE`` where none was named."""
         return self.language or UNKNOWN_LANGUAGE
 
     def _is_drawn(self, lines: Sequence[Sequence[TypeSetting]]) -> bool:
         return all(
             one.face.draws(
-                one.piece.text, is_leftward=one.piece.is_leftward, language=self._language
+                one.piece.text, is_leftward=one.piece.is_leftward, language=self.asked_language
             )
             for line in lines
             for one in line

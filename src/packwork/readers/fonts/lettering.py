@@ -178,17 +178,37 @@ def _lettering_by(
 def _lettering(
     lines: Sequence[Sequence[TypeSetting]], language: str, em: float, most_coarse: float
 ) -> Lettering:
-    units = lines[0][0].face.units
-    shaped = [line_of_runs(line, k, units, language) for k, line in enumerate(lines)]
-    runs = [run for line in shaped for run in line]
-    pictures = tuple(picture for run in runs for picture in run.pictures())
-    boxes = [box for run in runs for box in run.boxes()]
-    if not boxes and not pictures:
-        raise UnfitError("has no outlines to draw it with")
-    coarseness = _coarseness(boxes, em / units, most_coarse)
-    covered = _covered(runs, pictures, coarseness * tolerance_of(boxes), 1 / units)
-    curves = Curves(tuple((*one, run.scale) for run in runs for one in run.curves()))
-    return Lettering(covered, curves, units, tuple(run.text for run in runs), pictures, coarseness)
+    word = LetteredRuns.of(lines, language, em, most_coarse)
+    covered = _covered(word.runs, word.pictures, word.tolerance, 1 / word.units)
+    curves = Curves(tuple((*one, run.scale) for run in word.runs for one in run.curves()))
+    texts = tuple(run.text for run in word.runs)
+    return Lettering(covered, curves, word.units, texts, word.pictures, word.coarseness)
+
+
+@dataclass(frozen=True, eq=False)
+class LetteredRuns:
+    """Runs of a word in place, in units of its first font, and how finely curves are followed."""
+
+    runs: tuple[FontRun, ...]
+    pictures: tuple[GlyphPicture, ...]
+    units: float
+    coarseness: float
+    tolerance: float
+
+    @classmethod
+    def of(
+        cls, lines: Sequence[Sequence[TypeSetting]], language: str, em: float, most_coarse: float
+    ) -> LetteredRuns:
+        """Runs of one or several lines, as ``lettering_of`` says."""
+        units = lines[0][0].face.units
+        shaped = [line_of_runs(line, k, units, language) for k, line in enumerate(lines)]
+        runs = tuple(run for line in shaped for run in line)
+        pictures = tuple(picture for run in runs for picture in run.pictures())
+        boxes = [box for run in runs for box in run.boxes()]
+        if not boxes and not pictures:
+            raise UnfitError("has no outlines to draw it with")
+        coarseness = _coarseness(boxes, em / units, most_coarse)
+        return cls(runs, pictures, units, coarseness, coarseness * tolerance_of(boxes))
 
 
 def _covered(

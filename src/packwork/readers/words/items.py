@@ -216,12 +216,18 @@ def shaped_word(
     >>> len(word.outline.rings), word.item.label.title
     (3, 'ox: 2')
     """
+    drawn = fonts.lettering(lines_to_set(word), em, most_coarse)
+    return _shaped(word, drawn, fonts, holes)
+
+
+def lines_to_set(word: Word) -> list[str]:
+    """Lines of a word; an UnfitError if it has none, or is too long to be read."""
     if len(word.text) > LONGEST:
         raise UnfitError(f"has {len(word.text):,} characters; the most is {LONGEST}")
     lines = lines_of(word.text)
     if not lines:
         raise UnfitError("has no letters")
-    return _shaped(word, fonts.lettering(lines, em, most_coarse), fonts, holes)
+    return lines
 
 
 def bent_word(

@@ -1,0 +1,88 @@
+"""Words as rings that may lie over each other: what is only drawn on pixels needs no union."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline, centre_of_area, joined
+from packwork.readers.cache import cached_by_identity
+from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.fonts.glyph_ink import glyph_ink, rings_of
+from packwork.readers.fonts.itemise import MOST_KNOWN
+from packwork.readers.fonts.lettering import LetteredRuns
+
+
+def drawn_outline(
+    fonts: Fonts, lines: Sequence[str], em: float, most_coarse: float, size: float
+) -> tuple[Outline, FloatArray] | None:
+    """Rings of all glyphs about their common centre, and the 2 x 3 map that brought them there.
+
+    An em is ``size`` large. Curves are followed as ``lettering_of`` says. None for what has
+    pictures among its glyphs, or no area.
+
+    >>> from packwork.readers.fonts.fallback import open_fonts
+    >>> found = drawn_outline(open_fonts([]), ["ox"], 1.0, 1.0, 100.0)
+    >>> len(found[0].rings), found[1].shape
+    (3, (2, 3))
+    """
+    word = LetteredRuns.of(fonts.settings(lines), fonts.asked_language, em, most_coarse)
+    if word.pictures:
+        return None
+    outlines, places, sizes = list[Outline](), list[tuple[float, float]](), list[float]()
+    for run in word.runs:
+        for glyph, place in zip(run.glyphs, run.places(), strict=True):
+            rings = glyph_rings(run.face, glyph.number, word.tolerance / run.scale)
+            if rings is not None:
+                outlines.append(rings)
+                places.append(place)
+                sizes.append(run.scale)
+    if not outlines:
+        return None
+    points, starts = joined(outlines)
+    counts = [len(outline.points) for outline in outlines]
+    moved = points * np.repeat(sizes, counts)[:, None] + np.repeat(places, counts, axis=0)
+    whole = Outline(moved * (size / word.units), starts)
+    x, y = centre_of_area(whole)
+    if not (math.isfinite(x) and math.isfinite(y)):
+        return None
+    return Outline(whole.points - (x, y), starts), similarity(-x, -y, 0.0, 1.0)
+
+
+@cached_by_identity(MOST_KNOWN)
+def glyph_rings(face: Typeface, number: int, tolerance: float) -> Outline | None:
+    """Contours of a glyph about its origin, its curves followed to ``tolerance``; None of a space.
+
+    They may lie over each other; what they go round clockwise is filled once or more often.
+
+    >>> from packwork.readers.fonts.face import bundled_typeface
+    >>> face = bundled_typeface()
+    >>> [glyph] = face.shaped("o").glyphs
+    >>> found = glyph_rings(face, glyph.number, 1.0)
+    >>> [float(area) > 0 for area in found.ring_areas]
+    [True, False]
+    """
+    rings = [ring for ring in rings_of(face.drawing(number), tolerance) if len(ring) >= 3]
+    if not rings:
+        return None
+    found = Outline.from_rings(rings)
+    if found.area < 0:
+        found = Outline.from_rings([ring[::-1] for ring in rings])
+    if _has_holes_only_in_rings(found):
+        return found
+    # Contours that run either way round are one ink all the same.
+    return glyph_ink(face, number, tolerance).ink
+
+
+def _has_holes_only_in_rings(outline: Outline) -> bool:
+    """Whether each ring that runs the other way may lie in one that does not."""
+    first, filled = outline.starts[:-1], outline.ring_areas > 0
+    low, high = (end.reduceat(outline.points, first) for end in (np.minimum, np.maximum))
+    begins_within = (low[:, None] >= low[filled]).all(axis=2)
+    is_within = begins_within & (high[:, None] <= high[filled]).all(axis=2)
+    return bool((filled | np.any(is_within, axis=1)).all())
