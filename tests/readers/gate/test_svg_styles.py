@@ -14,6 +14,7 @@ from packwork.readers.gate.css.declarations import parse_declarations
 from packwork.readers.gate.css.selectors import Node, UnknownSelectorError, parse_selector
 from packwork.readers.gate.css.sheets import StyleSheet
 from packwork.readers.gate.door import parse_untrusted
+from packwork.readers.gate.lengths import Context, resolved
 from packwork.readers.svg.item import item_of_svg
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
@@ -199,3 +200,29 @@ def test_plain_drawings_say_nothing(caplog):
     with caplog.at_level(logging.WARNING, "packwork"):
         parse_untrusted(PAGE.format(body).encode())
     assert not caplog.records
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("calc(50% - 1em)", "40"),
+        ("-webkit-calc(1em + 2px)", "12"),
+        ("calc(2 * (1em + -2px) / 4)", "4"),
+        ("max(1px, min(2em, 50%), clamp(1px, 9rem, 30px))", "30"),
+        ("calc(1px -2px)", "-1"),
+    ],
+)
+def test_calculations_of_lengths_have_their_value(text: str, number: str) -> None:
+    assert resolved("x", text, Context(10.0, 8.0, (100.0, 40.0), (1.0, 1.0))) == number
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "calc(1px / 0)", "calc(1px ** 2)", "calc(2 zz)", "calc()", "calc(1px", "calc(x)",
+        "clamp(1px, 2px)", "calc(__import__(1))", "calc(1 if 2 else 3)", "calc('1')",
+        f"calc({'(' * 500}1{')' * 500})", f"calc({'-' * 1_000}1)",
+    ],
+)  # fmt: skip
+def test_calculations_without_a_sense_stay_as_they_are(text: str) -> None:
+    assert resolved("x", text, Context(10.0, 8.0, (100.0, 40.0), (1.0, 1.0))) == text
