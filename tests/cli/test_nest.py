@@ -484,20 +484,28 @@ def test_a_size_that_is_none_is_one_line(shop: Path, packwork: Command, side: st
     assert "size: is a length above 0, as 80mm" in " ".join(result.output.split())
 
 
-def test_parts_tile_a_sheet_where_no_gap_is_asked_or_are_told_how_much_it_has_to_be_larger(
+def test_rectangles_tile_a_sheet_and_others_are_told_how_much_it_has_to_be_larger(
     shop: Path, packwork: Command
 ) -> None:
     (shop / "tile.svg").write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="20mm" viewBox="0 0 30 20">'
         '<rect width="30" height="20"/></svg>', encoding="utf-8",
     )  # fmt: skip
+    # Round corners are none that rows are told of exactly.
+    (shop / "round.svg").write_text(
+        (shop / "tile.svg").read_text(encoding="utf-8").replace("<rect", '<rect rx="4"'),
+        encoding="utf-8",
+    )
     told = " ".join(
-        packwork("nest 66x46mm tile.svg*8 --kerf 2mm --passes 5 -o a.svg").output.split()
+        packwork("nest 66x46mm round.svg*8 --kerf 2mm --passes 5 -o a.svg").output.split()
     )
     assert "their parts fill 2 to the edge: a thousandth more room (66.066x46.046mm)" in told
     for file in ("a.svg", "a.dxf", "a.geojson", "a.packwork"):
         told = packwork(f"nest 60x40mm tile.svg*4 -o {file}").output
         assert "4 parts on 60 x 40 mm, 100.0% covered; certified" in told
+        assert "certified: nothing overlaps" in packwork(f"measure {file}").output
+        line = f"nest 75.2x55.2mm tile.svg*4 --kerf .2mm --margin 7.5mm -o {file}"
+        assert "4 parts on 75.2 x 55.2 mm" in packwork(line).output
         assert "certified: nothing overlaps" in packwork(f"measure {file}").output
     assert "on 60 x 40 mm" in packwork("nest 40mm tile.svg*4 -o a.svg").output
 

@@ -94,6 +94,10 @@ def test_what_is_not_exact_keeps_a_hair() -> None:
     halves = [(0, 0, 50, 100), (50, 0, 100, 100)]
     assert "smallest gap" in _faults(_layout(halves, (100, 100), coarseness=1.0))[0]
     assert "smallest gap" in _faults(_layout(halves, (100, 100)), gap=0.5)[0]
+    apart_by = [(10, 10, 50, 90), (50.5 - 1e-11, 10, 90, 90)]
+    assert _faults(_layout(apart_by, (100, 100)), gap=0.5) == ()
+    apart_by = [(10, 10, 50, 90), (50.5 - 1e-9, 10, 90, 90)]
+    assert "smallest gap" in _faults(_layout(apart_by, (100, 100)), gap=0.5)[0]
     angle = np.arange(64) * (2 * math.pi / 64)
     disc = Outline.from_rings([np.column_stack([75 + 25 * np.cos(angle), 50 + 25 * np.sin(angle)])])
     beside = _layout(halves[:1], (120, 100), more=[disc])

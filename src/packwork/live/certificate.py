@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from packwork.geometry.rectangles import touches_alone
+from packwork.geometry import rectangles
 from packwork.live.chart_groups import stray
 from packwork.live.commands.aligning import LineUp
 from packwork.live.commands.command import Command
@@ -53,9 +53,8 @@ class Certificate:
     def violations(self, document: Document) -> tuple[Violation, ...]:
         """Conflicts of a document, items by their numbers."""
         found = self._brought_to(document).violations
-        if promise_of(document).gap > 0.0:
-            return found
-        return tuple(one for one in found if not _only_touches(one, document))
+        gap = promise_of(document).gap
+        return tuple(one for one in found if not _is_exactly(gap, one, document))
 
     def in_the_way(self, document: Document) -> tuple[str, ...]:
         """Reasons that keep a document from its certificate, a sentence each."""
@@ -84,14 +83,18 @@ class Certificate:
         return standing
 
 
-def _only_touches(one: Violation, document: Document) -> bool:
-    """Whether straight rectangles touch, of which no gap is asked, and overlap nowhere."""
+def _is_exactly(gap: float, one: Violation, document: Document) -> bool:
+    """Whether straight rectangles keep the gap but for rounding; of none they may touch."""
+    if gap > 0.0 and one.gap_cu + rectangles.ROUNDING * document.container.side < gap:
+        return False
     both = [one.item] if one.other is None else [one.item, one.other]
     rows = np.flatnonzero(np.isin(document.ids, both)).tolist()
     if any(document.items[k].coarseness > 0.0 for k in rows):
         return False
+    if gap > 0.0:
+        return one.overlap_cu2 == 0.0
     placed = [document.items[k].outline.mapped(document.poses.matrix(k)) for k in rows]
-    return touches_alone(placed, document.container.outline)
+    return rectangles.touches_alone(placed, document.container.outline)
 
 
 def beyond(wrong: Iterable[Violation], near: set[int]) -> set[int]:

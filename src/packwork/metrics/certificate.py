@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.geometry.rectangles import ROUNDING
 from packwork.metrics.exact import ExactMetrics
 from packwork.scene.layout import Layout
 
@@ -120,8 +121,8 @@ def unclean(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str,
     if exact.outside_area > 0:
         found.append(f"items stick out by {exact.outside_area:.3g} {unit}² in all")
     gap = exact.min_gap
-    if promise.gap == 0.0 and exact.gap_beside is not None:
-        gap = exact.gap_beside
+    if exact.gap_beside is not None:
+        gap = exact.gap_beside if promise.gap == 0.0 else gap + ROUNDING * layout.container.side
     if not found and gap < least:
         found.append(f"the smallest gap is {gap:.3g} instead of {least:.3g} or more")
     return (*found, *changed_since(layout.manifest))

@@ -19,6 +19,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
+from packwork.geometry.rectangles import ROUNDING
 from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.scene.container import Container
@@ -278,7 +279,7 @@ def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any
         about["unit"],
     )
     nearest = float(shapely.distance(boundary, regions).min())
-    if nearest < margin:
+    if nearest < margin - ROUNDING * layout.container.side:
         faults += (f"a part is {nearest:.3g} {unit} from the edge instead of {margin:.3g} {unit}",)
     certified = not faults and not unclean(promise, layout, metrics.exact)
     return NestedSheet(layout, metrics, float(length), faults, certified)

@@ -112,7 +112,7 @@ def nest(
         "gap": gap, "margin": margin, "effort": work.name or None, "passes": 0,
         "seed": seed, "workers": workers,
     }  # fmt: skip
-    tiled = None if margin else _tiled(parts, sheets, about)
+    tiled = _tiled(parts, sheets, about)
     if tiled is not None and tiled[1]:
         return tiled[0]
     # What is certified of a layout is a hair of its longer side.
@@ -173,15 +173,14 @@ def _result(
 def _tiled(
     parts: Sequence[SheetPart], sheets: Sequence[Sheet], about: dict[str, Any]
 ) -> tuple[NestedSheets, bool] | None:
-    """Rectangles that touch, certified, and whether they cannot lie on less; None of others."""
-    tiling = tiling_of(parts, sheets, about["seed"])
+    """Rectangles in exact places, certified, and whether they need no less; None of others."""
+    gap, margin = about["gap"], about["margin"]
+    tiling = tiling_of(parts, sheets, gap, margin, about["seed"])
     if tiling is None:
         return None
     found = [
-        measured(
-            layout_on(sheets[0], [tiling.parts[n] for n in one.kinds], one.poses, 0.0),
-            Promise(), 0.0, about,
-        )
+        measured(layout_on(sheets[0], [tiling.parts[n] for n in one.kinds], one.poses, margin),
+                 Promise(gap), margin, about)
         for one in tiling.sheets
     ]  # fmt: skip
     result = _result(found, parts, tiling.missing, about)

@@ -1,4 +1,4 @@
-"""Nests of rectangles without a gap: best fit, of exact sums, so that parts may touch."""
+"""Nests of rectangles: best fit, of exact sums, so that rows fill a sheet to its edge."""
 
 from __future__ import annotations
 
@@ -53,8 +53,13 @@ def is_straight(item: Item) -> bool:
     return isinstance(item.art, FlatArt)
 
 
-def tiling_of(parts: Sequence[SheetPart], sheets: Sequence[Sheet], seed: int) -> Tiling | None:
-    """Plain rectangles on plain sheets of one kind, or on a strip; None where others are asked."""
+def tiling_of(
+    parts: Sequence[SheetPart], sheets: Sequence[Sheet], gap: float, margin: float, seed: int
+) -> Tiling | None:
+    """Plain rectangles on plain sheets of one kind, or on a strip; None where others are asked.
+
+    ``gap``, ``margin``: distance of parts, and of parts to the edge, in the sheet's unit.
+    """
     sheet = sheets[0]
     is_plain = len(sheets) == 1 and sheet.outline is None and sheet.held is None
     turns = [_right_angles(one.angles) for one in parts]
@@ -66,16 +71,19 @@ def tiling_of(parts: Sequence[SheetPart], sheets: Sequence[Sheet], seed: int) ->
         return None
     boxes = [[_turned(one, angle) for angle in found]
              for one, found in zip(parts, turns, strict=True)]  # fmt: skip
-    sizes = [[(x1 - x0, y1 - y0) for x0, y0, x1, y1 in kind] for kind in boxes]
+    # Each has the gap behind it and below it.
+    sizes = [[(x1 - x0 + gap, y1 - y0 + gap) for x0, y0, x1, y1 in kind] for kind in boxes]
     most = math.inf if sheet.count is None else sheet.count
-    found, is_least = best_fit(
-        sizes, [one.count for one in parts], (sheet.length, sheet.height), most, seed
-    )
+    room = sheet.length - 2.0 * margin + gap, sheet.height - 2.0 * margin + gap
+    if min(room) <= 0.0:
+        return None
+    found, is_least = best_fit(sizes, [one.count for one in parts], room, most, seed)
     laid = tuple(
         LaidSheet(
             k, tuple(one.kind for one in placed),
             np.array([
-                (one.x - boxes[one.kind][one.turn][0], one.y - boxes[one.kind][one.turn][1],
+                (margin + one.x - boxes[one.kind][one.turn][0],
+                 margin + one.y - boxes[one.kind][one.turn][1],
                  turns[one.kind][one.turn], 1.0)
                 for one in placed
             ]),

@@ -29,10 +29,10 @@ def promised(layout: Layout) -> tuple[str, bool]:
 def finest(layout: Layout, usual: float) -> float:
     """Share of the canvas that the last digit of a coordinate counts: ``usual``.
 
-    Far less of straight rectangles that may touch, so that they do in the file.
+    Far less of straight rectangles in exact places, so that they keep their distance in the file.
     """
-    may_touch = promised(layout)[0] == "0" and any(one.coarseness == 0.0 for one in layout.items)
-    return min(usual, EXACT) if may_touch else usual
+    is_exact = promised(layout)[0] and any(one.coarseness == 0.0 for one in layout.items)
+    return min(usual, EXACT) if is_exact else usual
 
 
 def stated_weights(layout: Layout) -> list[str]:
