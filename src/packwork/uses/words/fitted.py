@@ -18,7 +18,7 @@ from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps
 from packwork.progress import Step, until_over
 from packwork.readers.words.items import EM_PX
 from packwork.recipe import AUTO
-from packwork.scene.item import bulge_between
+from packwork.scene.item import Item, VectorArt, bulge_between
 from packwork.scene.pose import Poses
 from packwork.solve.solver import Ending
 from packwork.start.first_fit.tiled import tiled_fit
@@ -42,6 +42,9 @@ FEWEST = 30
 
 LINES_APART = 0.012
 """Room between two lines of few words, as a share of the canvas' longer side. By eye."""
+
+ABREAST = 0.3
+"""Room between words of a line, ems. Larger covers less, smaller runs them together. By eye."""
 
 COVERED = 0.5
 """Share of the container that words come to cover, by which the least gap goes. Chosen."""
@@ -157,7 +160,7 @@ class FitWords(RunStep):
 
 @final
 class StackWords(RunStep):
-    """Few words, one a line, in the order and at the sizes that cover most.
+    """Few words, in the lines, in the order and at the sizes that cover most.
 
     Parameters
     ----------
@@ -174,18 +177,27 @@ class StackWords(RunStep):
         """State of upright words, each in a box of its own."""
         job = state.job
         with job.clock.time("start"):
+            base = np.array([_base_line(item) for item in job.items])
             boxes = np.array([outline.bounds for outline in job.solid_outlines])
+            boxes[:, 1::2] -= base[:, None]
             gap = job.plan.gap + 2 * HAIR * job.container.side
             inner = buffered(job.container.outline.region, -gap)
-            sizes = boxes[:, 2:] - boxes[:, :2]
             line_gap = max(gap, LINES_APART * job.container.side)
             room = None if inner.is_empty else Outline.from_region(inner)
-            found = None if room is None else stacked_lines(room, sizes, line_gap)
+            beside = ABREAST * EM_PX
+            found = None if room is None else stacked_lines(room, boxes, line_gap, beside)
         if found is None:
             return run_steps(self._otherwise, state, context)
-        scale, middles = found
-        x, y = (middles - scale[:, None] * (boxes[:, 2:] + boxes[:, :2]) / 2).T
-        poses = Poses(x, y, np.zeros(len(x)), scale)
+        scale, (x, y) = found[0], found[1].T
+        poses = Poses(x.copy(), y - scale * base, np.zeros(len(x)), scale)
         return replace(
             state, poses=poses, nominal=scale, method="lines", is_tight=True, ending=Ending.DONE
         )
+
+
+def _base_line(item: Item) -> float:
+    """Height of a word's base line, item units; the bottom of what has several, or none."""
+    if item.text is None or len({run.y for run in item.text.runs}) != 1:
+        return item.outline.bounds[3]
+    assert isinstance(item.art, VectorArt)  # noqa: S101 - what has text is drawn
+    return float(item.art.matrix[1, 1] * item.text.runs[0].y + item.art.matrix[1, 2])

@@ -30,7 +30,8 @@ from packwork.steps.control import BestOf, Replan, Retry
 from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, more_copies
 from packwork.steps.track import StartRecording
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.icons import KnownContainer, best_balanced
+from packwork.uses.icons import KnownContainer
+from packwork.uses.icons import fuller as unless_far_fuller
 from packwork.uses.photos.crop import crops
 from packwork.uses.words.along import RoundTheEdge, SetAlong
 from packwork.uses.words.colours import check_colours, word_colours
@@ -65,8 +66,8 @@ MANY = 40
 """Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
 compared with each other. Chosen."""
 
-FEW = 6
-"""Words of one weight that are stacked in lines, at most. More make a cloud. By eye."""
+FEW = 12
+"""Words of one weight that are set in lines, at most. More make a cloud. By eye."""
 
 LEAST_SHOWN = 0.9
 """Share of a container's shape that a full cloud shows at least. Seen in clouds of running text:
@@ -116,7 +117,7 @@ class WordsUse(Use):
             cloud = placing(job.replanned(sizes="shared"), suits_first_fit=True)
             cloud = [Replan(sizes="shared"), *cloud]
             lines = [Replan(sizes="free"), *recording, StackWords(cloud)]
-            placed = [BestOf([lines, cloud], best_balanced)]
+            placed = [BestOf([lines, cloud], unless_far_fuller)]
             return [*placed, *self._filled(job), *self.report(job)]
         graded = [Replan(sizes="graded"), *_closer(job, self._graded)]
         if job.plan.sizes == "graded" and (job.recipe.sizes != AUTO or can_give_way(job)):
