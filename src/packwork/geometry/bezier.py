@@ -7,12 +7,9 @@ Algorithms", Morgan Kaufmann 2003, section 5.6.3).
 
 from __future__ import annotations
 
-import math
-from functools import lru_cache
-
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 
 FLATTENING = 2e-5
 """Largest distance of a curve from its chords, as a share of the drawing's extent: half a pixel of
@@ -34,19 +31,25 @@ def flatten_cubic(
     >>> flatten_cubic(*straight, tolerance=0.1).tolist()
     [[3.0, 0.0]]
     """
-    bend = max(
-        float(np.hypot(*(p0 - 2 * p1 + p2))),
-        float(np.hypot(*(p1 - 2 * p2 + p3))),
-    )
-    steps = math.ceil(math.sqrt(6 * bend / (8 * tolerance))) if bend > 0 else 1
-    steps = min(max(steps, 1), MAX_STEPS)
-    first, second, third, last = _shares(steps)
-    return np.asarray(first * p0 + second * p1 + third * p2 + last * p3)
+    return flatten_cubics(np.array([[p0, p1, p2, p3]]), tolerance)[0]
 
 
-@lru_cache(64)
-def _shares(steps: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """``(steps, 1)`` of each point of a cubic in those along it; a font's curves take few steps."""
-    t = np.arange(1, steps + 1)[:, None] / steps
+def flatten_cubics(controls: FloatArray, tolerance: float) -> tuple[FloatArray, IntArray]:
+    """Points ``(k, 2)`` of cubics ``(n, 4, 2)``, one after another, and ``(n,)`` how many each has.
+
+    Of each as ``flatten_cubic`` says; one whose four points are the same is that point.
+
+    >>> straight = np.array([[[0.0, 0], [1, 0], [2, 0], [3, 0]], [[3.0, 0]] * 4])
+    >>> [found.tolist() for found in flatten_cubics(straight, tolerance=0.1)]
+    [[[3.0, 0.0], [3.0, 0.0]], [1, 1]]
+    """
+    p0, p1, p2, p3 = controls.transpose(1, 0, 2)
+    bend = np.maximum(np.hypot(*(p0 - 2 * p1 + p2).T), np.hypot(*(p1 - 2 * p2 + p3).T))
+    steps = np.clip(np.ceil(np.sqrt(6 * bend / (8 * tolerance))), 1, MAX_STEPS).astype(np.int64)
+    curve = np.repeat(np.arange(len(steps)), steps)
+    number = np.arange(1, len(curve) + 1) - np.repeat(np.cumsum(steps) - steps, steps)
+    t = (number / steps[curve])[:, None]
     s = 1 - t
-    return s**3, 3 * s * s * t, 3 * s * t * t, t**3
+    first, second, third, last = s**3, 3 * s * s * t, 3 * s * t * t, t**3
+    found = first * p0[curve] + second * p1[curve] + third * p2[curve] + last * p3[curve]
+    return found, steps

@@ -288,7 +288,7 @@ def cached_by_identity(
 
         @functools.wraps(compute)
         def cached(one: T, /, *args: P.args, **options: P.kwargs) -> R:
-            key = (one.identity, args, *sorted(options.items()))
+            key = (one.identity, args, *(sorted(options.items()) if options else ()))
             with lock:
                 if key in known:
                     known.move_to_end(key)

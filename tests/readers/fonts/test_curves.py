@@ -9,7 +9,7 @@ from fontTools.ttLib import TTFont
 
 from packwork.fonts import bundled_file
 from packwork.readers.fonts.face import bundled_typeface
-from packwork.readers.fonts.glyph_ink import points_of, rings_of
+from packwork.readers.fonts.glyph_ink import rings_of
 
 TEXT = "SIGaqgfjß&8%ÄçΩЖ@ế"
 TOLERANCE = 1e-6
@@ -24,7 +24,7 @@ def test_curves_are_those_that_fonttools_draws() -> None:
         glyphs[names[ord(character)]].draw(pen)
         theirs = np.array([point for _, points in pen.value for point in points])
         drawn = face.drawing(font.getGlyphID(names[ord(character)]))
-        ours = np.concatenate([points_of(segment) for segment in drawn]) * (1.0, -1.0)
+        ours = np.concatenate([np.reshape(numbers, (-1, 2)) for _, numbers in drawn]) * (1.0, -1.0)
         apart = np.abs(ours[:, None] - theirs[None]).max(axis=2)
         assert apart.min(axis=0).max() <= TOLERANCE * face.units
         assert apart.min(axis=1).max() <= TOLERANCE * face.units

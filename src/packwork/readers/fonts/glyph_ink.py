@@ -14,22 +14,13 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry.affine import similarity
-from packwork.geometry.bezier import flatten_cubic
+from packwork.geometry.bezier import flatten_cubics
 from packwork.geometry.distance import clearance, distance
 from packwork.geometry.outline import Outline, joined
 from packwork.geometry.polygon import region, silhouette
 from packwork.readers.cache import GlyphInk, cached_by_identity, kept_glyph
 from packwork.readers.fonts.face import Segment, Typeface, check_glyph
 from packwork.readers.fonts.itemise import MOST_KNOWN
-
-
-def points_of(segment: Segment) -> FloatArray:
-    """``(k, 2)`` points of a segment.
-
-    >>> points_of(("L", (1.0, 2.0))).tolist()
-    [[1.0, 2.0]]
-    """
-    return np.array(segment[1], dtype=np.float64).reshape(-1, 2)
 
 
 def rings_of(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
@@ -40,25 +31,26 @@ def rings_of(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
            [2., 0.],
            [2., 1.]])]
     """
-    rings: list[list[FloatArray]] = []
-    for segment in segments:
-        letter, points = segment[0], points_of(segment)
+    begins, controls = list[int](), list[tuple[float, ...]]()
+    x = y = 0.0
+    for letter, numbers in segments:
         if letter == "M":
-            rings.append([points])
-        elif letter == "L":
-            rings[-1].append(points)
-        elif letter in {"Q", "C"}:
-            start = rings[-1][-1][-1]
-            rings[-1].append(flatten_cubic(start, *_cubic(start, points), tolerance))
-    return [np.concatenate(ring) for ring in rings]
-
-
-def _cubic(start: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Handles and end of a curve as a cubic's."""
-    if len(points) == 3:
-        return points[0], points[1], points[2]
-    handle, end = points
-    return (start + 2 * handle) / 3, (end + 2 * handle) / 3, end
+            begins.append(len(controls))
+        if letter in {"M", "L"}:
+            x, y = numbers
+            controls.append((x, y) * 4)
+        elif letter == "Q":
+            a, b, end_x, end_y = numbers
+            handles = (x + 2 * a) / 3, (y + 2 * b) / 3, (end_x + 2 * a) / 3, (end_y + 2 * b) / 3
+            controls.append((x, y, *handles, end_x, end_y))
+            x, y = end_x, end_y
+        elif letter == "C":
+            controls.append((x, y, *numbers))
+            x, y = numbers[4:]
+    if not controls:
+        return []
+    points, counts = flatten_cubics(np.array(controls).reshape(-1, 4, 2), tolerance)
+    return np.split(points, (np.cumsum(counts) - counts)[begins[1:]])
 
 
 CLEAR = 1e-3

@@ -243,11 +243,20 @@ class FontRun:
 
     def boxes(self) -> list[FloatArray]:
         """``(2, 2)`` least and largest x, y of the curves of each glyph that has some."""
-        return [path.box * self.scale + place for path, place in self.curves() if len(path.points)]
+        drawn = [one for one in zip(self.paths, self.places(), strict=True) if len(one[0].points)]
+        if not drawn:
+            return []
+        boxes, places = np.array([path.box for path, _ in drawn]), np.array([at for _, at in drawn])
+        return list(boxes * self.scale + places[:, None])
+
+    @cached_property
+    def paths(self) -> list[GlyphPath]:
+        """Curves of each glyph about its origin, in units of its own font."""
+        return [glyph_path(self.face, glyph.number) for glyph in self.glyphs]
 
     def curves(self) -> list[tuple[GlyphPath, tuple[float, float]]]:
         """Curves of each glyph, and its origin."""
-        return [(glyph_path(self.face, glyph.number), self._place(glyph)) for glyph in self.glyphs]
+        return list(zip(self.paths, self.places(), strict=True))
 
     def inks(self, tolerance: float) -> list[GlyphInk]:
         """Regions of the glyphs about their origins, curves followed to ``tolerance``."""
