@@ -14,12 +14,14 @@ import logging
 import os
 import shutil
 from collections.abc import Iterable, Iterator
+from itertools import count
 from pathlib import Path
 from typing import TypeVar
 
 from filelock import FileLock, Timeout
 
 from packwork.errors import ReadError, RecipeError, WriteError
+from packwork.live.commands.gestures import Cancel
 from packwork.live.document import Document
 from packwork.live.file.session_file import MOST_BYTES, read_session, session_bytes
 from packwork.live.file.things import Things
@@ -178,14 +180,23 @@ class Disk:
         return state, entries
 
     def _go_on(self, session: Session, entries: Iterable[Entry]) -> None:
-        """Do to a session what a journal adds, and begin the next journal."""
+        """Do to a session what a journal adds, as far as that can be, and begin the next journal.
+
+        A journal of which not all can be done is kept beside in a copy, if it goes on.
+        """
+        gestures = 0
         try:
-            gestures = session.repeat(entries)
-        except RecipeError as error:
-            raise ReadError(self.journal, f"asks for what has no meaning: {error}") from None
+            for entry in entries:
+                gestures += session.repeat((entry,))
+        except (ReadError, RecipeError) as error:
+            told = str(error) if isinstance(error, ReadError) else f"{self.journal}: {error}"
+            kept_in = f"; all of it is kept in {self._kept_aside()}" if self.is_journaled else ""
+            _LOG.warning("%s; this and what comes after it are left out%s", told, kept_in)
+            if session.is_grabbed:
+                session.apply(Cancel())
         if gestures:
-            count = number_of(gestures, "gesture")
-            _LOG.warning("%s: %s done again that had not been saved", self.path, count)
+            many = number_of(gestures, "gesture")
+            _LOG.warning("%s: %s done again that had not been saved", self.path, many)
         if self.is_journaled:
             # What was recovered is written before anything new is done to it.
             (self.save if gestures else self._begin)(session)
@@ -234,25 +245,17 @@ class Disk:
             raise ReadError(
                 self.journal, f"is no journal of {self.path.name} as it is now; move it away"
             )
-        entries = read_entries(lines, str(self.journal))
-        return _whole_gestures(self._sound(entries), self.journal)
+        return _whole_gestures(read_entries(lines, str(self.journal)), self.journal)
 
-    def _sound(self, entries: Iterator[Entry]) -> Iterator[Entry]:
-        """Entries as far as they can be read; a journal that goes on is kept beside in a copy."""
-        try:
-            yield from entries
-        except ReadError as error:
-            aside = self.journal.with_name(self.journal.name + ".spoilt")
-            kept_in = f"; all of it is kept in {aside.name}" if self.is_journaled else ""
-            _LOG.warning("%s; this line and those after it are left out%s", error, kept_in)
-            if self.is_journaled:
-                self._keep_aside(aside)
-
-    def _keep_aside(self, aside: Path) -> None:
+    def _kept_aside(self) -> str:
+        """Name of a copy of the journal, which takes no other's place."""
+        names = (f"{self.journal.name}.spoilt{n or ''}" for n in count())
+        aside = next(one for name in names if not exists(one := self.journal.with_name(name)))
         try:
             shutil.copyfile(self.journal, aside)
         except OSError as error:
             raise WriteError(aside, f"cannot be written: {error.strerror or error}") from error
+        return aside.name
 
 
 class _JournalLines:
