@@ -68,7 +68,8 @@ class ChartUse(Use):
             raise RecipeError(
                 "unit",
                 f"there are {len(job.items):,} marks; more than {MOST_MARKS:,} have to be circles "
-                "without bars, rules, forces, levels or an earlier layout: use a larger unit",
+                "without bars, rules, forces, levels or an earlier layout: leave these out, or use "
+                "a larger unit",
             )
         if gap >= job.plan.gap or not (jams or self.chart.regions):
             return self._listed(job)
