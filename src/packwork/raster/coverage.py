@@ -189,10 +189,10 @@ class Rasteriser:
 
         Sums are exact in any order; neighbours in time then touch the same rows.
         """
-        if not self._is_large or len(self._points) == 0:
+        if not self._is_large:
             return np.arange(len(self._starts) - 1)
-        first = np.minimum(self._starts[:-1], len(self._points) - 1)
-        return np.argsort(self._points[first, 1], kind="stable")
+        # Of short integers NumPy sorts by their digits, in a tenth of the time.
+        return np.argsort(self._rows[:, 0].astype(np.uint16), kind="stable")
 
     def _reserve(self) -> None:
         """Make room for the records of all rings, in bands where that is worth it."""

@@ -22,6 +22,7 @@ from packwork.readers.layouts.foreign_svg import group_named, tag
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Layout
+from packwork.threads import at_once
 
 SIDE_PX = 400
 """Longer side of the pictures: a quarter of a millimetre of ten centimetres. Larger takes
@@ -83,10 +84,14 @@ def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> Pain
     longest = SIDE_PX / container.side
     columns, rows = (max(1, round(s * longest)) for s in (container.width, container.height))
     sums, most = np.zeros((rows, columns)), np.zeros((rows, columns))
+
+    def painted(apart: IntArray) -> FloatArray:
+        sheet = _with_items(root, items, [elements[k] for k in apart])
+        return _opacity(sheet, columns, rows, is_own=is_own)
+
     try:
-        for apart in sets_apart(layout, NEAR_PX / longest):
-            chosen = [elements[k] for k in apart]
-            picture = _opacity(_with_items(root, items, chosen), columns, rows, is_own=is_own)
+        # Long documents are drawn by processes of their own, two and more at once.
+        for picture in at_once(painted, [(one,) for one in sets_apart(layout, NEAR_PX / longest)]):
             sums += picture
             most = np.maximum(most, picture)
     except (ValueError, ReadError) as error:
