@@ -132,8 +132,7 @@ class Sentence(Enum):
     )
     APART = (
         Told.REMARK,
-        "drawings of one colour stand {gap:.2g} {unit} apart, not to run together; "
-        "--padding 0 lets them touch",
+        "drawings stand {gap:.2g} {unit} apart, not to run together; --padding 0 lets them touch",
     )
     FULLEST_PART = (
         Told.REMARK,

@@ -194,7 +194,8 @@ def runs_together(job: Job) -> bool:
     # An earlier layout keeps its own gaps.
     if plan.is_from_layout or keeps_gaps(plan.sizes, vars(job.recipe)):
         return False
-    has_others = plan.palette or job.target is not None or any(one.values for one in job.asked)
+    # Lines in a palette's colours that touch look tangled too, and it may be of one.
+    has_others = job.target is not None or any(one.values for one in job.asked)
     return not has_others and are_of_one_colour(job.items)
 
 
