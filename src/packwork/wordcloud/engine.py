@@ -321,7 +321,7 @@ Colour = tuple[int, int, int, int]
 def paint(picture: Image.Image, words: Iterable[tuple[Outline, Colour]], scale: float) -> None:
     """Lay words over a picture (RGBA), ``scale`` of its pixels to one unit of theirs."""
     for outline, colour in words:
-        seen = outline.mapped(similarity(0.0, 0.0, 0.0, scale))
+        seen = outline if scale == 1 else outline.mapped(similarity(0.0, 0.0, 0.0, scale))
         left, top = (max(math.floor(v), 0) for v in seen.bounds[:2])
         ends = zip(seen.bounds[2:], picture.size, strict=True)
         right, bottom = (min(math.ceil(v), most) for v, most in ends)

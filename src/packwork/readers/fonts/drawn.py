@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -14,8 +15,8 @@ from packwork.readers.cache import cached_by_identity
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.fonts.glyph_ink import glyph_ink, rings_of
-from packwork.readers.fonts.itemise import MOST_KNOWN
-from packwork.readers.fonts.lettering import LetteredRuns
+from packwork.readers.fonts.itemise import MOST_KNOWN, Piece
+from packwork.readers.fonts.lettering import MOST_WORDS, LetteredRuns, TypeSetting
 
 
 def drawn_outline(
@@ -31,7 +32,31 @@ def drawn_outline(
     >>> len(found[0].rings), found[1].shape
     (3, (2, 3))
     """
-    word = LetteredRuns.of(fonts.settings(lines), fonts.asked_language, em, most_coarse)
+    settings, asked = fonts.settings(lines), (fonts.asked_language, em, most_coarse, size)
+    face, *others = dict.fromkeys(one.face for line in settings for one in line)
+    if others:
+        return _drawn(settings, *asked)
+    return _drawn_by(
+        face, face.name, tuple(tuple(one.piece for one in s) for s in settings), *asked
+    )
+
+
+@cached_by_identity(MOST_WORDS)
+def _drawn_by(
+    face: Typeface, _name: str, lines: tuple[tuple[Piece, ...], ...], *asked: Any
+) -> tuple[Outline, FloatArray] | None:
+    """Word in one font of that name: programs draw the same words again."""
+    return _drawn([[TypeSetting(piece, face) for piece in line] for line in lines], *asked)
+
+
+def _drawn(
+    lines: Sequence[Sequence[TypeSetting]],
+    language: str,
+    em: float,
+    most_coarse: float,
+    size: float,
+) -> tuple[Outline, FloatArray] | None:
+    word = LetteredRuns.of(lines, language, em, most_coarse)
     if word.pictures:
         return None
     outlines, places, sizes = list[Outline](), list[tuple[float, float]](), list[float]()
