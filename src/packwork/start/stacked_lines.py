@@ -20,7 +20,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection
 
-ROWS = 80
+ROWS = 100
 """Heights at which lines may begin. More take longer, fewer waste room. Chosen."""
 
 ABREAST = 3
