@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
-from typing import final
+from typing import Any, final
 
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import job_leanings, padded
 from packwork.pipeline.plan.own_losses import in_colours, sees_colours
 from packwork.pipeline.state import LEVELS, RunContext, RunState, RunStep
-from packwork.recipe.presets import DEFAULT, refined_levels
+from packwork.recipe.presets import DEFAULT, FEWER_EPOCHS, LEAST_COARSE_PX, refined_levels
 from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
@@ -74,4 +75,10 @@ def _solve_options(job: Job) -> SolveOptions:
     if plan.levels or plan.preset is not DEFAULT:
         return options
     levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))
-    return options.model_copy(update={"levels": levels})
+    changes: dict[str, Any] = {"levels": levels}
+    pitch_px = math.sqrt(container.outline.area / len(job.items)) * levels[0] / container.side
+    if pitch_px < LEAST_COARSE_PX and options.shares:
+        changes = {"levels": levels[1:], "shares": options.shares[1:]}
+        if plan.epochs is None:
+            changes["epochs"] = round(FEWER_EPOCHS * options.epochs)
+    return options.model_copy(update=changes)
