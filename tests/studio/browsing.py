@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -138,6 +138,14 @@ def chromium() -> Iterator[Any]:
         browser.close()
 
 
+def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
+    """One person's page, which remembers nothing."""
+    context = browser.new_context(viewport=size, accept_downloads=True, **more)
+    # What is left for an empty page has no storage.
+    context.add_init_script("try { localStorage.setItem('person', 'ann'); } catch {}")
+    return context.new_page()
+
+
 class Desk:
     """The page as a person has it: what is on it, and a hand.
 
@@ -240,6 +248,17 @@ class Desk:
         """Wait until all lies; where that is."""
         self.settled()
         return self.look("JSON.stringify([...studio.collage.poses])")
+
+    def pour(self, ask: Callable[[], object]) -> None:
+        """Ask for a filling anew, and wait until it lies, elsewhere than what was there.
+
+        That it is at work may be over before it is looked for.
+        """
+        poses = "JSON.stringify([...studio.collage.poses])"
+        before = self.rested()
+        ask()
+        self.until(f"{poses} !== {before!r}")
+        self.settled()
 
     def undo_all(self) -> None:
         """Have the document as it began, for the next that use it."""

@@ -17,7 +17,7 @@ from packwork.studio.files import Uploads
 from packwork.studio.importer import Importer
 from packwork.studio.tab import Tab
 from packwork.studio.workspace import Workspace
-from studio.browsing import WIDE, Server, chromium
+from studio.browsing import WIDE, Server, chromium, new_page
 from studio.browsing import Desk as PageDesk
 
 PATIENCE_SECONDS = 120.0
@@ -183,14 +183,6 @@ def kept_browser() -> Iterator[KeptBrowser]:
 def browser(kept_browser: KeptBrowser) -> Iterator[Any]:
     yield kept_browser.opened()
     kept_browser.leave()
-
-
-def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
-    """One person's page, which remembers nothing."""
-    context = browser.new_context(viewport=size, accept_downloads=True, **more)
-    # What is left for an empty page has no storage.
-    context.add_init_script("try { localStorage.setItem('person', 'ann'); } catch {}")
-    return context.new_page()
 
 
 class KeptServer:

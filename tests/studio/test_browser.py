@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from studio.browsing import PHONE, WIDE, Desk, Server, in_browser
+from studio.browsing import PHONE, WIDE, Desk, Server, in_browser, new_page
 
 pytestmark = in_browser
 
@@ -892,7 +892,8 @@ def test_numbers_follow_a_drag_now_and_then_and_its_end_at_once(
 
 
 def test_a_page_is_waited_for_and_left_as_new(browser: Any, server: Server) -> None:
-    desk = Desk(browser.new_page(), server.address)
+    page = new_page(browser, WIDE)
+    desk = Desk(page, server.address)
     desk.settled()
     told = ("print", "(prefers-color-scheme: dark)", "(prefers-reduced-motion: reduce)",
             "(forced-colors: active)", "(prefers-contrast: more)")  # fmt: skip
@@ -907,5 +908,5 @@ def test_a_page_is_waited_for_and_left_as_new(browser: Any, server: Server) -> N
     desk.page.route("**/*", lambda route: route.abort())
     desk.leave()
     assert desk.look(f"{json.dumps(told)}.map((one) => matchMedia(one).matches)") == fresh
-    desk.page.goto(server.address)
-    desk.page.close()
+    page.goto(server.address)
+    page.context.close()

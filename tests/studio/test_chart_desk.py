@@ -89,18 +89,16 @@ def test_a_table_of_excel_becomes_a_chart_under_the_hand(
     desk.settled()
     assert desk.look("studio.collage.pose(0).x") != before
     sizes = areas(desk)
-    desk.page.keyboard.press("r")
-    desk.until("studio.collage.state.busy")
-    desk.settled()
-    desk.rested()
+    desk.pour(lambda: desk.page.keyboard.press("r"))
     assert areas(desk) == pytest.approx(sizes)
     desk.picture("chart")
     # What is saved opens as the same chart, and what was written shows its keys.
     kept = tmp_path / "chart.packwork"
     layout = saved(desk, kept)
     assert any(note.says == TITLE for note in layout.notes)
+    document = desk.look("studio.document")
     give(desk, kept)
-    desk.until("!studio.collage.state.can_undo || studio.collage.state.busy")
+    desk.until(f"studio.document !== {document}")
     desk.settled()
     assert areas(desk) == pytest.approx(sizes)
 
@@ -123,10 +121,7 @@ def test_each_group_of_a_chart_has_a_container_of_its_own(
     desk.settled()
     desk.picture("chart-groups")
     # The last two marks are Asia's: poured anew they lie beside each other, far from the first.
-    first = desk.look("studio.collage.poses[0]")
-    desk.page.keyboard.press("r")
-    desk.until(f"!studio.collage.state.busy && studio.collage.poses[0] !== {first}")
-    desk.settled()
+    desk.pour(lambda: desk.page.keyboard.press("r"))
     places = [desk.look(f"(p => [p.x, p.y])(studio.collage.pose({k}))") for k in (4, 5, 0)]
     near, far = (math.dist(places[0], other) for other in places[1:])
     assert near < 0.5 * desk.look("studio.collage.scene.width") < 2 * far

@@ -80,10 +80,7 @@ def test_pouring_lays_the_nest_anew_about_what_is_held(open_desk: Callable[..., 
     desk.page.keyboard.press("h")
     desk.until("studio.areHeld")
     before = desk.look("[...studio.collage.poses]")
-    desk.page.keyboard.press("r")
-    desk.until("studio.collage.state.busy")
-    desk.until("!studio.collage.state.busy")
-    desk.settled()
+    desk.pour(lambda: desk.page.keyboard.press("r"))
     after = desk.look("[...studio.collage.poses]")
     assert after[:4] == before[:4]
     assert after != before

@@ -90,10 +90,8 @@ def test_a_jar_is_heaped_anew_and_what_comes_falls(open_desk: Callable[..., Desk
     tops = "studio.collage.items.map(one => studio.collage.pose(one.id).y)"
     assert desk.look(f"Math.min(...{tops})") > desk.look("studio.collage.scene.height") / 5
     before = desk.look(f"studio.collage.pose({newest}).x")
-    desk.page.get_by_role("button", name="Heap anew").click()
-    desk.until("studio.collage.state.busy === 'Pouring'")
-    desk.until(f"!studio.collage.state.busy && studio.collage.pose({newest}).x !== {before}")
-    desk.settled()
+    desk.pour(desk.page.get_by_role("button", name="Heap anew").click)
+    assert desk.look(f"studio.collage.pose({newest}).x") != before
     desk.picture("jar-anew")
 
 
