@@ -22,6 +22,7 @@ from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import contrast, oklab
 from packwork.uses import fill, words_recipe
+from packwork.uses.words import use
 from packwork.uses.words.copies import BOX_OVER_INK
 from packwork.writers.recipe import recipe_bytes
 
@@ -303,6 +304,14 @@ def test_few_words_of_one_weight_are_lines_that_fill_more() -> None:
     assert np.diff(y).min() > 0.04 * lines.container.side
     upwards = pw.words("circle", words, rotate="vertical")
     assert np.ptp(upwards.poses.scale) < 1e-9
+
+
+def test_letters_of_a_container_have_no_line_of_words_through_all_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(use, "StackWords", None)
+    words = dict.fromkeys(("Anna", "Ben", "Clara", "David", "Emma", "Hugo"), 1)
+    assert pw.words("text:GO", words, effort="draft").manifest["certified"]
 
 
 def test_few_words_whose_weights_tell_something_stay_in_proportion() -> None:

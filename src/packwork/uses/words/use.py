@@ -139,10 +139,8 @@ class WordsUse(Use):
         # Along limbs no more than their middles is to be seen.
         shows = self.options.along != "limbs"
         found = [ReportWords()]
-        return [
-            *reporting(job, is_dressed=True, shows_shape=shows, found=found),
-            RemarkWords(),
-        ]
+        told = reporting(job, is_dressed=True, shows_shape=shows, found=found)
+        return [*told, RemarkWords()]
 
     def _stacks(self, job: Job) -> bool:
         """Whether words are few, upright and of one weight: sizes that go by room say nothing.
@@ -153,9 +151,11 @@ class WordsUse(Use):
         is_equal = len({word.weight for word in self.read.words}) == 1
         is_few = 1 < len(job.items) == len(self.read.items) <= FEW
         is_auto = job.recipe.sizes == AUTO and job.recipe.hero is None and can_give_way(job)
-        is_plain = plan.is_exact and plan.rotation.limit == 0.0 and job.container.lattice is None
+        # A line is as long as a container is wide: letters of a container show no line of theirs.
+        is_one = job.container.lattice is None and len(job.container.outline.parts) == 1
+        is_plain = plan.is_exact and plan.rotation.limit == 0.0
         has_bounds = letters.smallest is not None or letters.largest is not None
-        return is_equal and is_few and is_auto and is_plain and not has_bounds
+        return is_equal and is_few and is_auto and is_one and is_plain and not has_bounds
 
     def _will_do(self, state: RunState) -> bool:
         """Whether words in proportion make a full cloud, or are too few to."""
