@@ -172,7 +172,8 @@ def test_places_that_cannot_be_had_are_one_line_until_they_are_had(
     moves = ", ".join(f"{{kind: 'move', item: {k}, x: 0, y: {k}}}" for k in (1, 2, 3))
     desk.look(f"studio.connection.do({{kind: 'together', commands: [{moves}]}})")
     lines = desk.page.locator(".toast", has_text="there is no room for it")
-    lines.wait_for()
+    # It stays under the pointer, however long the rest takes.
+    lines.hover()
     desk.settled()
     assert lines.count() == 1
     desk.picture("not-had")
@@ -187,6 +188,32 @@ def test_places_that_cannot_be_had_are_one_line_until_they_are_had(
     lines.wait_for()
     desk.page.keyboard.press("Control+z")
     desk.settled()
+
+
+ENDING = """async () => {
+  const { tell } = await import("/static/toasts.js");
+  const later = globalThis.setTimeout;
+  globalThis.setTimeout = (act) => { globalThis.end = act; };
+  try { tell("a line to read"); } finally { globalThis.setTimeout = later; }
+}"""
+"""Shows a line, whose time is over when ``end`` is called."""
+
+
+def test_a_line_stays_while_pointer_or_focus_is_on_it(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    line = desk.page.locator(".toast", has_text="a line to read")
+    desk.page.evaluate(ENDING)
+    line.hover()
+    desk.until("document.querySelector('.toast:hover')")
+    desk.look("end()")
+    line.get_by_role("button").focus()
+    desk.page.mouse.move(300, 300)
+    desk.until("!document.querySelector('.toast:hover')")
+    desk.look("end()")
+    assert line.count() == 1
+    desk.look("document.activeElement.blur()")
+    desk.look("end()")
+    assert line.count() == 0
 
 
 def test_what_is_chosen_is_flipped_by_a_key(open_desk: Callable[..., Desk]) -> None:

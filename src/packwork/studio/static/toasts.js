@@ -8,7 +8,8 @@ const [LEAST, A_LETTER, LONGEST] = [4, 0.05, 12];
 const MOST = 4;
 
 /**
- * Show a line, for as long as it takes to read it, in place of any other about the same.
+ * Show a line, for as long as it takes to read it, in place of any other about the same; it stays
+ * while pointer or focus is on it (WCAG 2.2.1), as its button may be what they are about to press.
  * @param {string} text
  * @param {{isError?: boolean, act?: {label: string, run: () => void}, about?: string}} [more]
  */
@@ -19,9 +20,13 @@ export function tell(text, { isError = false, act, about = text } = {}) {
   toast.append(h("button", { type: "button", class: "close", "aria-label": "Close", onclick: () => toast.remove() }, "×"));
   const list = byId("toasts");
   list.append(toast);
-  while (list.children.length > MOST) (list.querySelector(".toast:not(.error)") ?? list.children[0]).remove();
+  while (list.children.length > MOST) (list.querySelector(".toast:not(.error, :hover, :focus-within)") ?? list.children[0]).remove();
   const seconds = Math.min(LEAST + A_LETTER * text.length, LONGEST) + (act ? LEAST : 0);
-  setTimeout(() => toast.remove(), 1000 * seconds);
+  const end = () => {
+    if (toast.matches(":hover, :focus-within")) setTimeout(end, 1000 * LEAST);
+    else toast.remove();
+  };
+  setTimeout(end, 1000 * seconds);
 }
 
 /**
