@@ -465,9 +465,10 @@ class WordsKeywords(
     """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%; all
     others stay in proportion."""
 
-    repeat: Literal["none", "auto"]
-    """auto: words are set again, smaller and grey, where nothing else finds a place. Default:
-    'none'."""
+    repeat: Literal["none", "auto"] | None
+    """auto: words are set again, smaller and grey, where nothing else finds a place; none: each
+    once. Default: none, but words of one weight in letters (text:HELLO) are set again, as large as
+    before, for these to be read."""
 
     color_by: str | Callable[[Word], str | None] | None
     """weight (the palette from small to large), a column of the table, or a picture under the

@@ -123,6 +123,10 @@ class Sentence(Enum):
         Told.REMARK,
         "{many} set again, until the line is full; {count} different ones would fill it{elsewhere}",
     )
+    READ_LETTERS = (
+        Told.REMARK,
+        "{many} repeated, {total} in all, for the letters to be read; {option} sets each once",
+    )
     THIN = Told.PART, "the container is thin"
     LEFT_BARE = Told.PART, "in proportion they would leave it bare"
     CLOSER = (

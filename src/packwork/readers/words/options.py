@@ -206,8 +206,10 @@ class WordOptions(Options):
     """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%;
     all others stay in proportion."""
 
-    repeat: Annotated[Literal["none", "auto"], _TYPE] = "none"
-    """auto: words are set again, smaller and grey, where nothing else finds a place."""
+    repeat: Annotated[Literal["none", "auto"] | None, _TYPE] = None
+    """auto: words are set again, smaller and grey, where nothing else finds a place; none: each
+    once. Default: none, but words of one weight in letters (text:HELLO) are set again, as large as
+    before, for these to be read."""
 
     along: Along | None = None
     """Words follow curves, and are set again until these are full; the heaviest are a cloud in what

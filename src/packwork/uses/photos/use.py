@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 from packwork.errors import RecipeError
+from packwork.phrasing import number_of
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import expand_copies
 from packwork.pipeline.read import Material, read_named
-from packwork.pipeline.state import RunStep
+from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.steps.lay_grid import TILES, LayGrid, hardly_shown
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer, material_of
+from packwork.uses.letters import copies_for_letters
 from packwork.uses.photos.crop import CropAtEdge, crops
 
 SQUARE = "square"
@@ -66,9 +69,16 @@ best. Covers up to a hundredth more than the first alone in the same time. Measu
 @final
 @dataclass(frozen=True)
 class PhotosUse(Use):
-    """Photographs; ``is_cut`` for those at the container's edge."""
+    """Photographs; ``is_cut`` for those at the container's edge.
+
+    Parameters
+    ----------
+    repeated
+        How many there are, and copies of them, where the run repeats them for letters to be read.
+    """
 
     is_cut: bool
+    repeated: tuple[int, int] | None = None
 
     def steps(self, job: Job) -> Sequence[RunStep]:
         """The best of several starts; photos may be cut at the container's line."""
@@ -78,7 +88,25 @@ class PhotosUse(Use):
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
-        return reporting(job, is_dressed=False)
+        told = reporting(job, is_dressed=False)
+        if self.repeated is not None:
+            kinds, total = self.repeated
+            told.append(RemarkRepeated(kinds, total))
+        return told
+
+
+@final
+class RemarkRepeated(RunStep):
+    """Remark on photos that were repeated for letters to be read."""
+
+    def __init__(self, kinds: int, total: int) -> None:
+        self._kinds, self._total = kinds, total
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the remark."""
+        many = number_of(self._kinds, "photo is", "photos are")
+        said = {"many": many, "total": self._total, "option": f"-n {self._kinds}"}
+        return state.with_finding(Sentence.READ_LETTERS, **said)
 
 
 def _placed(job: Job) -> list[RunStep]:
@@ -104,4 +132,10 @@ def read_collage(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | N
         from packwork.uses.photos.use import read_grid
 
         return read_grid(recipe, room, given)
-    return material_of(PhotosUse(crops(recipe)), recipe, room, given)
+    found = material_of(PhotosUse(crops(recipe)), recipe, room, given)
+    kinds = found.fillers
+    total = copies_for_letters(recipe, len(kinds), lambda: room.needed(recipe, kinds))
+    if total is None:
+        return found
+    use = PhotosUse(crops(recipe), (len(kinds), total))
+    return replace(found, use=use, cast=expand_copies(recipe, kinds, total))

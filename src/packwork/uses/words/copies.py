@@ -12,8 +12,9 @@ from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.copies import Cast, expand_copies
+from packwork.pipeline.plan.copies import Cast, expand_copies, turns
 from packwork.pipeline.plan.counts import items_needed
+from packwork.pipeline.plan.plan import found_sizes
 from packwork.readers.tables.cells import written_numbers
 from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import WordOptions
@@ -21,6 +22,7 @@ from packwork.recipe import AUTO, Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.uses.icons import KnownContainer
+from packwork.uses.letters import copies_for_letters
 
 if TYPE_CHECKING:
     from packwork.uses.words.use import WordsUse
@@ -62,6 +64,36 @@ def words_counted(asked: WordOptions, room: KnownContainer) -> WordOptions:
     if asked.count != AUTO:
         return asked
     return asked.model_copy(update={"count": words_needed(room.known)})
+
+
+def nesting(asked: WordOptions, recipe: Recipe, room: KnownContainer) -> WordOptions:
+    """Options that say whether words stand in counters: unless asked, where sizes give way."""
+    if asked.nest is not None or room.container is None:
+        return asked
+    return asked.model_copy(update={"nest": found_sizes(recipe, room.container) == "graded"})
+
+
+def for_letters(words: WordsRead, recipe: Recipe, room: KnownContainer) -> WordsRead:
+    """Words of one weight, again and again where letters of a container would not show.
+
+    Not where a recipe says whether words are repeated, where they follow lines, or others lie
+    among them.
+    """
+    asked = recipe.words
+    is_told = asked is None or asked.repeat or asked.along or asked.ring or recipe.items
+    if is_told or len({word.weight for word in words.words}) > 1:
+        return words
+    count = len(words.items)
+    total = copies_for_letters(recipe, count, lambda: words_needed(room.known))
+    if total is None:
+        return words
+    which = turns([None] * count, total)
+    return replace(
+        words,
+        items=tuple(words.items[k] for k in which),
+        areas=words.areas[which],
+        words=tuple(words.words[k] for k in which),
+    )
 
 
 FEW = 6

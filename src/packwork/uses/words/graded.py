@@ -305,7 +305,8 @@ class GradedPlaces(RunStep):
             places = graded_places(job, self._letters, context.stop)
         gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
         kept = places.placed[places.placed < len(words.read.items)]
-        undrawn = {job.items[k].name: Sentence.UNREADABLE_WORD.of() for k in gone}
+        lost = without([job.items[k] for k in gone], [job.items[k] for k in kept])
+        undrawn = {item.name: Sentence.UNREADABLE_WORD.of() for item in lost}
         read = replace(
             words.read,
             items=tuple(words.read.items[k] for k in kept),
@@ -316,7 +317,7 @@ class GradedPlaces(RunStep):
         smaller = replace(
             job.subset(places.placed),
             use=replace(words, read=read, gives_way=True),
-            fillers=without(job.fillers, [job.items[k] for k in gone]),
+            fillers=without(job.fillers, lost),
         )
         check_padding(job.container, job.plan.gap, len(smaller.items))
         return replace(

@@ -39,6 +39,8 @@ from packwork.uses.words.copies import (
     cast_words,
     column_values,
     columns_there,
+    for_letters,
+    nesting,
     words_counted,
     words_needed,
     words_of,
@@ -281,7 +283,7 @@ class WordsUse(Use):
             said.append(Sentence.GRADED.of())
         elif job.plan.voids.target is not None:
             said.append(more_copies(job.plan.voids))
-        elif self.options.repeat == "none" and job.plan.is_exact:
+        elif self.options.repeat != "auto" and job.plan.is_exact:
             # A share of the container that is asked for may not be reached, and counts as not met.
             said.append(Sentence.REPEATED.of())
         return "; ".join(said)
@@ -324,19 +326,11 @@ def fuller(tried: Sequence[RunState], context: RunContext) -> RunState:
 def with_sizes_that_give_way(job: Job) -> Job:
     """The run of items that are words, in proportion as far as that leaves the container full."""
     names = [item.name for item in job.items]
-    pairs = zip(names, job.weights.tolist(), strict=True)
-    words = tuple(Word(name, weight) for name, weight in pairs)
+    words = tuple(map(Word, names, job.weights.tolist()))
     read = WordsRead(job.items, job.weights, words, {}, len(words))
     asked = WordOptions(source=dict.fromkeys(names, 1.0), count=len(words))
     recipe = job.recipe.model_copy(update={"sizes": AUTO})
     return replace(job, recipe=recipe, use=WordsUse(read, asked, Letters(), len(words)))
-
-
-def nesting(asked: WordOptions, recipe: Recipe, room: KnownContainer) -> WordOptions:
-    """Options that say whether words stand in counters: unless asked, where sizes give way."""
-    if asked.nest is not None or room.container is None:
-        return asked
-    return asked.model_copy(update={"nest": found_sizes(recipe, room.container) == "graded"})
 
 
 def read_cloud(
@@ -348,7 +342,8 @@ def read_cloud(
     asked = nesting(asked, recipe, room)
     is_related = recipe.embeddings == FROM_TEXT
     counted = words_counted(asked, room)
-    words = read_word_items(counted, recipe.holes, recipe, is_related=is_related)
+    read = read_word_items(counted, recipe.holes, recipe, is_related=is_related)
+    words = for_letters(read, recipe, room)
     check_colours(recipe, words)
     named = read_named(recipe, given)
     chosen = cast_words(recipe, words, named.items)
@@ -357,7 +352,7 @@ def read_cloud(
         use=WordsUse(words, asked, Letters.of(asked, container, recipe.sizes), len(words.items)),
         container=container,
         cast=chosen,
-        fillers=words.items,
+        fillers=tuple(dict.fromkeys(words.items)),
         given=None if words.order is None else (*words.order, *named.keys),
         skipped=(*named.skipped, *words.told),
     )
@@ -387,11 +382,16 @@ class RemarkWords(RunStep):
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the remarks."""
         job, use = state.job, words_of(state.job)
+        items, kinds = use.read.items, len(set(use.read.items))
         if use.options.count == AUTO:
-            state = state.with_finding(Sentence.COUNT, many=number_of(len(job.items), "word"))
+            state = state.with_finding(Sentence.COUNT, many=number_of(kinds, "word"))
         if words := use.read.stopped:
             many = number_of(len(words), "function word is", "function words are")
             state = state.with_finding(Sentence.STOPWORDS, many=many, names=enumerated(words))
+        if kinds < len(items):
+            many = number_of(kinds, "word is", "words are")
+            said = Sentence.READ_LETTERS
+            state = state.with_finding(said, many=many, total=len(items), option="--repeat none")
         follows = use.options.along is not None or use.options.ring
         if use.gives_way and job.recipe.sizes == AUTO and not follows:
             is_thin = found_sizes(job.recipe, job.container) == "graded"
