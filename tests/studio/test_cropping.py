@@ -111,3 +111,24 @@ def test_two_fingers_zoom_the_photograph_and_not_the_page(open_desk: Callable[..
     desk.settled()
     desk.page.keyboard.press("Control+z")
     desk.until(f"{CROP} === '{WHOLE}'")
+
+
+def test_buttons_keep_a_crop_and_leave_it_as_it_was(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.rested()
+    x, y = desk.place(0)
+    bar = desk.page.locator("#choice")
+    for name, ends in (("none", WHOLE), ("keep", None)):
+        desk.page.mouse.dblclick(x, y)
+        bar.get_by_text("The picture in its frame").wait_for()
+        desk.picture(f"cropping-{name}")
+        desk.page.mouse.wheel(0, -200)
+        desk.until("studio.cropping.now.zoom > 1.2")
+        bar.locator(f"[data-do={name}]").click()
+        assert not desk.look("studio.cropping.isOn")
+        desk.until(f"{CROP} {'===' if ends else '!=='} '{WHOLE}'")
+    # What is chosen has its own buttons again.
+    bar.locator("[data-do=crop]").wait_for()
+    assert not bar.locator("[data-do=none]").is_visible()
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"{CROP} === '{WHOLE}'")

@@ -133,3 +133,30 @@ def test_a_desk_that_is_closed_is_kept(opening: Opening, tmp_path: Path) -> None
     session = read(file)
     assert session.document.items[0].name == "kept"
     assert session.history.can_undo
+
+
+def test_a_page_is_told_what_of_a_journal_could_not_be_done_again(
+    dozen: pw.Layout, tmp_path: Path
+) -> None:
+    file = tmp_path / "desk.packwork"
+    session = Session(Document.from_layout(dozen))
+    left = kept_in(file, session)
+    session.apply(Rename(item=0, name="one"))
+    left._disk.close(session)
+    with left._disk.journal.open("ab") as journal:
+        journal.write(b'{"do": {"kind": "rename", "item": 99, "name": "x"}}\n')
+    told = list[str]()
+
+    async def work() -> None:
+        desk = Workspace(Opening(file=file))
+        desk.listen("a page", lambda news: told.append(getattr(news, "text", "")))
+        await desk.begin()
+        while desk.owner is None:
+            await asyncio.sleep(0.01)
+        await asyncio.to_thread(desk.close)
+        assert desk.owner.frame.document.items[0].name == "one"
+
+    asyncio.run(work())
+    (line,) = filter(None, told)
+    assert f"{file}.log: rename" in line
+    assert line.endswith("all of it is kept in desk.packwork.log.spoilt")

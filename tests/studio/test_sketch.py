@@ -62,11 +62,18 @@ def test_an_outline_and_a_hole_are_drawn_and_undone(desk: Desk) -> None:
     desk.settled()
 
 
-def test_escape_leaves_off_and_a_short_line_is_none(desk: Desk) -> None:
+def test_escape_and_a_button_leave_off_and_a_short_line_is_none(desk: Desk) -> None:
     first = desk.look("studio.collage.scene.outline")
     desk.page.keyboard.press("k")
     draw(desk, lambda _: 2.0)
     assert desk.look("studio.sketch.isDrawing")
     desk.page.keyboard.press("Escape")
     assert not desk.look("studio.sketch.isDrawing")
+    for ways, said in (("k", "Draw the outline"), ("q", "Draw round"), ("g", "Draw an arrow")):
+        desk.page.keyboard.press(ways)
+        bar = desk.page.locator("#choice")
+        bar.get_by_text(said).wait_for()
+        bar.get_by_role("button").click()
+        bar.wait_for(state="hidden")
+        assert not desk.look("Boolean(studio.gestures.drawer)")
     assert desk.look("studio.collage.scene.outline") == first

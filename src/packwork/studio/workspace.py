@@ -300,11 +300,12 @@ class Workspace:
         if begun is None:
             return
         session, keeper = begun
-        document = session.document
-        left_out = () if opening.file is not None else left_out_of(document.manifest)
-        self._unplaced = (document.ids, left_out)
+        left_out = () if opening.file is not None else left_out_of(session.document.manifest)
+        self._unplaced = (session.document.ids, left_out)
         if keeper is None and (file := new_file()) is not None:
             keeper = self._kept(file, session)
+        elif keeper is not None and keeper.missed:
+            self.say(keeper.missed)
         session.begin_film()
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()

@@ -197,6 +197,11 @@ class Keeper:
     def __init__(self, disk: Disk) -> None:
         self._disk = disk
 
+    @property
+    def missed(self) -> str:
+        """What of the journal could not be done again, in a line; empty if nothing."""
+        return self._disk.missed
+
     def begin(self, session: Session) -> None:
         """Write the file, and note from now on what is done."""
         self._disk.save(session)

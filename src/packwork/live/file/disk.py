@@ -82,6 +82,8 @@ class Disk:
     def __init__(self, path: str | Path, *, is_journaled: bool) -> None:
         self.path = Path(path)
         self.is_journaled = is_journaled
+        self.missed = ""
+        """What of the journal could not be done again, and where it is kept; empty if nothing."""
         self._things = Things()
         self._digest = ""
         self._lock = FileLock(lock_beside(self.path), blocking=False, thread_local=False)
@@ -191,7 +193,8 @@ class Disk:
         except (ReadError, RecipeError) as error:
             told = str(error) if isinstance(error, ReadError) else f"{self.journal}: {error}"
             kept_in = f"; all of it is kept in {self._kept_aside()}" if self.is_journaled else ""
-            _LOG.warning("%s; this and what comes after it are left out%s", told, kept_in)
+            self.missed = f"{told}; this and what comes after it are left out{kept_in}"
+            _LOG.warning("%s", self.missed)
             if session.is_grabbed:
                 session.apply(Cancel())
         if gestures:

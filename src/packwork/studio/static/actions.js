@@ -54,7 +54,7 @@ function choosing(studio) {
     { id: "lasso", group: "Choose", label: "Choose by a line drawn round them", keys: ["Q"], when: () => collage.hasPoses, run: () => studio.lasso.begin() },
     { id: "lasso-more", group: "Choose", label: "Choose more by a line", keys: ["Shift+Q"], when: () => choice.ids.size > 0, run: () => studio.lasso.begin(true) },
     { id: "find", group: "Choose", label: "Find items by name", keys: ["/"], run: () => studio.find() },
-    { id: "none", group: "Choose", label: "Choose nothing, or leave off", keys: ["Escape"], run: () => studio.escape() },
+    { id: "none", group: "Choose", label: "Choose nothing, or leave off", keys: ["Escape"], icon: "close", run: () => studio.escape() },
   ];
 }
 
@@ -81,6 +81,7 @@ function items(studio) {
     { id: "flip", group: "Items", label: "Flip left and right", keys: ["Shift+F"], icon: "flip", when: () => when() && moves(), run: () => studio.flip("horizontal") },
     { id: "flip-down", group: "Items", label: "Flip top and bottom", keys: ["Shift+V"], icon: "flipDown", when: () => when() && moves(), run: () => studio.flip("vertical") },
     { id: "crop", group: "Items", label: "Move the photograph in its frame, or keep it", keys: ["Enter"], icon: "crop", when: () => studio.crops, run: () => studio.crop() },
+    { id: "keep", group: "Items", label: "Keep the photograph so", keys: [], icon: "check", when: () => studio.cropping.isOn, run: () => studio.crop() },
     { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when: () => when() && moves(), run: () => studio.replacing.open() },
     { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: orders, run: () => studio.dropping.choosePicture() },
     { id: "order", group: "Items", label: "Put them in an order …", keys: ["O"], when: orders, run: () => studio.ordering.open() },

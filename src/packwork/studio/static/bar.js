@@ -11,6 +11,8 @@ const LEFT = ["undo", "redo", "pour"];
 const LABELLED = new Set(["pour"]);
 const RIGHT = ["farther", "closer", "fit", "faults", "theme", "keys"];
 const CHOSEN = ["inspect", "hold", "release", "duplicate", "crop", "replace", "group", "ungroup", "exchange", "remove"];
+/** In their place while something is drawn, cropped or reshaped. */
+const AT_WORK = ["keep", "none"];
 
 export class Bar {
   /**
@@ -38,7 +40,7 @@ export class Bar {
     );
     this.name = h("span", { class: "chosen-name" });
     this.colour = picker("Give one colour", recolour, chosen);
-    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)), this.colour.element);
+    byId("choice").append(this.name, ...[...CHOSEN, ...AT_WORK].map((id) => this.button(id)), this.colour.element);
   }
 
   /** @param {string} id */
@@ -67,20 +69,24 @@ export class Bar {
    * @param {string} chosen
    * @param {boolean} isSaved
    * @param {string | null} colour of what is chosen, if it has one
+   * @param {string} work what the hand is to do now, if that is something of its own
    */
-  show(title, chosen, isSaved, colour) {
+  show(title, chosen, isSaved, colour, work) {
+    const shown = work ? AT_WORK : CHOSEN;
+    /** @type {HTMLElement} */ (this.colour.element).hidden = Boolean(work);
     this.colour.show(colour ?? "#1f6f78", !colour);
     if (document.activeElement !== this.title) this.title.value = title;
     this.title.size = Math.min(Math.max(title.length, 4), 24);
     this.saved.hidden = !isSaved;
-    this.name.textContent = chosen;
-    byId("choice").hidden = !chosen;
+    this.name.textContent = work || chosen;
+    byId("choice").hidden = !(work || chosen);
     for (const [id, buttons] of this.buttons) {
       const when = this.actions.get(id)?.when;
       const can = !when || when();
       for (const one of buttons) {
         one.disabled = !can;
-        if (CHOSEN.includes(id)) one.hidden = !can;
+        if (one.parentElement?.id === "choice") one.hidden = !(can && shown.includes(id));
+        else if (CHOSEN.includes(id)) one.hidden = !can;
       }
     }
   }

@@ -19,6 +19,7 @@ export class Forces {
   constructor(studio) {
     this.studio = studio;
     this.isDrawing = false;
+    this.asks = "Draw an arrow";
     /** The arrow in the hand. @type {[Point, Point] | null} */
     this.arrow = null;
     /** Where arrows were drawn, by what they say. @type {Map<string, Point>} */

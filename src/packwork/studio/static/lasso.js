@@ -11,6 +11,7 @@ export class Lasso {
   constructor(studio) {
     this.studio = studio;
     this.isDrawing = false;
+    this.asks = "Draw round the items";
     /** The line in the hand, canvas units. @type {[number, number][]} */
     this.line = [];
     /** What is chosen beside what the line holds. @type {number[]} */
@@ -25,7 +26,7 @@ export class Lasso {
     this.isDrawing = true;
     this.before = [...this.studio.choice.ids];
     this.base = adds ? this.before : [];
-    say("Draw round the items; Escape leaves off");
+    say(`${this.asks}; Escape leaves off`);
   }
 
   /** Go on with the line: what it holds, closed, is chosen. @param {Point} at in the window @param {Point} from where it began */

@@ -18,12 +18,16 @@ export class Sketch {
     this.line = [];
   }
 
+  get asks() {
+    return this.isHole ? "Draw round the hole" : "Draw the outline";
+  }
+
   /** Have the next drag draw an outline. @param {boolean} isHole */
   begin(isHole) {
     this.studio.gestures.draw();
     [this.isDrawing, this.isHole] = [true, isHole];
     this.studio.redraw();
-    say(isHole ? "Draw round the hole; Escape leaves off" : "Draw the container's outline; Escape leaves off");
+    say(`${this.asks}; Escape leaves off`);
   }
 
   /** @param {Point} at in the window */

@@ -115,6 +115,7 @@ export class Studio {
     /** Whether what is shown is on its way to where it is. */
     this.isEasing = false;
     this.isDirty = false;
+    this.shownWork = "";
     this.last = 0;
     this.listen();
   }
@@ -273,13 +274,19 @@ export class Studio {
     const count = this.choice.ids.size;
     const [id] = this.choice.ids;
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
-    this.bar.show(this.collage.scene?.title ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
+    this.bar.show(this.collage.scene?.title ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id), this.work);
     this.bar.rename("pour", kindOf(this.collage).again);
     byId("empty").hidden = this.collage.hasPoses;
     byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown || !kindOf(this.collage).moves;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
     this.panels.refresh();
     this.redraw();
+  }
+
+  /** What the hand is to do now, if that is something of its own; by fingers too it can be left off. */
+  get work() {
+    if (this.cropping.isOn) return "The picture in its frame";
+    return this.gestures.drawer?.asks ?? (this.room.isOn ? "The container" : "");
   }
 
   redraw() {
@@ -291,6 +298,8 @@ export class Studio {
   /** @param {number} now */
   draw(now) {
     this.isDirty = false;
+    if (this.shownWork !== this.work) this.refresh();
+    this.shownWork = this.work;
     const passed = Math.min(now - this.last, 100);
     this.last = now;
     const moves = this.collage.hasPoses && this.collage.ease(passed, this.isCalm);
