@@ -77,6 +77,9 @@ main()
 """The program, which wins back less and measures by fewer pixels: tests of the page look at other
 things, and wait until all lies."""
 
+QUICK, AS_IT_IS = ("-c", STUDIO), ("-m", "packwork")
+"""What Python runs for a studio."""
+
 
 class Server:
     """``packwork studio`` in a process.
@@ -85,15 +88,17 @@ class Server:
     ----------
     inputs
         As on the command line.
+    program
+        What Python runs, by default :data:`QUICK`.
     """
 
-    def __init__(self, *inputs: str) -> None:
-        self.inputs = inputs
+    def __init__(self, *inputs: str, program: tuple[str, str] = QUICK) -> None:
+        self.inputs, self.program = inputs, program
         self.address = ""
         self.process: subprocess.Popen[str] | None = None
 
     def start(self) -> Server:
-        line = [sys.executable, "-c", STUDIO, "studio", "--no-browser", *self.inputs]
+        line = [sys.executable, *self.program, "studio", "--no-browser", *self.inputs]
         # What the developer has in the studio stays out of it, and is not written over.
         env = {"XDG_DATA_HOME": _DOCUMENTS.name, **os.environ}
         self.process = subprocess.Popen(line, stdout=subprocess.PIPE, text=True, env=env)
@@ -146,6 +151,27 @@ def new_page(browser: Any, size: dict[str, int], **more: Any) -> Any:
     return context.new_page()
 
 
+def as_new(page: Any) -> None:
+    """Have a used page as a new one for the place where it goes next, which ends what is here."""
+    page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
+    page.set_viewport_size(WIDE)
+    page.emulate_media(**AS_NEW)
+    page.context.clear_permissions()
+    for other in page.context.pages:
+        if other is not page:
+            other.close()
+
+
+def let_go(page: Any) -> None:
+    """Have a page let go of its studio, before that stops or others look at it."""
+    # A picture of the studio's own, for each page of another place has a process of its own.
+    if not page.is_closed() and page.url.startswith("http") and not page.url.endswith(NOTHING):
+        page.goto(urljoin(page.url, NOTHING))
+
+
+NOTHING = "/static/icon.svg"
+
+
 class Desk:
     """The page as a person has it: what is on it, and a hand.
 
@@ -166,7 +192,14 @@ class Desk:
         }
         for event, listener in self._listeners.items():
             page.on(event, listener)
+        is_there = page.url == address
         page.goto(address, timeout=1000 * PATIENCE_SECONDS)
+        if is_there:
+            page.reload(timeout=1000 * PATIENCE_SECONDS)
+        # What was pressed on the page before would be dropped there if it were let go of sooner.
+        page.mouse.up()
+        for key in ("Shift", "Control", "Alt", "Meta"):
+            page.keyboard.up(key)
 
     def _hear(self, message: Any) -> None:
         # That a server is gone while it is started anew is what is tested; browsers look for an
@@ -176,25 +209,12 @@ class Desk:
             self.faults.append(said)
 
     def leave(self) -> None:
-        """Leave all as it would be for a new page: nothing is pressed, stored or heard."""
+        """Hear nothing more; the page stays until it goes elsewhere."""
         for event, listener in self._listeners.items():
             self.page.remove_listener(event, listener)
-        if self.page.is_closed():
-            return
-        self.page.unroute_all()
-        self.page.context.unroute_all()
-        self.page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
-        # A picture of the studio's own, for each page of another place has a process of its own.
-        self.page.goto(urljoin(self.page.url, "/static/icon.svg"))
-        self.page.mouse.up()
-        for key in ("Shift", "Control", "Alt", "Meta"):
-            self.page.keyboard.up(key)
-        self.page.set_viewport_size(WIDE)
-        self.page.emulate_media(**AS_NEW)
-        self.page.context.clear_permissions()
-        for other in self.page.context.pages:
-            if other is not self.page:
-                other.close()
+        if not self.page.is_closed():
+            self.page.unroute_all()
+            self.page.context.unroute_all()
 
     def look(self, script: str) -> Any:
         """Value of an expression on the page; nothing there is ever made of text."""

@@ -17,7 +17,7 @@ from packwork.studio.files import Uploads
 from packwork.studio.importer import Importer
 from packwork.studio.tab import Tab
 from packwork.studio.workspace import Workspace
-from studio.browsing import WIDE, Server, chromium, new_page
+from studio.browsing import WIDE, Server, as_new, chromium, let_go, new_page
 from studio.browsing import Desk as PageDesk
 
 PATIENCE_SECONDS = 120.0
@@ -144,6 +144,8 @@ class KeptBrowser:
         """The page, as one that was never used; made anew where a test has closed it."""
         if self._page is None or self._page.is_closed():
             self._page = new_page(self.opened(), WIDE)
+        else:
+            as_new(self._page)
         return self._page
 
     def is_wide(self, page: Any) -> bool:
@@ -151,10 +153,16 @@ class KeptBrowser:
         return page is self._page
 
     def leave(self) -> None:
-        """Close all that a module has opened beside the wide page."""
+        """Close all that a module has opened beside the wide page, which lets go of its studio."""
+        self.let_go()
         for context in self.browser.contexts:
             if self._page is None or context is not self._page.context:
                 context.close()
+
+    def let_go(self) -> None:
+        """Have the wide page look at no studio."""
+        if self._page is not None:
+            let_go(self._page)
 
     def close(self) -> None:
         """End it, for a loop of events runs as long as it is there, beside which none can."""
@@ -219,6 +227,7 @@ class KeptServer:
             desk.settled()
         lies = desk.look(self.AS_IT_LIES)
         if lies != (self._began or lies):
+            let_go(desk.page)
             self.server.stop()
             self.server.start()
             desk.page.goto(self.server.address)
@@ -246,9 +255,12 @@ def open_desk(
     desks: list[PageDesk] = []
 
     def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> PageDesk:
-        if size is WIDE and not more and not any(KEPT.is_wide(desk.page) for desk in desks):
+        is_taken = any(KEPT.is_wide(desk.page) for desk in desks)
+        if size is WIDE and not more and not is_taken:
             page = KEPT.wide_page()
         else:
+            if not is_taken:
+                KEPT.let_go()
             page = new_page(browser, size, **more)
         desk = PageDesk(page, address or server.address)
         desks.append(desk)
@@ -261,5 +273,7 @@ def open_desk(
         desk.leave()
         if not KEPT.is_wide(desk.page):
             desk.page.context.close()
+    if server is not kept_server.server:
+        KEPT.let_go()
     for desk in desks:
         assert desk.faults == []

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from studio.browsing import PHONE, WIDE, Desk, Server, in_browser, new_page
+from studio.browsing import PHONE, WIDE, Desk, Server, as_new, in_browser, new_page
 
 pytestmark = in_browser
 
@@ -907,6 +907,9 @@ def test_a_page_is_waited_for_and_left_as_new(browser: Any, server: Server) -> N
     assert desk.look("looks") == 3
     desk.page.route("**/*", lambda route: route.abort())
     desk.leave()
+    as_new(page)
     assert desk.look(f"{json.dumps(told)}.map((one) => matchMedia(one).matches)") == fresh
-    page.goto(server.address)
+    # The same address is loaded anew, nothing of which is caught any more.
+    Desk(page, server.address).settled()
+    assert not desk.look("'looks' in globalThis")
     page.context.close()

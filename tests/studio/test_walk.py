@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from PIL import Image, ImageDraw
 
-from studio.browsing import Desk, Server, in_browser
+from studio.browsing import AS_IT_IS, Desk, Server, in_browser
 
 pytestmark = in_browser
 
@@ -35,7 +35,8 @@ DROP = """([files, place]) => {
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[Server]:
-    made = Server("circle", "star", "-n", "5").start()
+    """The program as it is: here all is won back and measured as people have it."""
+    made = Server("circle", "star", "-n", "5", program=AS_IT_IS).start()
     yield made
     made.stop()
 
