@@ -222,6 +222,20 @@ def test_a_force_leaves_a_full_container_as_it_is(icons: pw.Layout) -> None:
     assert np.array_equal(session.document.poses.scale, icons.poses.scale)
 
 
+def test_a_force_on_some_items_leaves_the_others_and_their_absence_alone(icons: pw.Layout) -> None:
+    session = icons.edit()
+    session.cover(0.3)
+    session.set(force=("down", "right items=star"))
+    assert session.settle().certified
+    # Others fall first, and alone; then nothing is left that it pulls at.
+    session.move(session.find("heart#1")[0], "50%", "25%")
+    assert session.settle().certified
+    session.remove("star")
+    assert session.settle().certified
+    with pytest.raises(RecipeError, match="no item is called 'dragon'"):
+        session.set(force="down items=dragon")
+
+
 def test_no_force_of_a_session_reads_a_file(icons: pw.Layout) -> None:
     session = icons.edit()
     with pytest.raises(RecipeError, match="takes no file in a session"):

@@ -230,11 +230,12 @@ class Document:
         return float(self.areas.sum()) / self.container.outline.area
 
     def forces(self, rows: IntArray) -> Forces:
-        """Forces on some items."""
+        """Forces on some items; one that names others alone is none on these."""
         texts = self.options.force
         if not texts:
             return NO_FORCES
-        return forces_of(texts, [self.items[k] for k in rows], self.weights[rows], self.container)
+        items, weights = [self.items[k] for k in rows], self.weights[rows]
+        return forces_of(texts, items, weights, self.container, are_all=False)
 
     def rows_moved_from(self, before: Document) -> IntArray:
         """Rows of items that are new or lie elsewhere than before; in another container all do."""

@@ -25,6 +25,7 @@ from packwork.live.commands.command import (
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.live.kinds import LiveOptions
+from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.limits import check_padding
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
@@ -175,6 +176,9 @@ class SetOption(Command):
         options = validated(LiveOptions, values)
         if options.force:
             document.container.check_edge("force", "places to be pulled to")
+            # Of those that were there items may have gone.
+            fresh = [one for one in options.force if one not in (document.options.force or ())]
+            forces_of(fresh, document.items, document.weights, document.container)
         if document.kind.sizes not in {None, options.sizes}:
             raise RecipeError("sizes", document.kind.refusal)
         check_padding(document.container, options.padding, len(document))

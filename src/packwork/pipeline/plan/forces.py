@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import nullcontext, suppress
 
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.errors import RecipeError
 from packwork.forces.bonds import Alignment, Balance, TogetherBond
 from packwork.forces.field import Bond, Direction, Distance, Fading, Field, Inward
 from packwork.forces.forces import BondForce, FieldForce, Forces
@@ -20,9 +22,16 @@ from packwork.units import length_asked
 
 
 def forces_of(
-    texts: Sequence[str], items: Sequence[Item], weights: FloatArray, container: Container
+    texts: Sequence[str],
+    items: Sequence[Item],
+    weights: FloatArray,
+    container: Container,
+    *,
+    are_all: bool = True,
 ) -> Forces:
     """Forces that are asked for, on these items and this canvas.
+
+    ``are_all``: whether a name that none of the items has is a mistake.
 
     Examples
     --------
@@ -37,7 +46,9 @@ def forces_of(
     bonds: list[BondForce] = []
     for text in texts:
         spec = parse_force(text)
-        strengths = _strengths(spec, items, weights)
+        strengths = _strengths(spec, items, weights, are_all=are_all)
+        if not (are_all or strengths.any()):
+            continue
         if spec.kind in {"align", "balance", "together"}:
             bonds.append(BondForce(_bond(spec, container), strengths))
         else:
@@ -45,14 +56,18 @@ def forces_of(
     return Forces(fields, bonds, kinds(items), container.side)
 
 
-def _strengths(spec: ForceSpec, items: Sequence[Item], weights: FloatArray) -> FloatArray:
+def _strengths(
+    spec: ForceSpec, items: Sequence[Item], weights: FloatArray, *, are_all: bool
+) -> FloatArray:
     strengths = np.full(len(items), -spec.strength if spec.kind == "away" else spec.strength)
     if spec.by_weight:
         strengths *= weights / weights.mean()
     if spec.items:
         names = [item.name for item in items]
         acted_on = np.zeros(len(items), dtype=bool)
-        acted_on[matching(spec.items, RuleSource("force"), names)] = True
+        for pattern in spec.items:
+            with nullcontext() if are_all else suppress(RecipeError):
+                acted_on[matching([pattern], RuleSource("force"), names)] = True
         strengths[~acted_on] = 0.0
     return strengths
 
