@@ -215,3 +215,9 @@ def test_bad_tables_are_one_clear_line(name: str, text: str, message: str, tmp_p
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ReadError, match=message):
         read_table(str(file))
+
+
+def test_a_size_that_is_shown_is_of_each_row() -> None:
+    rows = [{"g": "ab"[k > 2], "v": v} for k, v in enumerate((5, 5, 5, 20, 20))]
+    read = chart(rows, size_by="v", color_by="v", by="g", unit=5)
+    assert {item.datum.row["v"] for item in read.items if item.datum} == {5, 20}

@@ -15,7 +15,7 @@ is shaken and jams again, and the better of two is kept (monotonic basin hopping
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,10 +55,6 @@ QUENCHED, NEARER = 2e-3, 0.4
 SHAKEN, SHAKEN_ROUNDS = 0.3, 5
 """Deviation by which discs are shaken, mean radii, and scales on the way down then. More forgets
 what was found, fewer do not find it again. Tried."""
-
-GENTLE = (0.02, 0.01, 0.004)
-"""Excess of the scales on the way down from a packing that is gone on from. Larger loses what is
-good in those of very unlike discs. Tried."""
 
 MOST_SHAKEN = 100
 """Times that a layout is shaken at most. More gain nothing where discs are very few. Tried."""
@@ -168,29 +164,20 @@ class DiscSearch:
         self._are_alike = bool(np.ptp(radii) <= ALIKE * np.mean(radii))
         self._begin()
 
-    def run(self, known: Sequence[DiscPacking] = ()) -> DiscPacking:
-        """Centres of all discs, and the largest scale that was found.
-
-        ``known``: packings that are gone on from, too, each disc staying about where it is.
-        """
+    def run(self) -> DiscPacking:
+        """Centres of all discs, and the largest scale that was found."""
         is_calm = self._work > self._calm
         rounds, every = (CALM_ROUNDS, CALM_EVERY) if is_calm else (ROUNDS, EVERY)
         self._descend(rounds, every)
         best = self._quenched()
-        for one in known:
-            self._go_on((one.scale, one.centres, np.arange(len(one.centres))), 0.0)
-            best = max(best, self._quenched(), key=lambda found: found[0])
         for trial in range(MOST_SHAKEN):
             if self._done >= self._work or self._stop():
                 break
-            if known and trial % 2 == 0:
-                self._go_on(best, SHAKEN)
-            elif self._are_alike and trial % 2 == 0:
+            if self._are_alike and trial % 2 == 0:
                 self._begin()
-                self._descend(SHAKEN_ROUNDS, CALM_EVERY)
             else:
                 self._shake(best)
-                self._descend(SHAKEN_ROUNDS, CALM_EVERY)
+            self._descend(SHAKEN_ROUNDS, CALM_EVERY)
             if self._jammed > PROMISING * best[0]:
                 best = max(best, self._quenched(), key=lambda found: found[0])
         scale, discs, owners = best
@@ -204,16 +191,6 @@ class DiscSearch:
         self._discs = self._scattered() if lattice is None else lattice
         self._owners = self._random.permutation(len(self._radii))
         self._scale = self._jammed = self._first_scale(self._container.area)
-
-    def _go_on(self, found: Found, shaken: float) -> None:
-        """Come down from near a packing, discs shaken by that share of their own radii."""
-        self._scale = self._jammed = found[0]
-        radii = found[0] * self._radii[found[2], None]
-        self._discs = found[1] + shaken * radii * self._random.normal(0.0, 1.0, found[1].shape)
-        self._owners = found[2].copy()
-        for excess in GENTLE:
-            self._scale = self._jammed * (1 + excess)
-            self._relax(STEPS, 0)
 
     def _shake(self, found: Found) -> None:
         """Put discs near where they lay in a packing."""

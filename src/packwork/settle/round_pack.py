@@ -2,8 +2,11 @@
 
 Front chain: W. Wang, H. Wang, G. Dai and H. Wang, "Visualization of large hierarchical data by
 circle packing", CHI 2006, 517-520, doi:10.1145/1124772.1124851; ours looks at all pairs and not
-at the chain's alone, and begins about several centres. From these packs, and from soft discs that
-exchange places, the search for jammed packings of :mod:`packwork.separation.discs` goes on.
+at the chain's alone, begins about several centres and takes the best. Then monotonic basin
+hopping: A. Grosso, A. Jamali, M. Locatelli and F. Schoen, "Solving the problem of packing equal
+and unequal circles in a circular container", Journal of Global Optimization 47 (2010), 63-81,
+doi:10.1007/s10898-009-9458-3; our hops move a disc of the rim into a hole, or shake some, and
+local minima are those of squared overlaps under a pressure, found by L-BFGS.
 """
 
 from __future__ import annotations
@@ -16,7 +19,6 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.progress import Stop
-from packwork.separation.discs import DiscPacking, DiscSearch
 from packwork.settle.bottom_left import AROUND_GAP
 from packwork.settle.kernels import circle_packing as kernels
 from packwork.settle.settle import Settling
@@ -97,9 +99,7 @@ def _placed(settling: Settling, gap: float, rng: np.random.Generator) -> FloatAr
     radii = arrangement.radii + AROUND_GAP * gap / 2
     turn = rng.uniform(0, 2 * math.pi)
     cosine, sine = math.cos(turn), math.sin(turn)
-    centres = packed_circles(radii, rng, _tries(settling)) @ np.array(
-        [[cosine, sine], [-sine, cosine]]
-    )
+    centres = packed_circles(radii, rng) @ np.array([[cosine, sine], [-sine, cosine]])
     centres += settling.centre
     left, top, right, bottom = arrangement.container.bounds
     reach = (arrangement.radii + AROUND_GAP * gap)[:, None]
@@ -110,34 +110,33 @@ def _placed(settling: Settling, gap: float, rng: np.random.Generator) -> FloatAr
     return places
 
 
-STARTS = 24
-"""Fronts that are begun with, about other points of their first discs. Fewer leave some tens of
-very unlike discs looser, more take longer. Tried."""
+STARTS = 8
+"""Fronts that are begun with, about other points of their first discs. More takes longer and finds
+little that the trials do not. Tried."""
 
-FRONTS = 1e6
+FRONTS = 4e6
 """Fronts by pairs of items at most; one is always laid. Larger gains little where there are
 thousands, and takes seconds for each. Tried."""
 
-WORK, WORK_EACH = 1.5e5, 1e4
-"""Steps of the search times discs, and so many more for each disc. Larger takes longer, a second
-for each million, and gains up to .01 of the circle. Tried."""
+TRIALS = 100
+"""Changes that are tried then. More takes longer. Tried."""
+
+WORK = 8e5
+"""Trials by pairs of items at most; a trial looks at all pairs, again and again. Larger gains up
+to 0.002 of the circle where there are many. Tried."""
 
 TRIANGLE = 1 / math.sqrt(3)
 """How far the middle of three equal discs lies off the line of two, radii. Derived."""
 
-_TURNS = np.linspace(0.0, 2 * np.pi, 360, endpoint=False)
-_CIRCLE = Outline.from_rings([np.column_stack([np.cos(_TURNS), np.sin(_TURNS)])])
 
-
-def packed_circles(radii: FloatArray, rng: np.random.Generator, tries: int = 1) -> FloatArray:
+def packed_circles(radii: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Centres ``(n, 2)`` of discs that do not meet, about the origin, in a small circle.
 
     Where one is more than a thousand times as large as another, small ones may come to lie in it.
     Deterministic for one generator. The circle is near the smallest for some tens of discs, equal
     or not: there is no table of known packs behind it.
 
-    ``radii``: of the discs, with what they are to keep free round them; ``tries``: packs of which
-    the best is taken, and which share the work.
+    ``radii``: of the discs, with what they are to keep free round them.
 
     Examples
     --------
@@ -147,18 +146,21 @@ def packed_circles(radii: FloatArray, rng: np.random.Generator, tries: int = 1) 
     """
     n = len(radii)
     order = np.argsort(-radii, kind="stable")
-    fronts, most = [], max(min(STARTS // tries, int(FRONTS / n**2)), 1)
-    for shift, aside in _origins(rng)[:most]:
+    best, centres = np.inf, np.zeros((n, 2))
+    starts = max(min(STARTS, int(FRONTS / n**2)), 1)
+    for shift, aside in _origins(rng)[:starts]:
         found = kernels.front_chain(radii, order, shift * radii[order[0]], aside * radii[order[0]])
         circle = kernels.circle_of(found, radii)
-        fronts.append(DiscPacking(found / circle, 1 / circle))
-    if n < 3:
-        best = max(fronts, key=lambda front: front.scale)
-    else:
-        work = (WORK + WORK_EACH * n) / tries
-        search = DiscSearch(_CIRCLE, radii, 0.0, int(rng.integers(2**31)), work)
-        best = search.run(() if np.ptp(radii) == 0 else fronts)
-    return best.centres / best.scale * (1 + kernels.ROUNDING)
+        squeezed = found.copy()
+        narrower = kernels.squeeze(squeezed, radii)
+        if narrower < circle:
+            circle, found = narrower, squeezed
+        if circle < best * (1 - kernels.ROUNDING):
+            best, centres = circle, found
+    trials = min(TRIALS, int(WORK / n**2)) if n > 2 else 0
+    draws = rng.random((trials, 2 * max(n, kernels.SAMPLES) + 3))
+    kernels.hop(centres, radii, draws)
+    return centres * (1 + kernels.ROUNDING)
 
 
 def _origins(rng: np.random.Generator) -> list[tuple[float, float]]:

@@ -237,13 +237,22 @@ def read_amounts(
     which = [k for k in found if member[k] >= 0]
     if not which:
         raise RecipeError("by", f"no row has both a group in {options.by!r} and a size")
-    if options.unit is not None:
+    if options.unit is not None and _may_pool(options):
         return _pooled(table, options, groups, {k: found[k] for k in which})
     return Amounts(
         [table.rows[k] for k in which],
         np.array([found[k] for k in which]),
         np.array([member[k] for k in which], dtype=np.int64),
     )
+
+
+def _may_pool(options: ChartOptions) -> bool:
+    """Whether rows that are shown alike may be one: nothing shows of each how large it is.
+
+    Without groups marks stand for rows each, to which they can be joined.
+    """
+    shown = {options.color_by, options.mark_by, options.label_by}
+    return options.size_by is None or (options.by is not None and options.size_by not in shown)
 
 
 def _pooled(

@@ -30,8 +30,7 @@ from packwork.steps.control import BestOf, Replan, Retry
 from packwork.steps.shortfalls import CLEARLY_MORE, MOST_BARE, more_copies
 from packwork.steps.track import StartRecording
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.icons import KnownContainer
-from packwork.uses.icons import fuller as unless_far_fuller
+from packwork.uses.icons import KnownContainer, best_balanced
 from packwork.uses.photos.crop import crops
 from packwork.uses.words.along import RoundTheEdge, SetAlong
 from packwork.uses.words.colours import check_colours, word_colours
@@ -119,7 +118,7 @@ class WordsUse(Use):
             cloud = placing(job.replanned(sizes="shared"), suits_first_fit=True)
             cloud = [Replan(sizes="shared"), *cloud]
             lines = [Replan(sizes="free"), *recording, StackWords(cloud)]
-            placed = [BestOf([lines, cloud], unless_far_fuller)]
+            placed = [BestOf([lines, cloud], best_balanced)]
             return [*placed, *self._filled(job), *self.report(job)]
         graded = [Replan(sizes="graded"), *_closer(job, self._graded)]
         if job.plan.sizes == "graded" and (job.recipe.sizes != AUTO or can_give_way(job)):
