@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from packwork import pipeline, uses
 from packwork.cli.show import pile_line
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
+from packwork.live.file.things import Shared, Things, container_of, container_record
 from packwork.progress import Step
 from packwork.readers.layouts.read import read_written
 from packwork.readers.svg.curve import walled_container
@@ -306,6 +308,36 @@ def test_a_drawn_jar_shows_its_own_walls(tmp_path: Path) -> None:
     run = _run(str(tmp_path / "jar.svg"), count=4, size="10%")
     (wall,) = run.layout.container.walls or ()
     assert wall[[0, -1], 1] == pytest.approx([180, 180], abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("stroke", "is_shown", "colour", "width"),
+    [
+        ('stroke="teal" stroke-width="2"', True, "#008080", 2.0),
+        ('style="stroke:#F00;stroke-width:1e6"', True, "#ff0000", 2.0),
+        ('stroke="url(#g)" stroke-width="2"', False, "#1a202c", 0.2),
+    ],
+)
+def test_a_drawn_jar_shows_its_own_line_in_files_and_sessions(
+    stroke: str, is_shown: bool, colour: str, width: float, tmp_path: Path
+) -> None:
+    jar = tmp_path / "jar.svg"
+    jar.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 50">'
+        '<linearGradient id="g"><stop stop-color="red"/><stop offset="1"/></linearGradient>'
+        f'<path d="M10 0V40H90V0" fill="none" {stroke}/></svg>',
+        encoding="utf-8",
+    )
+    layout = _run(str(jar), count=1, size="10%", canvas="100").layout
+    record = container_record(layout.container, Things())
+    kept = replace(layout, container=container_of(record, Shared(lambda _: b"")))
+    for one in (layout, kept):
+        text = svg_text(one)
+        [group] = re.findall(r'<g id="container"[^>]*>', text)
+        assert ("display" not in group) == is_shown
+        assert f'stroke="{colour}" stroke-width="{width:g}"' in group
+    hidden = svg_text(kept, SvgOptions(show_container=False))
+    assert 'display="none"' in hidden
 
 
 @pytest.mark.parametrize("container", ["square", "heart"])

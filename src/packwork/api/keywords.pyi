@@ -628,8 +628,8 @@ class SaveKeywords(TypedDict, total=False):
     """A rim that makes items stand out from the background, in SVG, PNG, JPEG and PDF: faint (of
     those that are hardly to be seen on it) or all. Default: 'none'."""
 
-    show_container: bool
-    """Draw the container's line. Default: False."""
+    show_container: bool | None
+    """Draw the container's line. Default: of a pile in a drawing of open lines, as drawn there."""
 
     flatten: bool
     """In SVG, repeat each drawing in place, for tools that choke on <use>. Default: False."""

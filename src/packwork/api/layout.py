@@ -259,7 +259,7 @@ class Layout(Exported, Sequence[Placement]):
         path: str | Path,
         *,
         background: str = "white",
-        show_container: bool = False,
+        show_container: bool | None = None,
         progress: bool | None = None,
         **options: Unpack[FilmKeywords],
     ) -> None:

@@ -61,6 +61,9 @@ class Container:
         By which all repeats where it is a tile, whose outline is then no wall but the cell.
     file
         The map or drawing that it was read from, whose regions or shapes name parts of it.
+    pen
+        ``#rrggbb`` and width, canvas units, of its line as its file draws it; None: drawn only
+        where that is asked for.
 
     Raises
     ------
@@ -84,6 +87,7 @@ class Container:
     walls: tuple[FloatArray, ...] | None
     lattice: Lattice | None
     file: bytes | None
+    pen: tuple[str, float] | None
 
     def __init__(
         self,
@@ -97,6 +101,7 @@ class Container:
         walls: tuple[FloatArray, ...] | None = None,
         lattice: Lattice | None = None,
         file: bytes | None = None,
+        pen: tuple[str, float] | None = None,
     ) -> None:
         if outline is None:
             raise ShapeError("a container needs an outline, such as a Shapely polygon")
@@ -109,7 +114,7 @@ class Container:
         height = bottom if height is None else height
         if not (width > 0 and height > 0):
             raise ShapeError(f"a canvas needs a positive size, not {width:g} x {height:g}")
-        values = (name, source, shape, width, height, unit, backdrop, walls, lattice, file)
+        values = (name, source, shape, width, height, unit, backdrop, walls, lattice, file, pen)
         for column, value in zip(fields(Container), values, strict=True):
             object.__setattr__(self, column.name, value)
 
@@ -316,9 +321,12 @@ def _mapped(
     walls = container.walls
     if walls is not None:
         walls = tuple(affine.apply(place, line) for line in walls)
+    pen = container.pen
+    if pen is not None:
+        pen = pen[0], pen[1] * float(np.hypot(*place[:, 0]))
     return replace(
         container, outline=container.outline.mapped(place), width=width, height=height,
-        unit=unit, backdrop=behind, walls=walls, lattice=None,
+        unit=unit, backdrop=behind, walls=walls, lattice=None, pen=pen,
     )  # fmt: skip
 
 

@@ -52,8 +52,8 @@ class DrawingOptions(Options):
     """Of a tile, draw so many each way side by side, 3 for a preview of 3 x 3: in SVG by a
     <pattern>."""
 
-    show_container: bool = False
-    """Draw the container's line."""
+    show_container: bool | None = None
+    """Draw the container's line. Default: of a pile in a drawing of open lines, as drawn there."""
 
     flatten: Annotated[bool, Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS)] = False
     """In SVG, repeat each drawing in place, for tools that choke on <use>."""

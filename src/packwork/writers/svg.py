@@ -78,16 +78,16 @@ other, smaller ones are lost on busy ground."""
 class SvgOptions:
     """Options of drawing a layout as SVG.
 
-    ``background`` is a CSS colour; ``None`` or ``"none"`` leaves it clear. ``show_container`` shows
-    the container's line, whose path is in the file either way. ``flatten`` writes every copy in
-    full, for tools that do not know ``use``. ``text`` is ``live`` for words that can be selected
-    and found, in fonts that the file carries, ``outlines`` for curves. Lines for a cutter (``cut``)
-    lie on top of all. Tiles are drawn ``tiles`` times each way. With ``lines`` items are
-    lines for a machine.
+    ``background`` is a CSS colour; ``None`` or ``"none"`` leaves it clear. ``show_container`` draws
+    the container's line, whose path is there either way; None: if it has a pen. ``flatten`` writes
+    every copy in full, for tools that do not know ``use``. ``text`` is ``live`` for words that can
+    be selected and found, in fonts that the file carries, ``outlines`` for curves. Lines for a
+    cutter (``cut``) lie on top of all. Tiles are drawn ``tiles`` times each way. With ``lines``
+    items are lines for a machine.
     """
 
     background: str | None = None
-    show_container: bool = False
+    show_container: bool | None = None
     flatten: bool = False
     text: TextChoice = "outlines"
     cut: CutOptions | None = None
@@ -281,18 +281,25 @@ def _halos(layout: Layout, digits: int) -> list[str]:
     return [f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">', *drawn, "</g>"]
 
 
+def container_line(container: Container, show: bool | None) -> tuple[bool, tuple[str, float]]:
+    """Whether a container's line is drawn; its colour and width, canvas units."""
+    usual = CONTAINER_STROKE, container.side * CONTAINER_STROKE_SHARE
+    return container.pen is not None if show is None else show, container.pen or usual
+
+
 def _container(layout: Layout, options: SvgOptions, digits: int) -> list[str]:
     container = layout.container
     layer = layer_attributes("sheet") if options.lines else ""
+    is_shown, (colour, width) = container_line(container, options.show_container)
     head = attributes(
         {
             "id": "container",
             "data-name": container.name[:NAME_LENGTH],
             "data-tile": "" if container.lattice is None else container.lattice.kind,
             "fill": "none",
-            "stroke": CONTAINER_STROKE,
-            "stroke-width": f"{container.side * CONTAINER_STROKE_SHARE:.6g}",
-            "display": "" if options.show_container else "none",
+            "stroke": colour,
+            "stroke-width": f"{width:.6g}",
+            "display": "" if is_shown else "none",
         }
     )
     outline = path_data(container.outline, digits)

@@ -130,12 +130,12 @@ def check(kind: str, options: Mapping[str, Any]) -> None:
         _margin(options)
 
 
-def _filming(options: Mapping[str, Any]) -> tuple[FilmOptions, str, bool]:
-    drawn = {"background": "white", "show_container": False}
+def _filming(options: Mapping[str, Any]) -> tuple[FilmOptions, str, bool | None]:
+    drawn: dict[str, Any] = {"background": "white", "show_container": None}
     drawn |= {name: options[name] for name in drawn if name in options}
     _drawing(drawn)
     settings = film_options(**{name: value for name, value in options.items() if name not in drawn})
-    return settings, str(drawn["background"]), bool(drawn["show_container"])
+    return settings, str(drawn["background"]), drawn["show_container"]
 
 
 def missing() -> dict[str, str]:

@@ -272,3 +272,5 @@ class ContainerRecord(Options):
     repeats: Repeat | None = None
     file: Annotated[str, Field(max_length=MAX_MAP_BYTES)] | None = None
     """Hash of the map or drawing that names its parts; older sessions have its text here."""
+
+    pen: tuple[Annotated[str, Field(pattern=r"^#[0-9a-f]{6}$")], Length] | None = None

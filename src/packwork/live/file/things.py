@@ -224,7 +224,7 @@ def container_record(container: Container, things: Things) -> ContainerRecord:
         art = photo_record(behind.art, container.side / across)
         backdrop = BackdropRecord(art=art, matrix=matrix_record(behind.matrix))
     return ContainerRecord(
-        **plain_fields(container, "name", "source", "width", "height", "unit"),
+        **plain_fields(container, "name", "source", "width", "height", "unit", "pen"),
         outline=outline_record(container.outline),
         backdrop=backdrop,
         walls=None if walls is None else tuple(text_of(wall) for wall in walls),
@@ -246,6 +246,7 @@ def container_of(record: ContainerRecord, shared: Shared) -> Container:
         None if behind is None else Backdrop(photo_of(behind.art), matrix_of(behind.matrix)),
         None if walls is None else tuple(points_of(wall) for wall in walls),
         file=None if record.file is None else shared.map(record.file),
+        pen=record.pen,
     )
     return made if record.repeats is None else repeating(made, record.repeats)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +20,9 @@ from packwork.readers.reading import UnfitError, read_bytes, reading_file, stem
 from packwork.readers.regions import SPECK, canvas_box, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
+from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.shapes import flattened_all
+from packwork.scene.colour import css_colour
 from packwork.scene.container import Container, placed_container
 from packwork.units import DEFAULT_SIDE, convert
 
@@ -115,7 +118,27 @@ def walled_container(
         placed = placed_container(stem(source), source, inside, canvas, side)
     scale = side / max(sides)
     openings = (np.array(mouths) - (left, top)) * scale
-    return placed if unit is None else replace(placed, unit=unit), openings
+    placed = replace(placed, unit=unit or placed.unit, pen=_pen(drawing.shapes, scale, side))
+    return placed, openings
+
+
+WIDEST_PEN = 0.02
+"""Width of a line over its container's side at most. Items lie on half of it. Chosen."""
+
+
+def _pen(shapes: Sequence[Painted], scale: float, side: float) -> tuple[str, float] | None:
+    """Colour and width, canvas units, of the first shape that draws a line; None if none does."""
+    for shape in shapes:
+        if not shape.painting.has_stroke:
+            continue
+        try:
+            *channels, _ = css_colour(shape.painting.stroke)
+        except ValueError:
+            # A gradient, say, is no colour of a line.
+            continue
+        width = shape.painting.pen.width * abs(float(np.linalg.det(shape.matrix[:, :2]))) ** 0.5
+        return f"#{bytes(channels).hex()}", min(width * scale, WIDEST_PEN * side)
+    return None
 
 
 def _inside(line: PathLine) -> Region:

@@ -87,7 +87,7 @@ class Film:
     layout: Layout
     options: FilmOptions = field(default_factory=FilmOptions)
     background: str = PAPER
-    show_container: bool = False
+    show_container: bool | None = None
 
     def __post_init__(self) -> None:
         self.layout.container.check_edge("film", "film")

@@ -25,7 +25,7 @@ from packwork.writers.film.animated_svg import TOLERANCE
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame
 from packwork.writers.pictures import as_picture
-from packwork.writers.svg import CONTAINER_STROKE, CONTAINER_STROKE_SHARE
+from packwork.writers.svg import container_line
 from packwork.writers.svg_symbols import shape_key
 
 Json = dict[str, Any]
@@ -111,8 +111,9 @@ def _under(film: Film, frame: PictureFrame) -> list[Json]:
     layers: list[Json] = []
     container = film.layout.container
     still = _still([0, 0], 100 * frame.px_per_cu)
-    if film.show_container:
-        line = _stroke(css_colour(CONTAINER_STROKE), CONTAINER_STROKE_SHARE * container.side)
+    is_shown, (ink, width) = container_line(container, film.show_container)
+    if is_shown:
+        line = _stroke(css_colour(ink), width)
         shapes = [_group(container.outline.rings, line)]
         if container.walls is not None:
             shapes = [_group(container.walls, line, is_closed=False)]
