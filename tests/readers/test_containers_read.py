@@ -71,6 +71,26 @@ def test_line_drawing_is_filled(svg_file):
 
 
 @pytest.mark.parametrize(
+    ("inner", "left"),
+    [
+        ('<circle r="10"/>', 6400 - np.pi * 100),
+        ('<circle r="20"/><circle r="10"/>', 6400 - np.pi * 300),
+        ('<circle r="10"/><path d="M-30 0h15M-5 0h10"/>', 6400 - np.pi * 100),
+        ('<path d="M0 0h10v10h-10v-10"/>', 6300),
+        ('<path d="M-30 0h60"/>', 6400),
+        ('<circle r="10"/><circle r="10" cx="5"/>', 6400),
+        ('<circle r="10" stroke-width="9"/>', 6400),
+        ('<rect x="60" y="-40" width="20" height="80"/>', 8000),
+    ],
+)
+def test_thin_closed_lines_within_lines_are_holes(svg_file, caplog, inner, left):
+    line = f'<g fill="none" stroke="#000" stroke-width=".02"><path d="M-40-40h80v80h-80z"/>{inner}'
+    source = svg_file(f"{line}</g>", 'viewBox="-100 -100 200 200"')
+    assert read_container(source, 200).outline.area == pytest.approx(left, rel=1e-3)
+    assert any("are holes" in one for one in caplog.messages) == (left not in {6400, 8000})
+
+
+@pytest.mark.parametrize(
     ("source", "problem"),
     [
         ("nowhere.svg", "no such file"),

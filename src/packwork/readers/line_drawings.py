@@ -41,7 +41,7 @@ from packwork.readers.engraving import Engraving, rgb_of
 from packwork.readers.gate.door import MAX_BYTES, parse_xml, serialised, unpacked
 from packwork.readers.pages import Read
 from packwork.readers.reading import UnfitError, notice, one_budget, read_bytes, reading_file, stem
-from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.regions import Holes, centred, clean_union, thin_px
 from packwork.readers.svg.container import name_of, stated_unit, tag_of
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg.ink import PaintedInk
@@ -63,10 +63,6 @@ seen in small drawings, smaller makes many arcs. Tried: areas of icons come out 
 
 MOST_CURVES = 40_000
 """Curves of a drawing that are followed, each by some tens of arcs. Chosen."""
-
-THIN_MM, THIN_SHARE = 1.0, 0.03
-"""Width of a line, and its share of the drawing's longer side, up to which it has none. Larger
-makes frames of icons lines, smaller makes lines of small drawings frames. Chosen."""
 
 _UP = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 
@@ -225,9 +221,8 @@ def _is_bent(cubics: FloatArray, least: float) -> BoolArray:
 
 def _is_thin(shape: Painted, extent: float) -> bool:
     """Whether a shape of a drawing of an extent in px has a line that counts as one of no width."""
-    thin = min(THIN_MM / _PX_MM, THIN_SHARE * extent)
     scale = abs(float(np.linalg.det(shape.matrix[:, :2]))) ** 0.5
-    return shape.painting.has_stroke and shape.painting.pen.width * scale <= thin
+    return shape.painting.has_stroke and shape.painting.pen.width * scale <= thin_px(extent)
 
 
 def _arc_lines(shape: Painted, extent: float) -> Iterator[ArcLine]:

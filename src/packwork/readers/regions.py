@@ -10,7 +10,8 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.distance import snap_rounded, without_clefts
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
+from packwork.geometry.overlay import difference
+from packwork.geometry.polygon import Region, enclosed, polygon_parts, silhouette, united
 from packwork.readers.reading import UnfitError, notice
 from packwork.units import Unit, convert
 
@@ -49,6 +50,39 @@ def canvas_box(box: Box, page: tuple[float, float], trim: bool | None, unit: Uni
     if trim or (is_small and unit is None):
         return left, top, right - left, bottom - top
     return 0.0, 0.0, *page
+
+
+THIN_MM, THIN_SHARE = 1.0, 0.03
+"""Width of a line, and its share of the drawing's longer side, up to which it has none. Larger
+makes frames of icons lines, smaller makes lines of small drawings frames. Chosen."""
+
+
+def thin_px(extent: float) -> float:
+    """Width of a line up to which it has none, in a drawing of an extent, both px."""
+    return min(convert(THIN_MM, "mm", "px"), THIN_SHARE * extent)
+
+
+def within_lines(lines: Region) -> Region:
+    """Region that lines go round, px; closed thin ones are outlines and holes in turn.
+
+    Where lines meet, or are thick, they go round one silhouette: those of a picture would cut
+    each other.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> ring = shapely.box(0, 0, 100, 100).boundary.buffer(0.1)
+    >>> round(within_lines(ring | shapely.box(30, 30, 50, 50).boundary.buffer(0.1)).area, -2)
+    9600.0
+    """
+    whole = silhouette(lines)
+    rings = [part for part in polygon_parts(lines) if part.interiors]
+    left, top, right, bottom = whole.bounds
+    thin = thin_px(max(right - left, bottom - top))
+    if any(len(one.interiors) > 1 or 2.0 * one.area > thin * one.length for one in rings):
+        return whole
+    kept = enclosed([one.exterior for one in rings])
+    return difference(whole, difference(silhouette(MultiPolygon(rings)), kept))
 
 
 Holes: TypeAlias = Literal["fill", "keep"]

@@ -14,7 +14,7 @@ import shapely
 
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import difference, intersection, union
-from packwork.geometry.polygon import Region, silhouette
+from packwork.geometry.polygon import Region, polygon_parts
 from packwork.progress import Stop, never
 from packwork.readers.gate.door import parse_xml, unpacked
 from packwork.readers.options import AS_DRAWN, ReadOptions
@@ -29,7 +29,7 @@ from packwork.readers.reading import (
     reading_file,
     spend,
 )
-from packwork.readers.regions import canvas_box, clean_union, tell_if_full
+from packwork.readers.regions import canvas_box, clean_union, tell_if_full, within_lines
 from packwork.readers.svg.drawing import (
     LARGESSE,
     WHOLE_PAGE,
@@ -157,9 +157,9 @@ def container_of_svg(
     Without a side a page in mm, cm, in or pt keeps its size and unit; any other becomes
     600 px long.
 
-    Filled shapes count, with their holes and parts, and of shapes drawn as lines the
-    inside; nearly white paint over dark fills is a hole. Where that is the whole page, as
-    with a white sheet behind the drawing, its picture is taken for a mask: dark is inside.
+    Filled shapes count, with their holes and parts, and of shapes drawn as lines the inside,
+    as ``within_lines`` has it; nearly white paint over dark fills is a hole. Where that is the
+    whole page, as with a sheet behind the drawing, its picture is taken for a mask, dark inside.
     Without a page the canvas is the region's box; with one, as ``canvas_box`` has it.
 
     >>> data = b'<svg width="4cm" viewBox="0 0 20 10"><rect width="10" height="10"/></svg>'
@@ -265,11 +265,13 @@ def stated_unit(root: ET.Element) -> Unit | None:
 def _inside(ink: Ink) -> Region:
     inside = [ink.fills] if ink.fills.area > 0 else []
     if ink.lines.area > 0:
-        inside.append(silhouette(ink.lines))
+        inside.append(within_lines(ink.lines))
     return clean_union(*inside)
 
 
 def _without_whites(drawing: PaintedDrawing, region: Region) -> Region:
+    if drawing.ink.fills.area == 0 and any(part.interiors for part in polygon_parts(region)):
+        notice("its closed lines within lines are holes; fill the outer one, and they are none")
     if not any(map(_is_white, drawing.shapes)):
         return region
     if isinstance(drawing.ink, TracedInk) and drawing.page is not None:
