@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from packwork.sources import input_at, note_input, noting_inputs
+from packwork.writers import described
 
 QUICK = "--levels 16 --epochs 2 --finish none -q"
 DOT = '<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="3"/></svg>'
@@ -94,6 +95,13 @@ def test_notes_end_with_whoever_keeps_them(artwork: Path) -> None:
         assert input_at(artwork / "wall.svg") == "wall.svg"
         assert input_at("not there.svg") is None
     assert input_at("wall.svg") is None
+
+
+def test_folders_that_are_made_are_told_once(tmp_path: Path) -> None:
+    (tmp_path / "here").mkdir()
+    new = tmp_path / "new"
+    paths = [tmp_path / "here/a.svg", new / "b/c.svg", new / "d.svg"]
+    assert described(paths) == [str(paths[0]), f"{paths[1]} (folder {new} made)", str(paths[2])]
 
 
 def test_files_that_are_there_are_named_or_kept(folder, packwork) -> None:

@@ -356,6 +356,7 @@ def _written(
         for path in filter(is_session, outputs):
             own = disk if disk and disk.is_at(path) else Disk(path, is_journaled=False)
             files.append((path, saved.enter_context(own.replacing(session))))
+        described = writers.described(path for path, _ in files)
         writers.write_all(files)
     tell_coarse(made, drawing.dpi)
     console = Paper(quiet)
@@ -363,8 +364,7 @@ def _written(
         if metrics is not None:
             console.print(metrics_table(metrics, made.container.unit))
         console.print(certificate_line(True, certified, broken=faults), soft_wrap=True)
-        names = ", ".join(printable(str(path)) for path, _ in files)
-        console.print(f"wrote {names}", soft_wrap=True)
+        console.print(printable(f"wrote {', '.join(described)}"), soft_wrap=True)
     on_trust = on_trust_in(files, made) if certified else []
     for line in (*done.in_the_way, *faults, *on_trust, *(() if quiet else advice)):
         say(line)

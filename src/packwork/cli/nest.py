@@ -155,14 +155,14 @@ def nest(
                 )
             if interrupt.pressed and not found.sheets:
                 raise KeyboardInterrupt
-            written, faults = _write(found, files, report, no_clobber)
+            written, described, faults = _write(found, files, report, no_clobber)
             interrupt.is_over = True
             WATCH.finish()
         certified = found.certified and not faults
         console.print(_summary(found, sheets[0], certified))
         console.print(_lines(found, sheets[0]))
         tell_advice(found.advice if certified else (), console)
-        console.print("wrote " + ", ".join(map(str, written)))
+        console.print("wrote " + ", ".join(described))
         if older := [str(one) for path in files for one in _numbered(path) if one not in written]:
             say(f"of an earlier nest: {', '.join(older)}")
         for fault in faults:
@@ -201,8 +201,8 @@ def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None
 
 def _write(
     found: NestedSheets, files: list[Path], report: Path | None, no_clobber: bool
-) -> tuple[list[Path], list[str]]:
-    """Write all files or none; returns them, and what is wrong with them."""
+) -> tuple[list[Path], list[str], list[str]]:
+    """Write all files or none; returns them, how that is told, and what is wrong with them."""
     from packwork import writers
 
     drawn, faults = _drawn(found, files)
@@ -213,8 +213,9 @@ def _write(
         drawn.append((report, writers.json_bytes(said)))
     with _sessions(found, files) as sessions:
         drawn += sessions
+        described = writers.described(path for path, _ in drawn)
         writers.write_all(drawn)
-    return [path for path, _ in drawn], faults
+    return [path for path, _ in drawn], described, faults
 
 
 def _numbered(path: Path) -> list[Path]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -97,14 +96,13 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             written.append((outputs.report, writers.json_bytes(results)))
         with saving(outputs.with_drawing(run.layout), outputs.files) as sessions:
             written += sessions
-            replaced = {path for path, _ in written if os.path.lexists(path)}
+            names = writers.described(path for path, _ in written)
             writers.write_all(written)
         interrupt.is_over = True
         WATCH.finish()
         _warn(run, was_cut_short)
         for error in undrawn:
             say(f"not written: {' '.join(str(error).split())}")
-        names = [f"{path} (replaced)" if path in replaced else f"{path}" for path, _ in written]
         _print_results(results, names, console, run.layout, drawn if outputs.preflight else ())
         if was_cut_short:
             worth = "certified" if run.certified else "not certified"

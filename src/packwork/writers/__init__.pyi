@@ -4,6 +4,7 @@ from packwork.writers.atomic import (
     check_new,
     check_outputs,
     check_writable,
+    described,
     write_all,
     write_atomic,
 )
@@ -38,6 +39,7 @@ __all__ = [
     "check_outputs",
     "check_picture_size",
     "check_writable",
+    "described",
     "diagnose_png",
     "encoded",
     "faint_message",

@@ -87,6 +87,20 @@ def check_new(paths: Iterable[str | Path]) -> None:
             raise WriteError(path, "is there already, and --no-clobber keeps it; use another name")
 
 
+def described(paths: Iterable[str | Path]) -> list[str]:
+    """Names of files that are to be written, and what that does to those there, and to folders."""
+    names, met = list[str](), set[Path]()
+    for path in paths:
+        folder = Path(path).absolute().parent
+        missing = [one for one in (folder, *folder.parents) if not os.path.lexists(one)]
+        said = " (replaced)" if os.path.lexists(path) else ""
+        if missing and missing[-1] not in met:
+            met.add(missing[-1])
+            said = f" (folder {missing[-1]} made)"
+        names.append(f"{path}{said}")
+    return names
+
+
 def write_atomic(path: str | Path, data: bytes) -> None:
     """Put ``data`` under ``path`` in one step; an older file stays whole until then.
 
