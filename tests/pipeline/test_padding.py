@@ -13,9 +13,11 @@ from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.plan.limits import check_padding
+from packwork.readers.builtin import builtin_item
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.scene.recolour import recoloured, run_together
 from packwork.uses import fill, words_recipe
 
 WORDS = {f"word{k}": 100 // (k + 1) + 1 for k in range(25)}
@@ -137,6 +139,16 @@ def test_what_is_kept_apart_unasked_is_never_refused(
     )
     run = fill(make_recipe(items=[str(one_colour)], effort="draft", levels="50", **asked))
     assert run.certified
+
+
+def test_a_good_share_of_one_colour_runs_together() -> None:
+    black = [recoloured(builtin_item(name), "#000000") for name in ("star", "heart", "circle")]
+    coloured = [recoloured(builtin_item("star"), f"#{k}00000") for k in range(1, 9)]
+    assert run_together([*black, *coloured[:3]])
+    assert not run_together([*black, *coloured])
+    assert run_together(coloured[:4] * 5)
+    assert not run_together(coloured * 5)
+    assert not run_together(coloured[:2])
 
 
 def test_an_earlier_layout_keeps_its_gaps(one_colour: Path, tmp_path: Path) -> None:

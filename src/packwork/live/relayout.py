@@ -39,7 +39,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.scene.recolour import are_of_one_colour
+from packwork.scene.recolour import run_together
 from packwork.temporary import TemporaryFolder
 from packwork.units import parse_length
 from packwork.uses.icons import keeps_gaps, one_colour_gap
@@ -59,7 +59,7 @@ def usual_gap(document: Document) -> float:
         return promise.gap
     gap = parse_length(usual_padding(said), container.unit, container.side)
     is_kept = gap or document.kind.name == "pile" or keeps_gaps(document.options.sizes, said)
-    if is_kept or not are_of_one_colour(document.items):
+    if is_kept or not run_together(document.items):
         return gap
     return one_colour_gap(container, len(document.items))
 

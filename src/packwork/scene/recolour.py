@@ -73,25 +73,27 @@ def has_one_colour(art: Art) -> bool:
         return False
 
 
-ALIKE = 0.9
-"""Share of the items in one colour from which a layout counts as of one colour. Chosen."""
+ALIKE = 1 / 6
+"""Chance that two items are of one colour, or copies, from which drawings run together. Derived:
+of six neighbours one is like the item."""
 
 
-def are_of_one_colour(items: Sequence[Item]) -> bool:
-    """Whether different drawings have nearly all one colour: neighbours that touch run together.
+def run_together(items: Sequence[Item]) -> bool:
+    """Whether of different drawings many neighbours are of one colour, or copies: two look as one.
 
     Examples
     --------
     >>> from packwork.readers.builtin import builtin_item
-    >>> are_of_one_colour([builtin_item("star"), builtin_item("star")])
+    >>> run_together([builtin_item("star"), builtin_item("star")])
     False
     """
     arts = Counter(item.art for item in items)
-    colours = Counter[tuple[int, int, int, int]]()
+    kinds = Counter[Art | tuple[int, int, int, int]]()
     for art, count in arts.items():
-        if (colour := one_colour(art)) is not None:
-            colours[colour] += count
-    return len(arts) > 1 and max(colours.values(), default=0) >= ALIKE * len(items)
+        if not isinstance(art, PhotoArt):
+            kinds[one_colour(art) or art] += count
+    alike = sum(count * (count - 1) for count in kinds.values())
+    return len(arts) > 1 and alike >= ALIKE * len(items) * (len(items) - 1)
 
 
 def one_colour(art: Art) -> tuple[int, int, int, int] | None:

@@ -23,7 +23,7 @@ from packwork.pipeline.plan.limits import pinned_scales
 from packwork.pipeline.plan.plan import VoidPlan
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.scene.layout import Layout
-from packwork.scene.recolour import are_of_one_colour
+from packwork.scene.recolour import run_together
 
 _LOG = logging.getLogger("packwork")
 
@@ -150,7 +150,7 @@ class TellOneColour(RunStep):
     def run(self, state: RunState, context: RunContext) -> RunState:
         """State with the advice."""
         layout, _ = state.measured
-        is_one = are_of_one_colour(layout.items) and _touch(layout)
+        is_one = run_together(layout.items) and _touch(layout)
         return state.with_finding(Sentence.RUN_TOGETHER) if is_one else state
 
 

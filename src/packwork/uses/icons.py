@@ -23,7 +23,7 @@ from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item, PhotoArt
-from packwork.scene.recolour import are_of_one_colour
+from packwork.scene.recolour import run_together
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture, blurred
 from packwork.steps.close_gap import RemarkApart
@@ -196,7 +196,7 @@ def runs_together(job: Job) -> bool:
         return False
     # Lines in a palette's colours that touch look tangled too, and it may be of one.
     has_others = job.target is not None or any(one.values for one in job.asked)
-    return not has_others and are_of_one_colour(job.items)
+    return not has_others and run_together(job.items)
 
 
 def keeps_gaps(sizes: str, asked: Mapping[str, Any]) -> bool:
