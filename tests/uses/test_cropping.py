@@ -13,11 +13,12 @@ from PIL import Image
 from packwork import uses
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
+from packwork.pipeline.findings import Sentence
 from packwork.pipeline.result import Run
 from packwork.readers.layouts.read import read_written
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
-from packwork.uses.photos import rim
+from packwork.uses.photos import crop, rim
 from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SheetSize, SvgOptions, svg_document
 from scenes import square
@@ -123,3 +124,19 @@ def test_items_round_which_nothing_changes_are_looked_at_once(
     rim.spread_to(shapely.box(0, 0, 96, 60), tiles, start, most, free, 0.01, 0.3)
     # Each grows once or twice; six rounds would be six tries for each.
     assert len(tries) < 4 * count
+
+
+def test_each_photo_is_placed_where_less_of_a_rim_does(
+    album: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Of a photo that is cut at all, less than this is seen.
+    monkeypatch.setattr(crop, "LEAST_SEEN", 0.999)
+    recipe = uses.photos_recipe("circle", [str(album)], **QUICK)
+    found = uses.fill(recipe)
+    assert not found.unplaced
+    # One is 7 % smaller than the even sizes they are first placed at, which nobody asked for.
+    assert not [said for said in found.findings if said.sentence is Sentence.SMALL]
+    monkeypatch.setattr(crop, "DEPTHS", crop.DEPTHS[:1])
+    lost = uses.fill(recipe).unplaced
+    assert lost
+    assert all("--edge inside" in one.reason for one in lost)

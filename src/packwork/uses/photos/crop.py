@@ -31,10 +31,11 @@ from packwork.units import parse_length
 from packwork.uses.cutting import Cut, cut
 from packwork.uses.photos.rim import spread_to
 
-DEPTHS = (0.45, 0.35, 0.25)
+DEPTHS = (0.45, 0.35, 0.25, 0.1, 0.0)
 """Widths by which the container is grown before items are placed, over the side of a typical
-item, one after another until no item is lost. Larger leaves less of the edge bare and cuts more
-off the items there, smaller the other way round. Tried by eye."""
+item, one after another until no item is lost: at the last all lie inside before they are spread.
+Larger leaves less of the edge bare and cuts more off the items there, smaller the other way round.
+Tried by eye."""
 
 ANOTHER_TRY = 0.3
 """Share of the bar that is kept for another such try. Larger leaps at the end of a run that needs
@@ -214,7 +215,10 @@ Listed: TypeAlias = Callable[[Job], Sequence[RunStep]]
 
 @final
 class CropAtEdge(RunStep):
-    """Items that cover the container's edge, cut at its line; none is lost if that can be."""
+    """Items that cover the container's edge, cut at its line; none is lost if that can be.
+
+    Small sizes are not told of: they were of more even sizes, and have changed since.
+    """
 
     def __init__(self, job: Job, listed: Listed) -> None:
         self._listed = listed
@@ -246,6 +250,7 @@ class CropAtEdge(RunStep):
             job=found.job,
             poses=found.poses,
             unplaced=gone,
+            small=None,
             filling=refilled(solved, found),
             left_out=len(gone),
             numbers=solved.numbers[found.kept],
@@ -276,7 +281,7 @@ def lost(found: Cropped, placed: RunState) -> tuple[Unplaced, ...]:
     """Items, fillers not among them, of which too little would be seen."""
     items, ids, given = placed.job.items, placed.numbers, len(placed.asked_for.items)
     gone = np.setdiff1d(np.arange(len(items)), found.kept)
-    reason = "less than a third of it would lie in the container"
+    reason = "less than a third of it would lie in the container; --edge inside places it whole"
     return tuple(Unplaced(items[k].name, int(ids[k]), reason) for k in gone if ids[k] < given)
 
 
