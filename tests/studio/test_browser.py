@@ -607,6 +607,15 @@ def test_what_a_finger_meets_is_large_enough(open_desk: Callable[..., Desk]) -> 
         )
 
 
+def test_a_finger_names_the_document(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk(PHONE, has_touch=True, is_mobile=True)
+    desk.page.on("dialog", lambda asked: asked.accept("of my own"))
+    desk.page.locator("#files").tap()
+    desk.page.get_by_role("menuitem", name="Rename").tap()
+    desk.until("studio.collage.scene.title === 'of my own'")
+    desk.undo_all()
+
+
 @pytest.mark.parametrize("size", [PHONE, {"width": 1024, "height": 768}], ids=["phone", "tablet"])
 def test_nothing_reaches_out_of_the_window(
     open_desk: Callable[..., Desk], size: dict[str, int]

@@ -154,6 +154,7 @@ function files(studio) {
   return [
     { id: "export", group: "File", label: "Export", keys: ["Mod+E"], icon: "export", when: () => studio.collage.hasPoses, run: () => studio.exporting.open() },
     { id: "new", group: "File", label: "New, or a recent one", keys: ["Shift+N"], run: () => studio.start.open() },
+    { id: "rename", group: "File", label: "Rename …", keys: ["F2"], when: () => studio.collage.hasPoses, run: () => studio.rename() },
     { id: "save", group: "File", label: "Save a copy as a session", keys: ["Mod+S"], when: () => studio.collage.hasPoses, run: () => studio.exporting.download("packwork", {}) },
     { id: "add", group: "File", label: "Open or add files", keys: ["Mod+O"], icon: "file", run: () => studio.dropping.choose() },
     { id: "folder", group: "File", label: "Add a folder", keys: ["Mod+Shift+O"], run: () => studio.dropping.chooseFolder() },

@@ -7,7 +7,7 @@ import { shownKey } from "./keys.js";
 /** @typedef {import("./actions.js").Action} Action */
 
 const OF_ITEMS = ["inspect", "hold", "release", "middle", "copy", "cut", "paste", "duplicate", "flip", "flip-down", "crop", "replace", "exchange", "remove", "alike", "chosen"];
-const OF_FILES = ["new", "add", "folder", "save", "export"];
+const OF_FILES = ["new", "add", "folder", "rename", "save", "export"];
 const OF_NOTHING = ["paste", "add", "folder", "room", "all", "lasso", "pour", "fit", "export"];
 
 export class Menu {

@@ -347,6 +347,12 @@ export class Studio {
     this.themed();
   }
 
+  /** Ask for the document's name: a phone has no room for its field. */
+  rename() {
+    const title = prompt("Name of the document", this.collage.scene?.title ?? "")?.trim().slice(0, 200);
+    if (title) this.connection.do({ kind: "entitle", title });
+  }
+
   pour() {
     this.connection.send({ type: "pour", seed: Math.floor(Math.random() * 2 ** 31) });
   }
