@@ -290,6 +290,17 @@ def test_lengths_of_lines_and_what_is_left_over_are_told(shop: Path, packwork: C
     assert "no room for ring*1, 628.3 mm² in all" in told
 
 
+def test_rows_stand_together_so_that_the_rest_is_one_piece(shop: Path, packwork: Command) -> None:
+    """The fourth row lay at the sheet's far edge; a strip between it and the others was lost."""
+    (shop / "rect.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="180mm" height="90mm" viewBox="0 0 180 90">'
+        '<path d="M0 0H180V90H0z"/></svg>',
+        encoding="utf-8",
+    )
+    result = packwork("nest 600x400mm rect.svg*12 --kerf 2mm --passes 1 -o a.svg")
+    assert "left over: 52 x 400 mm and 548 x 30 mm" in " ".join(result.output.split())
+
+
 @pytest.mark.parametrize(
     ("sheet", "size", "unit"),
     [

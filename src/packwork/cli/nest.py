@@ -41,7 +41,8 @@ class NestOptions(Options):
     """Angles in degrees: the only ones, as 0,180; free; none; 30: nine up to 30 off."""
 
     kerf: str = "0"
-    """Distance of parts, and from the sheet's edge, as 2mm: the tool's width."""
+    """Distance of parts, and from the sheet's edge, as 2mm: the tool's width. Lines are not
+    offset."""
 
     tool: str = "0"
     """Diameter of a mill's tool, as 6mm: --kerf is as much at least, and places that it cannot
@@ -281,7 +282,7 @@ def _summary(found: NestedSheets, sheet: Sheet, certified: bool) -> str:
 
 
 def _lines(found: NestedSheets, sheet: Sheet) -> str:
-    """Lengths of lines, for the machine's time, and what is left of the last sheet."""
+    """Lengths of lines, for the machine's time, and what is left over of the last sheet."""
     cut, engraved = (f"{length:,.1f} {sheet.unit}" for length in found.line_lengths)
     said = f"to cut: {cut}" + (f"; to engrave: {engraved}" if found.line_lengths[1] else "")
     rest = "" if sheet.is_strip or not found.sheets else found.sheets[-1].rest

@@ -31,6 +31,9 @@ from packwork.separation.shapes import Floats
 from packwork.units import Unit
 from packwork.writers.placements import line_lengths, turned_over
 
+SLIVER = 0.01
+"""Share of a sheet's height up to which what lies below its parts is not told."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SheetPart:
@@ -118,12 +121,13 @@ class Sheet:
 class NestedSheet:
     """One sheet with the parts on it.
 
-    ``length``: how far from its left edge it is used, in its unit.
+    ``length``, ``height``: how far from its left and its top edge it is used, in its unit.
     """
 
     layout: Layout
     metrics: LayoutMetrics
     length: float
+    height: float
     faults: tuple[str, ...]
     certified: bool
 
@@ -141,13 +145,18 @@ class NestedSheet:
 
     @property
     def rest(self) -> str:
-        """Size of a rectangle, or area, of the sheet right of its used length; empty for none."""
+        """Sizes of what lies right of its used length and below its parts; empty for nothing.
+
+        Of a sheet that is no rectangle, the area of the former.
+        """
         ground = self.layout.container
-        if not self.rest_area:
-            return ""
-        if ground.outline.region.equals(box(0.0, 0.0, ground.width, ground.height)):
-            return f"{ground.width - self.length:.6g} x {ground.height:.6g} {ground.unit}"
-        return f"{self.rest_area:,.1f} {ground.unit}²"
+        if not ground.outline.region.equals(box(0.0, 0.0, ground.width, ground.height)):
+            return f"{self.rest_area:,.1f} {ground.unit}²" if self.rest_area else ""
+        right, below = ground.width - self.length, ground.height - self.height
+        pieces = [(right, ground.height)] if self.rest_area else []
+        if below > SLIVER * ground.height:
+            pieces.append((self.length, below))
+        return " and ".join(f"{w:.6g} x {h:.6g} {ground.unit}" for w, h in pieces)
 
     @property
     def density(self) -> float:
@@ -265,9 +274,10 @@ def rotation_text(angles: tuple[float, ...] | None) -> str:
 def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any]) -> NestedSheet:
     """A sheet, measured; ``edge``: distance that parts keep from its edge."""
     regions = [outline.region for outline in layout.outlines]
-    length = layout.container.width
+    length, height = layout.container.width, layout.container.height
+    _, _, right, bottom = shapely.total_bounds(regions)
     if about["sheet_length"] is not None:
-        length = min(shapely.total_bounds(regions)[2] + edge, length)
+        length, height = min(right + edge, length), min(bottom + edge, height)
     used = {**about, "parts": len(regions), "length": float(length), **layout.manifest}
     manifest = {"promised": asdict(promise), "nest": used, "seed": about["seed"]}
     layout = replace(layout, manifest=manifest)
@@ -282,4 +292,4 @@ def measured(layout: Layout, promise: Promise, edge: float, about: dict[str, Any
     if nearest < margin - ROUNDING * layout.container.side:
         faults += (f"a part is {nearest:.3g} {unit} from the edge instead of {margin:.3g} {unit}",)
     certified = not faults and not unclean(promise, layout, metrics.exact)
-    return NestedSheet(layout, metrics, float(length), faults, certified)
+    return NestedSheet(layout, metrics, float(length), float(height), faults, certified)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import shapely
+from shapely.geometry import box
 
 from packwork.compaction.outer_simplify import inner_simplified
 from packwork.errors import RecipeError
@@ -23,7 +24,8 @@ from packwork.metrics.certificate import HAIR, Promise
 from packwork.phrasing import enumerated
 from packwork.separation.container import SquareGround, SquareSearch
 from packwork.separation.ground import Ground
-from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, spare
+from packwork.separation.push import pushed
+from packwork.separation.shapes import FREE_TURNS, Part, boxes_of, placed, spare
 from packwork.separation.strip import StripSearch, WorkBound
 from packwork.separation.windows import (
     EMPTIEST,
@@ -129,6 +131,7 @@ def nest(
             lay = _lay_at_once
         on_it = lay(kept, height, seed=seed, workers=workers, work=work, stop=stop)
         kinds, missing = [0], Counter[int]()
+        on_it = _together(kept, on_it, FreeSheet(_as_long(kept, on_it, height)))
         laid = [replace(on_it, poses=on_it.poses + np.array([inset, inset, 0.0, 0.0]))]
     else:
         usable = [_usable(sheet, inset) for sheet in sheets]
@@ -141,6 +144,7 @@ def nest(
         laid, missing = lay_on_sheets(
             kept, free, seed=seed, workers=workers, work=work, stop=stop
         )  # fmt: skip
+        laid = [_together(kept, one, free[one.sheet]) for one in laid]
     about["passes"] = work.done
     by_sheet = {one.sheet: one for one in laid}
     found = list[NestedSheet]()
@@ -203,6 +207,23 @@ def _lay_at_once(
     strip = search(parts, ground, seed=seed, workers=workers, work=work, stop=stop)
     poses = strip.run().poses
     return LaidSheet(0, tuple(strip.problem.shape_of.tolist()), poses)
+
+
+def _together(parts: Sequence[Part], laid: LaidSheet, ground: FreeSheet) -> LaidSheet:
+    """A sheet whose parts are pushed together, so that what is left over is one piece."""
+    regions = _regions(parts, laid)
+    ways = pushed(regions, ground.region, ground.held)
+    return replace(laid, poses=laid.poses + np.pad(ways, ((0, 0), (0, 2))))
+
+
+def _regions(parts: Sequence[Part], laid: LaidSheet) -> list[Region]:
+    return [placed(parts[n].region, pose) for n, pose in zip(laid.kinds, laid.poses, strict=True)]
+
+
+def _as_long(parts: Sequence[Part], laid: LaidSheet, height: float) -> Region:
+    """As much of a strip, or of a square, as its parts take."""
+    _, _, right, bottom = shapely.total_bounds(_regions(parts, laid))
+    return box(0.0, 0.0, right, min(height, bottom))
 
 
 def _check(parts: Sequence[SheetPart], sheets: Sequence[Sheet]) -> None:

@@ -9,11 +9,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from shapely.geometry import box
 
+from packwork.geometry.polygon import Region
 from packwork.geometry.rectangles import exact_boxes
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.line_art import LineArt
-from packwork.separation.best_fit import best_fit
+from packwork.separation.best_fit import Placed, best_fit
+from packwork.separation.push import pushed
 from packwork.separation.windows import LaidSheet
 from packwork.uses.nested import Sheet, SheetPart
 
@@ -88,11 +91,26 @@ def tiling_of(
                 for one in placed
             ]),
         )
-        for k, placed in enumerate(found.sheets)
+        for k, placed in enumerate(_together(on_it, sizes, room) for on_it in found.sheets)
     )  # fmt: skip
     straight = tuple(replace(one, item=replace(one.item, coarseness=0.0)) for one in parts)
     missing = Counter({kind: count for kind, count in enumerate(found.left) if count})
     return Tiling(laid, missing, straight, is_least)
+
+
+def _together(
+    placed: Sequence[Placed], sizes: Sequence[Sequence[tuple[float, float]]],
+    room: tuple[float, float],
+) -> list[Placed]:  # fmt: skip
+    """Rectangles, pushed together."""
+    boxes = list[Region]()
+    for one in placed:
+        w, h = sizes[one.kind][one.turn]
+        boxes.append(box(one.x, one.y, one.x + w, one.y + h))
+    length = min(room[0], max(one.bounds[2] for one in boxes))
+    ways = pushed(boxes, box(0.0, 0.0, length, room[1]))
+    return [replace(one, x=one.x + x, y=one.y + y)
+            for one, (x, y) in zip(placed, ways.tolist(), strict=True)]  # fmt: skip
 
 
 def _right_angles(angles: tuple[float, ...] | None) -> list[float]:
