@@ -131,12 +131,18 @@ def test_each_photo_is_placed_where_less_of_a_rim_does(
     # Of a photo that is cut at all, less than this is seen.
     monkeypatch.setattr(crop, "LEAST_SEEN", 0.999)
     recipe = uses.photos_recipe("circle", [str(album)], **QUICK)
-    found = uses.fill(recipe)
-    assert not found.unplaced
-    # One is smaller than the even sizes they are first placed at, which nobody asked for.
-    told = (*found.broken, *found.remarks, *found.advice)
-    assert not [line for line in told if "--size-ratio" in line]
+    assert not uses.fill(recipe).unplaced
     monkeypatch.setattr(crop, "DEPTHS", crop.DEPTHS[:1])
     lost = uses.fill(recipe).unplaced
     assert lost
     assert all("--edge inside" in one.reason for one in lost)
+
+
+def test_few_photos_that_do_not_show_the_shape_are_told_of_the_cut(album: Path) -> None:
+    run = uses.fill(uses.photos_recipe("usa", [str(album)], **{**QUICK, "edge": "inside"}))
+    assert "--edge crop" in " ".join(run.advice)
+    assert "-n " in " ".join(run.advice)
+    cut = uses.fill(uses.photos_recipe("usa", [str(album)], **QUICK))
+    told = (*cut.broken, *cut.remarks, *cut.advice)
+    # One is smaller than the even sizes they are first placed at, which nobody asked for.
+    assert not [line for line in told if "--edge" in line or "--size-ratio" in line]

@@ -68,6 +68,7 @@ class Sentence(Enum):
         "it is lines {width:.2g} {unit} wide; wider ones, or what they enclose, would show",
     )
     MORE_ITEMS = Told.PART, "-n {count} would show it"
+    CROPPED = Told.PART, "--edge crop, which cuts photos at its line, would show more of it"
     PLAINER = Told.PART, "a container of fewer and larger parts would show"
     FREE_SIZES = Told.PART, "--sizes free would show it"
     FREE_AND_MORE = Told.PART, "--sizes free -n {count} would show it"

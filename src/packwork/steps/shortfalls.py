@@ -175,11 +175,11 @@ def advice(job: Job, count: int, seen: ShapeMetrics) -> Finding | None:
         remedy = Sentence.OTHER_CONTAINER.of(width=lines, unit=job.container.unit)
     else:
         own = job.use.inner.remedy(job)
-        remedy = _remedy(job, count) if own is None else own
+        remedy = usual_remedy(job, count) if own is None else own
     return Finding(Sentence.POOR_SHAPE, {"poor": poor, "remedy": remedy}) if remedy else None
 
 
-def _remedy(job: Job, count: int) -> str:
+def usual_remedy(job: Job, count: int) -> str:
     """Remedy for a shape that does not show, in the words of the options; empty if none helps."""
     plan = job.plan
     needed = items_needed(job.container, "free", plan.size_ratio).count

@@ -16,6 +16,7 @@ from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.steps.lay_grid import TILES, LayGrid, hardly_shown
+from packwork.steps.shortfalls import usual_remedy
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer, material_of
 from packwork.uses.letters import copies_for_letters
@@ -93,6 +94,19 @@ class PhotosUse(Use):
             kinds, total = self.repeated
             told.append(RemarkRepeated(kinds, total))
         return told
+
+    def remedy(self, job: Job) -> str | None:
+        """Photos cut at the container's line, where they may be, or more of them."""
+        photos = job.recipe.photos
+        if self.is_cut or photos is None:
+            return None
+        cut = photos.model_copy(update={"edge": "crop"})
+        try:
+            crops(job.recipe.model_copy(update={"photos": cut}))
+        except RecipeError:
+            return None
+        others = usual_remedy(job, len(job.items))
+        return "; ".join(filter(None, (Sentence.CROPPED.of(), others)))
 
 
 @final
