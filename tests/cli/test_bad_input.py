@@ -116,6 +116,7 @@ OPTIONS = [
     ("--pixels 99999999", "pixels: "),
     ("-o note.txt/out.svg", "a part of its path is a file"),
     ("-o out.tga", "'.tga' is not known; use one of .svg"),
+    ("-o out.pgn", "'.pgn' is not known; did you mean .png? use one of .svg"),
     ("-o out.tga", ".geojson, .json, .packwork"),
     ("-o out", "the name has no ending"),
     ("-o nothing.svg -o out.tga", "'.tga' is not known"),

@@ -135,6 +135,11 @@ def test_an_instance_is_nested_as_its_parts_may_lie(shop: Path, packwork: Comman
         ("nest , bracket.svg", "sheet: ',' names an empty one"),
         ("nest 600x400mm*1000000 bracket.svg", "a count has 6 digits at most, not 1000000"),
         ("nest 300mm bracket.svg*1000000", "a count has 6 digits at most, not 1000000"),
+        (
+            "nest 300mm bracket.svg*12x",
+            "a count is a whole number, as in bracket.svg*12, not '12x'",
+        ),
+        ("nest 300mm*2x bracket.svg", "300mm: a count is a whole number"),
         ("nest 300mm bracket.svg*0", "there is nothing to nest"),
         ("nest square bracket.svg*2001", "2,001 parts are more than 2,000"),
         ("nest 300mm nowhere.svg*3", "no such file"),

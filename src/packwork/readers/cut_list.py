@@ -11,7 +11,7 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.phrasing import MOST_NAMED, enumerated
 from packwork.readers.reading import exists
-from packwork.readers.tables.delimited import ENDINGS, TextTable, sheet_of_file
+from packwork.readers.tables.delimited import ENDINGS, UNICODE_TEXT, TextTable, sheet_of_file
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import SPREADSHEETS
 from packwork.readers.tables.workbook import ending_of
@@ -21,9 +21,6 @@ _LOG = logging.getLogger("packwork")
 
 MAX_LIST_BYTES = 4_000_000
 """Size of a list. Chosen: a thousand bytes for each of its rows."""
-
-UNICODE_TEXT = ".txt"
-"""Ending of a table with tabs in UTF-16, as Excel writes one with letters of all scripts."""
 
 MOST_ROWS = 4_000
 """Rows of a list. Chosen: more than there may be parts in a nest."""
@@ -125,6 +122,7 @@ def _rows(
     sheet: TextTable, lines: Iterator[tuple[int, list[str]]], columns: Sequence[str]
 ) -> Iterator[CutListRow]:
     folder = Path(sheet.file).parent
+    told = f"; {sheet.notice}" if sheet.notice else ""
     for count, (number, cells) in enumerate(lines, start=1):
         if count > MOST_ROWS:
             raise ReadError(sheet.file, f"has more than {MOST_ROWS:,} rows; give several lists")
@@ -142,7 +140,7 @@ def _rows(
         written = said.pop("count", "" if "count" in columns else "1")
         if not _COUNT.fullmatch(written):
             raise ReadError(
-                sheet.file, f"{where}: a count is a whole number from 0, not {written[:20]!r}"
+                sheet.file, f"{where}: a count is a whole number from 0, not {written[:20]!r}{told}"
             )
         yield CutListRow(
             file=str(file), count=int(re.split("[.,]", written)[0]), name=said.pop("name", ""),

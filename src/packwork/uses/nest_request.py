@@ -21,11 +21,12 @@ from packwork.readers.engraving import Engraving
 from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import SESSION, holds_layout, read_written
-from packwork.readers.reading import exists
+from packwork.readers.reading import exists, is_folder
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.line_art import LineArt
+from packwork.sources import names_like
 from packwork.units import Unit, canvas_size, convert, length_asked
 from packwork.uses.nested import Sheet, SheetPart
 
@@ -49,6 +50,7 @@ WITHIN_LIMIT = 4
 """Angles tried to each side where parts may turn within a limit."""
 
 _TIMES = re.compile(r"(?P<source>.+?)\s*\*\s*(?P<count>[0-9]+)")
+_LIKE_A_COUNT = re.compile(r"[0-9][^/\\.]*")
 _SIZED = re.compile(r"(?P<source>.+?)\s*@\s*(?P<side>[0-9.]+\s*[a-z]*)")
 
 RULES = ("rotate", "mirror", "optional", "priority", "together", "size")
@@ -70,10 +72,22 @@ def length_of(option: str, text: str, sheet: Sheet) -> float:
 def _counted(text: str) -> tuple[str, int | None]:
     """Source and count of ``part.svg*12``; None where no count is given."""
     met = None if exists(text) else _TIMES.fullmatch(text)
+    if met is None and "*" in text:
+        _check_no_count(text)
     if met and len(met["count"]) > _COUNT_DIGITS:
         count = met["count"][:20]
         raise ReadError(met["source"], f"a count has {_COUNT_DIGITS} digits at most, not {count}")
     return (met["source"], int(met["count"])) if met else (text, None)
+
+
+def _check_no_count(text: str) -> None:
+    """Refuse ``part.svg*12x``, which is a pattern of names that no file has."""
+    source, _, count = (part.strip() for part in text.rpartition("*"))
+    is_count = _LIKE_A_COUNT.fullmatch(count) or (count and exists(source))
+    if is_count and not is_folder(source) and not names_like(text):
+        raise ReadError(
+            source, f"a count is a whole number, as in {Path(source).name}*12, not {count[:20]!r}"
+        )
 
 
 SMOOTH = 0.3

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 
 from packwork.errors import RecipeError, WriteError
 from packwork.installed import command_to_install
+from packwork.phrasing import meant
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.palette import spot_inks_in
@@ -222,7 +223,8 @@ def _encoder(path: str | Path, *others: str) -> Encoder:
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
         if ending in INSTEAD:
             raise WriteError(path, f"{met}; {INSTEAD[ending]} does for the same; all are {known}")
-        raise WriteError(path, f"{met}; use one of {known}")
+        near = meant(ending, WRITERS)
+        raise WriteError(path, f"{met}; {near}{' ' if near else ''}use one of {known}")
     check_extra(path)
     return WRITERS[ending]
 

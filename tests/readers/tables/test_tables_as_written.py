@@ -52,6 +52,19 @@ def test_all_readers_read_what_excel_writes(encoding: str, tmp_path: Path) -> No
     assert read_weights(file) == AMOUNTS
 
 
+def test_unicode_text_of_excel_is_a_table_everywhere(tmp_path: Path) -> None:
+    file = tmp_path / "t.txt"
+    file.write_bytes("Land\tUmsatz\r\nSüd\t1.200,5\r\nOst\t87,25\r\n".encode("utf-16"))
+    sums = {"Süd": 1200.5, "Ost": 87.25}
+    asked = ChartOptions(data=str(file), size_by="Umsatz", label_by="Land")
+    assert amounts(read_chart(asked)) == sums
+    assert {word.text: word.weight for word in read_words(WordOptions(source=str(file)))} == sums
+    assert read_weights(file) == sums
+    # Indented prose is none, whatever its numbers.
+    file.write_text("\tA bear of 2\n\tand 7 bees\n", encoding="utf-8")
+    assert [word.text for word in read_words(WordOptions(source=str(file)))] == ["bear", "bees"]
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 @pytest.mark.parametrize(
     "above",

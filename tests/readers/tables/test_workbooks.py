@@ -7,13 +7,15 @@ from typing import Any
 
 import pytest
 
-from packwork.errors import ReadError
+from packwork.errors import PackworkError, ReadError
+from packwork.readers.charts import ChartOptions
 from packwork.readers.cut_list import read_cut_list
 from packwork.readers.tables.pairs import read_weights
 from packwork.readers.tables.table import read_table
 from packwork.readers.tables.workbook import MOST_BESIDES
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
+from packwork.uses.charts.marks import read_chart
 
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
 OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
@@ -73,6 +75,27 @@ def test_texts_formulas_and_gaps_of_the_first_sheet_that_is_shown(tmp_path: Path
     file = _book(tmp_path / "a.xlsx", {"Secret": "", "Sales": ROWS})
     table = read_table(file)
     assert table.rows == ({"name": "Peru", "kg": "2"}, {"name": "Chad", "kg": "0.5"})
+
+
+def test_formulas_that_nothing_has_computed_are_told(tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text("<svg/>", encoding="utf-8")
+    rows = (
+        "<row><c t='inlineStr'><is><t>file</t></is></c><c t='inlineStr'><is><t>count</t></is></c>"
+        "</row><row><c r='A2' t='inlineStr'><is><t>a.svg</t></is></c><c r='B2'><f>1+1</f><v/></c>"
+        "<c r='C2' t='str'><f>\"\"</f><v></v></c></row>"
+    )
+    file = _book(tmp_path / "a.xlsx", {"Sales": rows})
+    said = "1 cell is a formula without a saved value, as B2: open it in Excel or LibreOffice"
+    assert said in read_table(file).notices[0]
+    refusals = (
+        lambda: read_chart(ChartOptions(data=file, size_by="count")),
+        lambda: read_words(WordOptions(source=file)),
+        lambda: read_weights(file),
+        lambda: read_cut_list(file),
+    )
+    for refusal in refusals:
+        with pytest.raises(PackworkError, match=said):
+            refusal()
 
 
 def test_a_sheet_by_its_name_wherever_tables_are_read(tmp_path: Path) -> None:

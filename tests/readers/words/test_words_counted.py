@@ -489,12 +489,28 @@ def told(source: object, **options: object) -> str:
     return "; ".join(str(error) for error in ranked_words(asked).told)
 
 
-@pytest.mark.parametrize("text", ["bear,5\nfox,3\n", "word\tn\nbear\t5\nfox\t3", "w;n\nbear; 2,5"])
+@pytest.mark.parametrize("text", ["bear,5\nfox,3\n", "w;n\nbear; 2,5"])
 def test_a_table_that_is_read_as_a_text_is_told(tmp_path: Path, text: str) -> None:
     (tmp_path / "a.txt").write_text(text, encoding="utf-8")
     assert "looks like a table" in told(str(tmp_path / "a.txt"))
     assert "looks" not in told("Anna Bear\nHoney Street, 12\nForest, 1984")
     assert "looks" not in told("In the year, 1984\nthe bears, and the bees\ncame, 12 of them")
+
+
+def test_a_list_of_names_is_a_word_a_line() -> None:
+    names = "Anna\nBen\n\nOma  Ilse\nJean-Luc D’Arcy\nAnna\n"
+    assert counted(names) == {"Anna": 2, "Ben": 1, "Oma Ilse": 1, "Jean-Luc D’Arcy": 1}
+    assert "'Oma Ilse' is one word, as every line is" in told(names)
+    assert "Oma" in counted(names, regexp=r"\w+")
+    for text in (
+        "Let it rain\nlet the rain\nbe in me",  # verses
+        "Anna\nBen\nZoë",
+        "Oma Ilse is here now\nOpa Karl\nBen",
+        "Oma Ilse.\nOpa Karl\nBen",
+        "Oma Ilse\nBen",
+    ):
+        assert "is a list" not in told(text)
+        assert all(" " not in word for word in counted(text))
 
 
 def test_numbers_for_words_and_what_is_idle_for_a_table_are_told(tmp_path: Path) -> None:

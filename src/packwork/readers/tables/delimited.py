@@ -19,6 +19,9 @@ from packwork.readers.tables.format import TableFormat
 ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t", **dict.fromkeys(workbook.ENDINGS, "\t")}
 """What parts the cells of a line, by the file's ending, where the lines do not show it."""
 
+UNICODE_TEXT = ".txt"
+"""Ending of a table with tabs in UTF-16, as Excel writes one with letters of all scripts."""
+
 NAMES = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
 """Delimiters that are looked for, and what they are called."""
 
@@ -105,9 +108,10 @@ def sheet_of_file(file: str, most: int, asked: TableFormat) -> TextTable:
     ending, data = workbook.ending_of(file), read_bytes(path, most)
     if ending not in workbook.ENDINGS:
         return read_sheet(data, file, ending, asked)
-    text = workbook.text_of_sheet(data, path, name, check_size)
+    text, told = workbook.text_of_sheet(data, path, name, check_size)
     head = _head(_parted(_sample(text), "\t"))
-    return TextTable(file, text, "\t", notice=head.notice, head=head)
+    notice = "; ".join(filter(None, (told, head.notice)))
+    return TextTable(file, text, "\t", notice=notice, head=head)
 
 
 def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextTable:
@@ -125,7 +129,7 @@ def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextT
     if declared is not None:
         text, skipped = text[declared.end() :], 1
         said = said or declared[1]
-    delimiter = said or delimiter_of(text, file, ENDINGS.get(ending, ","))
+    delimiter = said or delimiter_of(text, file, {**ENDINGS, UNICODE_TEXT: "\t"}.get(ending, ","))
     head = _head(_parted(_sample(text), delimiter))
     notice = "; ".join(filter(None, (read.notice, head.notice)))
     return TextTable(file, text, delimiter, skipped, notice, head)
@@ -156,6 +160,21 @@ def delimiter_of(text: str, file: str, usual: str) -> str:
         return plain[0]
     wide = [mark for mark, rows in parted.items() if rows and len(rows[0]) > 1]
     return usual if usual in wide or not wide else wide[0]
+
+
+def is_parted_by_tabs(text: str) -> bool:
+    r"""Whether tabs part all lines into equally many cells, with a column of numbers.
+
+    Examples
+    --------
+    >>> is_parted_by_tabs("land\tkg\nPeru\t2\n"), is_parted_by_tabs("\tA bear,\n\tand 2 bees\n")
+    (True, False)
+    """
+    rows = _rows_below(_parted(_sample(text), "\t"))
+    if len(rows) < 2 or not _is_even(rows):
+        return False
+    columns = ([cell for cell in column if cell] for column in zip(*rows[1:], strict=False))
+    return any(column and all(map(is_number_like, column)) for column in columns)
 
 
 def _sample(text: str) -> str:

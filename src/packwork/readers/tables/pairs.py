@@ -235,7 +235,9 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
     twice = []
     for pair in table.rows:
         if not pair.is_sound:
-            raise ReadError(path, f"{pair.where}: {pair.wanted('name')}")
+            raise ReadError(
+                path, "; ".join((f"{pair.where}: {pair.wanted('name')}", *table.notices))
+            )
         if pair.name in weights:
             twice.append(f"{pair.name[:40]!r} ({pair.where})")
         known = weights.setdefault(pair.name, pair.number)

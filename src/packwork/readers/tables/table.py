@@ -15,6 +15,7 @@ from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import (
     ENDINGS,
     MOST_ROWS,
+    UNICODE_TEXT,
     TextTable,
     check_size,
     sheet_of_file,
@@ -104,7 +105,7 @@ def _may_be_number(cell: Any) -> bool:
 def read_table(
     data: str | Sequence[Row], asked: TableFormat | None = None, needed: Iterable[str] = ()
 ) -> Table:
-    """Table of a file (.csv, .tsv, .xlsx, .json, .parquet), or of rows.
+    """Table of a file (.csv, .tsv, .xlsx, .txt, .json, .parquet), or of rows.
 
     Of large files the columns that are ``needed`` are read in any case.
 
@@ -122,7 +123,7 @@ def read_table(
         return _table(data, [plain_row(row) for row in rows])
     if ending == JSON:
         return _table(data, _rows_of_json(read_json(data, said), data))
-    if ending in ENDINGS:
+    if ending in {*ENDINGS, UNICODE_TEXT}:
         sheet = sheet_of_file(data, MAX_TABLE_BYTES, said)
         table = _table(data, _rows_of_sheet(sheet))
         usual = "." if sheet.delimiter == "," else ""

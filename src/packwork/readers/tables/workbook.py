@@ -20,7 +20,7 @@ from typing import Literal, NamedTuple, NoReturn, TypeAlias, final
 from xml.parsers import expat
 
 from packwork.errors import ReadError
-from packwork.phrasing import enumerated
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import exists
 
 ENDINGS = (".xlsx", ".xlsm")
@@ -59,6 +59,7 @@ class _Cell(NamedTuple):
     column: int
     kind: str
     style: int
+    name: str = ""
 
 
 def parted(file: str) -> tuple[str, str]:
@@ -87,8 +88,10 @@ def ending_of(file: str) -> str:
 
 def text_of_sheet(
     data: bytes, file: str, sheet: str, check: Callable[[str, int, int], None]
-) -> str:
-    """Cells of one sheet, parted by tabs, in the rows in which they stand.
+) -> tuple[str, str]:
+    """Cells of one sheet, parted by tabs, in the rows in which they stand; what has to be told.
+
+    That is empty, or names cells of formulas that no program has computed yet.
 
     Parameters
     ----------
@@ -120,8 +123,8 @@ class _Workbook:
     def __init__(self, archive: zipfile.ZipFile, file: str) -> None:
         self._archive, self._file = archive, file
 
-    def text(self, wanted: str, check: Callable[[str, int, int], None]) -> str:
-        """Lines of a sheet by its name."""
+    def text(self, wanted: str, check: Callable[[str, int, int], None]) -> tuple[str, str]:
+        """Lines of a sheet by its name, and a sentence about its formulas."""
         main = next(
             target for kind, target in self._targets("").values() if kind == "officeDocument"
         )
@@ -152,7 +155,7 @@ class _Workbook:
         shown = self._shown(others["styles"]) if "styles" in others else []
         reader = _SheetReader(self._file, texts, shown, since_1904, check)
         self._parse(parts[wanted or first], reader.start, reader.end, reader.letters, MOST_UNPACKED)
-        return reader.text
+        return reader.text, reader.notice
 
     def _targets(self, part: str) -> dict[str, tuple[str, str]]:
         """Kinds and names of parts that a part refers to, by their marks."""
@@ -304,11 +307,24 @@ class _SheetReader:
         self._cell = _Cell(0, "n", 0)
         self._parts: list[str] | None = None
         self._at = self._rows = self._cells = self._letters = 0
+        self._has_formula = False
+        self._uncomputed: list[str] = []
 
     @property
     def text(self) -> str:
         """Lines so far."""
         return self._lines.getvalue()
+
+    @property
+    def notice(self) -> str:
+        """Sentence about formulas without a saved value; empty if there are none."""
+        if not self._uncomputed:
+            return ""
+        cells = number_of(len(self._uncomputed), "cell is a formula", "cells are formulas")
+        return (
+            f"{cells} without a saved value, as {self._uncomputed[0]}: open it in Excel or "
+            "LibreOffice, and save it there"
+        )
 
     def start(self, name: str, told: Mapping[str, str]) -> None:
         """Begin a row, a cell, or a cell's value."""
@@ -327,7 +343,11 @@ class _SheetReader:
                     column = 26 * column + ord(letter) - ord("A") + 1
             if column > MOST_COLUMNS:
                 raise ValueError(f"it has a column {column:,}")
-            self._cell = _Cell(column, told.get("t", "n"), int(told.get("s", 0)))
+            name = told.get("r", f"one of row {self._at}")
+            self._cell = _Cell(column, told.get("t", "n"), int(told.get("s", 0)), name[:10])
+            self._has_formula = False
+        elif name == "f":
+            self._has_formula = True
         elif name in {"v", "t"}:
             self._parts = [] if self._parts is None else self._parts
 
@@ -346,6 +366,11 @@ class _SheetReader:
             self._letters += len(text)
             if self._letters > MOST_LETTERS:
                 raise ReadError(self._file, f"has more than {MOST_LETTERS:,} letters; give fewer")
+        elif name == "c":
+            # A formula may give an empty text, whose kind is told.
+            is_empty = self._cell.kind != "str" and not self._row.get(self._cell.column)
+            if self._has_formula and is_empty:
+                self._uncomputed.append(self._cell.name)
         elif name == "row":
             width = max(self._row, default=0)
             self._rows, self._cells = self._rows + bool(width), self._cells + width

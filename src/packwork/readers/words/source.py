@@ -14,10 +14,11 @@ from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, check_no_document, decoded
-from packwork.readers.tables.delimited import ENDINGS
+from packwork.readers.tables.delimited import ENDINGS, UNICODE_TEXT, is_parted_by_tabs
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.tables.workbook import ending_of
+from packwork.readers.words.lists import listed_names, told_of
 from packwork.readers.words.options import Word, WordOptions, sound
 from packwork.readers.words.plurals import without_clitics, without_plurals
 from packwork.readers.words.table import MAX_BYTES, read_word_table
@@ -188,12 +189,13 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
 def _words(options: WordOptions, asked: TableFormat) -> Ranked:
     source, columns = options.source, PairColumns(options.label_by, options.size_by)
     stops = own_words(options.stopwords)
-    if any(columns) and (isinstance(source, dict) or not _is_table(source)):
+    is_table = not isinstance(source, dict) and _is_table(source, asked)
+    if any(columns) and not is_table:
         key = "label_by" if options.label_by else "size_by"
         raise RecipeError(key, "names a column; give a table with columns, not a text or weights")
     if isinstance(source, dict):
         read = Ranked(tuple(Word(word, weight) for word, weight in source.items()))
-    elif _is_table(source):
+    elif is_table:
         read = _rows(source, asked, columns)
     else:
         text = _text(source, asked)
@@ -233,7 +235,11 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
     if language == "auto":
         language = guess_language(count_forms(found)) or "none"
     codes = [code.strip().lower() for code in language.split(",")]
-    if options.regexp is None:
+    is_plain = options.regexp is None and options.phrases == 1
+    names = listed_names(text) if is_plain else []
+    if names:
+        found = [names]
+    elif options.regexp is None:
         bare = [without_clitics(words, codes) for words in found]
         if not options.include_numbers:
             bare = [[word for word in words if not is_number(word)] for words in bare]
@@ -268,6 +274,8 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
         raise ReadError(_name(options), _why_none(counts, kept, options))
     said = tuple(written[word] for word in stopped)
     told = _unmet(options, written)
+    if names:
+        told += (ReadError(_name(options), told_of(names)),)
     return Ranked(tuple(words), told, said, found)
 
 
@@ -345,9 +353,13 @@ def _piped(most: int) -> bytes:
         raise ReadError("standard input", f"cannot be read: {error.strerror}") from None
 
 
-def _is_table(source: str) -> bool:
-    is_name = len(source) < 1_000 and "\n" not in source
-    return is_name and ending_of(source) in {".json", *ENDINGS}
+def _is_table(source: str, asked: TableFormat) -> bool:
+    if len(source) >= 1_000 or "\n" in source:
+        return False
+    ending = ending_of(source)
+    if ending == UNICODE_TEXT and exists(source):
+        return is_parted_by_tabs(_text(source, asked).text)
+    return ending in {".json", *ENDINGS}
 
 
 def _merged(words: Iterable[Word]) -> list[Word]:

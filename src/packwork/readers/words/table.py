@@ -54,7 +54,8 @@ def words_of(table: Pairs, file: str, *, keeps_totals: bool = False) -> TableRea
     if odd and not sound:
         taken = f"; {table.taken}" if table.taken else ""
         instead = f", as {table.instead}" if table.instead else ""
-        raise ReadError(file, f"{odd[0].where}: {odd[0].wanted('word')}{taken}{instead}")
+        why = f"{odd[0].where}: {odd[0].wanted('word')}{taken}{instead}"
+        raise ReadError(file, "; ".join((why, *table.notices)))
     said: dict[str, list[Pair]] = {}
     for pair in odd:
         said.setdefault(_why(pair), []).append(pair)

@@ -172,7 +172,7 @@ def sizes(
         else:
             found[k] = value
     if not found:
-        raise RecipeError("size_by", _why_none(table, column, odd))
+        raise RecipeError("size_by", "; ".join((_why_none(table, column, odd), *table.notices)))
     return found, {
         left_out(table, column, why, which, label_by): why not in {"is missing", "is 0"}
         for why, which in odd.items()
