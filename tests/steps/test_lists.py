@@ -46,7 +46,7 @@ def test_few_icons_are_begun_upright_and_alike_first(options: dict[str, Any]) ->
 @pytest.mark.parametrize(
     ("options", "more"),
     [
-        ({"arrange": "right by=name", "items": ["star", "moon"]}, {"UnlessTight"}),
+        ({"arrange": "right by=name", "items": ["star", "moon"], "padding": "0"}, {"UnlessTight"}),
         ({"force": ["down"]}, {"UnlessTight"}),
         ({"apart": True}, {"KindsApart", "CountBeside"}),
         ({"palette": "okabe-ito"}, {"Dress"}),
@@ -71,9 +71,9 @@ def test_lines_are_looked_at_where_most_items_are_drawn_in_lines(tmp_path: Path)
     line, filled = tmp_path / "line.svg", tmp_path / "filled.svg"
     line.write_text('<svg><path d="M0 0h99" stroke="red"/></svg>', encoding="utf-8")
     filled.write_text('<svg><path d="M0 0h99v99z" stroke="red"/></svg>', encoding="utf-8")
-    found = names(items=[str(line), str(line), str(filled)])
+    found = names(items=[str(line), str(line), str(filled)], padding="0")
     assert set(found) - set(PLAIN) == {"TellLineWeights"}
-    assert names(items=[str(line), str(filled)]) == PLAIN
+    assert names(items=[str(line), str(filled)], padding="0") == PLAIN
     assert names(items=[str(line)], sizes="fixed").count("TellLineWeights") == 0
 
 
