@@ -9,10 +9,12 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 from typer.testing import Result
 
 import packwork as pw
@@ -293,6 +295,20 @@ def test_lengths_of_lines_and_what_is_left_over_are_told(shop: Path, packwork: C
     rest = f"{100 - said['length']:.6g} x 40 mm"
     assert f"to cut: 377.0 mm; to engrave: 6.0 mm; left over: {rest}" in told
     assert "no room for ring*1, 628.3 mm² in all" in told
+
+
+def test_parts_that_touch_have_edges_in_a_picture(shop: Path, packwork: Command) -> None:
+    (shop / "tile.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">'
+        '<path fill="#fc0" d="M0 0H20V20H0z"/></svg>',
+        encoding="utf-8",
+    )
+    packwork("nest 40x20mm tile.svg*2 --passes 1 -o a.png")
+    with Image.open(shop / "a.png") as picture:
+        row = np.asarray(picture.convert("RGB"))[picture.height // 2]
+    middle = len(row) // 2
+    assert row[middle - 3 : middle + 3].min(axis=0).max() < 60
+    assert row[middle // 2].tolist() == [255, 204, 0]
 
 
 def test_rows_stand_together_so_that_the_rest_is_one_piece(shop: Path, packwork: Command) -> None:

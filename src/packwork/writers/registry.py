@@ -67,14 +67,17 @@ class WriteOptions:
     def on_ground(self, layout: Layout) -> WriteOptions:
         """The same on the ground that a layout is to be seen on, if no background was asked for.
 
-        A nest is drawn as lines for a machine, unless other lines are to be cut.
+        A nest is drawn as lines for a machine, unless other lines are to be cut; in pixels, with
+        the edges of its parts, which may touch.
         """
         is_cut = self.svg.cut is not None and self.svg.cut.is_asked
-        own = replace(self, svg=replace(self.svg, lines=is_nest(layout) and not is_cut))
+        lines = is_nest(layout) and not is_cut
+        png = replace(self.png, edges=is_nest(layout))
+        own = replace(self, svg=replace(self.svg, lines=lines), png=png)
         if not layout.ground or not self.takes_ground:
             return own
         svg = replace(own.svg, background=layout.ground)
-        return replace(own, svg=svg, png=replace(self.png, background=layout.ground))
+        return replace(own, svg=svg, png=replace(own.png, background=layout.ground))
 
     def side_px(self, layout: Layout) -> int:
         """Longer side of a PNG or JPEG of a layout."""

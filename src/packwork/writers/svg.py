@@ -37,7 +37,7 @@ from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import PictureFrame
 from packwork.writers.options import TextChoice
 from packwork.writers.promise import finest, promised, stated_limits, stated_weights
-from packwork.writers.svg_lines import NAMESPACE, layer_attributes, line_layers
+from packwork.writers.svg_lines import NAMESPACE, edge_group, layer_attributes, line_layers
 from packwork.writers.svg_live_text import LiveWords
 from packwork.writers.svg_symbols import (
     element,
@@ -83,7 +83,7 @@ class SvgOptions:
     every copy in full, for tools that do not know ``use``. ``text`` is ``live`` for words that can
     be selected and found, in fonts that the file carries, ``outlines`` for curves. Lines for a
     cutter (``cut``) lie on top of all. Tiles are drawn ``tiles`` times each way. With ``lines``
-    items are lines for a machine.
+    items are lines for a machine. ``edges`` tells items that touch apart.
     """
 
     background: str | None = None
@@ -93,6 +93,7 @@ class SvgOptions:
     cut: CutOptions | None = None
     tiles: int = 1
     lines: bool = False
+    edges: bool = False
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -174,6 +175,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
         *_halos(layout, digits),
         *_container(layout, options, digits),
         *(_lines if options.lines else _items)(layout, shapes, digits, live, options),
+        *(edge_group(layout, digits) if options.edges else ()),
         *_images(layout, digits, flatten=options.flatten),
         *note_groups(layout),
         *([] if options.cut is None else cut_group(layout, options.cut, digits)),
@@ -270,15 +272,13 @@ def _backdrop(backdrop: Backdrop | None) -> list[str]:
 
 def _halos(layout: Layout, digits: int) -> list[str]:
     """Halos by which items stand out from a picture behind, under all of them."""
-    if not any(item.halo for item in layout.items):
-        return []
     width = f"{2 * HALO_SHARE * layout.container.side:.6g}"
-    drawn = []
-    for item, ink in zip(layout.items, layout.inks, strict=True):
-        if item.halo:
-            head = attributes({"fill": item.halo, "stroke": item.halo})
-            drawn.append(f'<path{head} d="{path_data(ink, digits)}"/>')
-    return [f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">', *drawn, "</g>"]
+    drawn = [
+        f'<path{attributes({"fill": one.halo, "stroke": one.halo})} d="{path_data(ink, digits)}"/>'
+        for one, ink in zip(layout.items, layout.inks, strict=True) if one.halo
+    ]  # fmt: skip
+    head = f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">'
+    return [head, *drawn, "</g>"] if drawn else []
 
 
 def container_line(container: Container, show: bool | None) -> tuple[bool, tuple[str, float]]:

@@ -46,6 +46,17 @@ SEEN = (
 """Lets browsers show lines that are too thin to be seen. Inkscape, which would print them as wide,
 knows no such conditions."""
 
+EDGE_COLOUR, EDGE_SHARE = "#1a202c", 1e-3
+"""Edges of parts in a picture: their width as a share of the sheet; thinner ones are faint."""
+
+
+def edge_group(layout: Layout, digits: int) -> list[str]:
+    """Edges of all items, for a picture."""
+    width = f"{layout.container.side * EDGE_SHARE:.6g}"
+    head = attributes({"fill": "none", "stroke": EDGE_COLOUR, "stroke-width": width})
+    return [f"<g{head}>", *(f'<path d="{path_data(one, digits)}"/>' for one in layout.outlines),
+            "</g>"]  # fmt: skip
+
 
 def line_layers(
     layout: Layout, places: Sequence[tuple[str, int]], names: Sequence[str],
