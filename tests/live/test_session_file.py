@@ -198,6 +198,28 @@ def test_what_was_done_before_a_crash_is_done_again(tmp_path: Path) -> None:
     assert len(pw.Session.open(file).document) == 10
 
 
+@pytest.mark.parametrize("kind", ["undo", "redo", "settle"])
+def test_what_is_no_gesture_is_in_the_file_once_the_journal_has_been_read(
+    tmp_path: Path, kind: str
+) -> None:
+    file = tmp_path / "work.packwork"
+    session = icons().edit()
+    session.move(0, 300, 300)
+    if kind == "redo":
+        session.undo()
+    session.save(file, journal=True)
+    getattr(session, kind)()
+    session.close()
+    with pw.Session.open(file, journal=True) as again:
+        assert is_equal(again.document, session.document)
+    assert is_equal(pw.Session.open(file).document, again.document)
+    session = pw.Session.open(file, journal=True)
+    # What follows goes on from there.
+    session.move(1, 310, 310)
+    session.close()
+    assert is_equal(pw.Session.open(file).document, session.document)
+
+
 def test_a_crash_between_the_file_and_its_journal_does_nothing_twice(tmp_path: Path) -> None:
     file, journal = tmp_path / "work.packwork", tmp_path / "work.packwork.log"
     icons().edit().save(file)

@@ -186,9 +186,10 @@ class Disk:
 
         A journal of which not all can be done is kept beside in a copy, if it goes on.
         """
-        gestures = 0
+        gestures, is_as_saved = 0, True
         try:
             for entry in entries:
+                is_as_saved = False
                 gestures += session.repeat((entry,))
         except (ReadError, RecipeError) as error:
             told = str(error) if isinstance(error, ReadError) else f"{self.journal}: {error}"
@@ -201,8 +202,8 @@ class Disk:
             many = number_of(gestures, "gesture")
             _LOG.warning("%s: %s done again that had not been saved", self.path, many)
         if self.is_journaled:
-            # What was recovered is written before anything new is done to it.
-            (self.save if gestures else self._begin)(session)
+            # What was recovered is written before anything new is done to it: an undo, too.
+            (self._begin if is_as_saved else self.save)(session)
 
     def _replaced(self) -> str:
         """Digest of the file that is to be replaced; empty if there is none."""
