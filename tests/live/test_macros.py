@@ -28,7 +28,7 @@ QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
 
 @pytest.fixture(scope="module")
 def icons() -> pw.Layout:
-    return pw.fill("circle", ["star", "heart", "hexagon"], count=9, **QUICK)
+    return pw.fill("circle", ["star", "heart", "hexagon"], count=9, padding="0", **QUICK)
 
 
 @pytest.fixture(scope="module")
