@@ -52,6 +52,7 @@ def test_a_recipe_says_how_its_film_is_made(folder: Path, packwork: Command) -> 
 @pytest.mark.parametrize(
     ("flags", "message"),
     [
+        ("--film a.gfi", "none of a film; did you mean .gif? use one of .svg"),
         ("--film a.png", "the ending '.png' is none of a film; use one of .svg, .gif"),
         ("--film a", "the name has no ending; use one of .svg"),
         ("--film a.gif --film-pixels 0", "--film-pixels: must be at least 16, not 0"),

@@ -106,6 +106,23 @@ def test_a_bar_has_one_part_of_a_mark_of_all_that_is_left_over() -> None:
     assert sum(values) == 6.0
 
 
+def test_rows_that_no_label_tells_may_be_joined_by_leaving_labels_out(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    names = ["Papua New Guinea and the islands around it"] * 3 + ["Peru"]
+    names = [f"{name} {k}" * 2 for k, name in enumerate(names)]
+    rows = {"year": [1, 1, 1, 2], "name": names, "kg": [1.5, 1.75, 0.5, 40.25]}
+    asked: dict[str, Any] = {"size_by": "kg", "unit": 1, "by": "year", **QUICK}
+    with caplog.at_level(logging.WARNING, "packwork"):
+        layout = pw.chart("none", rows, label_by="name", **asked)
+    assert labels(layout) == []
+    assert "each row leaves a part of a mark over: without label_by" in caplog.text
+    caplog.clear()
+    whole = pw.chart("none", rows, **asked)
+    assert len(whole.items) < len(layout.items)
+    assert "label_by" not in caplog.text
+
+
 def test_without_a_column_nothing_is_written_on_marks() -> None:
     assert labels(pw.chart("circle", ROWS, size_by="kg", **QUICK)) == []
 

@@ -56,6 +56,12 @@ INKS = ("#ffffff", "#1a202c", "#000000")
 """Colours of letters, the first that can be read is taken: black or white can be on any."""
 
 
+_JOINED = (
+    "; each row leaves a part of a mark over: without --label-by, rows of one group and colour "
+    "have one part in all"
+)
+
+
 @dataclass(frozen=True)
 class _Block:
     """A label in lines, of one em; its box about the middle of it."""
@@ -92,9 +98,10 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
     fitting = sum(rows.values())
     if fitting < len(rows):
         _LOG.warning(
-            "%d of %s on their marks; in SVG and HTML, %s shown where a pointer rests",
+            "%d of %s on their marks; in SVG and HTML, %s shown where a pointer rests%s",
             fitting, number_of(len(rows), "label fits", "labels fit"),
             "the others are" if fitting else "all are",
+            _JOINED if has_many and options.by is not None and not fitting else "",
         )  # fmt: skip
     return tuple(notes)
 

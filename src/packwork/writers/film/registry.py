@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from packwork.errors import WriteError
+from packwork.phrasing import meant
 from packwork.writers.atomic import check_writable
 from packwork.writers.film.animated_svg import animated_svg_bytes
 from packwork.writers.film.film import Film, Tell, in_frame, tell_nobody
@@ -59,6 +60,7 @@ def _encoder(path: str | Path) -> FilmEncoder:
     ending = Path(path).suffix.lower()
     if ending not in FILMS:
         met = f"the ending {ending!r} is none of a film" if ending else "the name has no ending"
-        raise WriteError(path, f"{met}; use one of {', '.join(FILMS)}")
+        near = meant(ending, FILMS)
+        raise WriteError(path, f"{met}; {near}{' ' if near else ''}use one of {', '.join(FILMS)}")
     check_extra(path)
     return FILMS[ending]
