@@ -10,7 +10,9 @@ import pytest
 from packwork.errors import PackworkError, ReadError
 from packwork.readers.charts import ChartOptions
 from packwork.readers.cut_list import read_cut_list
+from packwork.readers.tables import workbook
 from packwork.readers.tables.pairs import read_weights
+from packwork.readers.tables.shown import shown_by
 from packwork.readers.tables.table import read_table
 from packwork.readers.tables.workbook import MOST_BESIDES
 from packwork.readers.words.options import WordOptions
@@ -165,6 +167,35 @@ def test_what_unpacks_or_repeats_to_much_is_refused(tmp_path: Path) -> None:
     texts = " " * (MOST_BESIDES + 1)
     with pytest.raises(ReadError, match="unpacks to more than"):
         read_table(_book(tmp_path / "a.xlsx", {"S": ROWS}, texts=texts))
+
+
+@pytest.mark.parametrize(
+    ("limit", "made", "said"),
+    [
+        ("DEEPEST", {"sheets": {"S": "<a>" * 9 + "</a>" * 9}}, "nests elements more than 8 deep"),
+        ("MOST_PARTS", {"sheets": dict.fromkeys("abcdefghi", ROWS)}, "more than 8 sheets or parts"),
+        ("LONGEST_TAG", {"sheets": {"S": f"<row b='{'a' * 200_000}'/>"}}, "more than 8 bytes"),
+        ("MOST_NAMES", {"sheets": {"S": "<a/><b/><d/><e/><f/><g/><h/>"}}, "more than 8 names"),
+    ],
+)
+def test_what_the_parser_keeps_is_bounded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: str, made: dict[str, Any], said: str
+) -> None:
+    file = _book(tmp_path / "a.xlsx", **made)
+    monkeypatch.setattr(workbook, limit, 8)
+    with pytest.raises(ReadError, match=said):
+        read_table(file)
+
+
+def test_an_archive_that_names_no_workbook_is_told_as_such(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "a.xlsx", "w") as archive:
+        archive.writestr("_rels/.rels", "<Relationships/>")
+    with pytest.raises(ReadError, match="it names no part as its workbook"):
+        read_table(str(tmp_path / "a.xlsx"))
+
+
+def test_a_number_format_is_read_as_far_as_excel_keeps_one() -> None:
+    assert (shown_by("0" * 254 + "%"), shown_by("0" * 255 + "%")) == ("share", "number")
 
 
 def test_a_file_with_a_password_is_told_as_such(tmp_path: Path) -> None:

@@ -13,15 +13,15 @@ import posixpath
 import re
 import zipfile
 import zlib
-from collections.abc import Callable, Mapping, Sequence
-from datetime import datetime, timedelta
+from collections.abc import Callable, Mapping, Sequence, Sized
 from pathlib import Path
-from typing import Literal, NamedTuple, NoReturn, TypeAlias, final
+from typing import NamedTuple, NoReturn, TypeAlias, final
 from xml.parsers import expat
 
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import exists
+from packwork.readers.tables.shown import BUILT_IN, Shown, shown_by, written
 
 ENDINGS = (".xlsx", ".xlsm")
 
@@ -40,16 +40,18 @@ LONGEST_CELL = 32_767
 MOST_COLUMNS = 16_384
 """Columns of a sheet, as Excel has it."""
 
-Shown: TypeAlias = Literal["number", "share", "date", "time", "year"]
+DEEPEST = 100
+"""Elements within each other. Chosen."""
 
-_BUILT_IN: dict[int, Shown] = {
-    **dict.fromkeys((9, 10), "share"),
-    **dict.fromkeys((*range(14, 18), 22, *range(27, 37), *range(50, 59)), "date"),
-    **dict.fromkeys((*range(18, 22), *range(45, 48)), "time"),
-}
-"""Number formats that files name by their numbers alone."""
+MOST_PARTS = 10_000
+"""Sheets, and other parts that one part names. Chosen."""
 
-_QUOTED = re.compile(r'"[^"]*"|\\.|_.|\*.|\[[^\]]*\]')
+MOST_NAMES = 10_000
+"""Names of elements and attributes, which the parser keeps. Chosen."""
+
+LONGEST_TAG = 1 << 20
+"""Bytes of a tag or a remark, which the parser keeps whole. Chosen."""
+
 _REFERENCE = re.compile(r"([A-Z]{1,3})[0-9]+")
 
 _Start: TypeAlias = Callable[[str, Mapping[str, str]], None]
@@ -110,8 +112,8 @@ def text_of_sheet(
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return _Workbook(archive, file).text(sheet, check)
-    except (zipfile.BadZipFile, zlib.error, expat.ExpatError, EOFError, KeyError, ValueError,
-            IndexError, OverflowError, RuntimeError) as error:  # fmt: skip
+    except (zipfile.BadZipFile, zlib.error, expat.ExpatError, EOFError, LookupError,
+            ValueError, OverflowError, RuntimeError) as error:  # fmt: skip
         why = " ".join(str(error).split())[:80]
         raise ReadError(
             file, f"is no workbook of Excel ({why}); save the sheet as CSV (UTF-8) and give that"
@@ -126,8 +128,10 @@ class _Workbook:
     def text(self, wanted: str, check: Callable[[str, int, int], None]) -> tuple[str, str]:
         """Lines of a sheet by its name, and a sentence about its formulas."""
         main = next(
-            target for kind, target in self._targets("").values() if kind == "officeDocument"
+            (part for kind, part in self._targets("").values() if kind == "officeDocument"), ""
         )
+        if not main:
+            raise ValueError("it names no part as its workbook")
         sheets: list[Mapping[str, str]] = []
         since_1904 = False
 
@@ -135,6 +139,7 @@ class _Workbook:
             nonlocal since_1904
             if name == "sheet":
                 sheets.append(told)
+                self._count(sheets)
             elif name == "workbookPr":
                 since_1904 = told.get("date1904") in {"1", "true"}
 
@@ -166,6 +171,7 @@ class _Workbook:
             if element == "Relationship" and told.get("TargetMode") != "External":
                 target = posixpath.normpath(posixpath.join("/", folder, told["Target"]))[1:]
                 found[told["Id"]] = told["Type"].rpartition("/")[2], target
+                self._count(found)
 
         self._parse(posixpath.join(folder, "_rels", f"{name}.rels"), start)
         return found
@@ -207,7 +213,7 @@ class _Workbook:
                 is_of_cells = name == "cellXfs"
             elif name == "xf" and is_of_cells:
                 number = int(told.get("numFmtId", 0))
-                found.append(own.get(number, _BUILT_IN.get(number, "number")))
+                found.append(own.get(number, BUILT_IN.get(number, "number")))
 
         self._parse(part, start)
         return found
@@ -227,68 +233,43 @@ class _Workbook:
         parser = expat.ParserCreate(namespace_separator=" ")
         parser.buffer_text = True
         parser.StartDoctypeDeclHandler = _refuse
+        depth = 0
+
         # "namespace name", of elements and attributes alike.
-        parser.StartElementHandler = lambda name, told: start(
-            name.rpartition(" ")[2], {key.rpartition(" ")[2]: value for key, value in told.items()}
-        )
-        parser.EndElementHandler = lambda name: end(name.rpartition(" ")[2])
+        def begin(name: str, told: Mapping[str, str]) -> None:
+            nonlocal depth
+            depth += 1
+            if depth > DEEPEST:
+                raise ValueError(f"it nests elements more than {DEEPEST} deep")
+            plain = {key.rpartition(" ")[2]: value for key, value in told.items()}
+            start(name.rpartition(" ")[2], plain)
+
+        def close(name: str) -> None:
+            nonlocal depth
+            depth -= 1
+            end(name.rpartition(" ")[2])
+
+        parser.StartElementHandler, parser.EndElementHandler = begin, close
         parser.CharacterDataHandler = letters
+        given = 0
         with self._archive.open(info) as stream:
-            parser.ParseFile(stream)
+            while data := stream.read(1 << 16):
+                given += len(data)
+                parser.Parse(data)
+                if given - parser.CurrentByteIndex > LONGEST_TAG:
+                    raise ValueError(f"it has a tag of more than {LONGEST_TAG:,} bytes")
+                if len(parser.intern) > MOST_NAMES:
+                    raise ValueError(f"it has more than {MOST_NAMES:,} names of elements")
+        parser.Parse(b"", True)
+
+    @staticmethod
+    def _count(parts: Sized) -> None:
+        if len(parts) > MOST_PARTS:
+            raise ValueError(f"it has more than {MOST_PARTS:,} sheets or parts")
 
 
 def _refuse(*_: object) -> NoReturn:
     raise ValueError("it declares a type of document, as no workbook does")
-
-
-def shown_by(code: str) -> Shown:
-    """Kind of what a number format shows.
-
-    Examples
-    --------
-    >>> [shown_by(code) for code in ("0.0%", "dd/mm/yyyy", "h:mm", "yyyy", '#,##0.00 "days"')]
-    ['share', 'date', 'time', 'year', 'number']
-    """
-    plain = _QUOTED.sub("", code.partition(";")[0]).casefold()
-    if "%" in plain:
-        return "share"
-    if set(plain) == {"y"}:
-        return "year"
-    if "general" in plain or not set(plain) & set("ymdhs"):
-        return "number"
-    return "date" if set(plain) & set("yd") or not set(plain) & set("hs") else "time"
-
-
-def _plain(number: float) -> str:
-    """The 15 digits that Excel counts with; a fraction of three is none that groups thousands.
-
-    >>> _plain(0.1 + 0.2), _plain(1.234), _plain(3.0)
-    ('0.3', '1.2340', '3')
-    """
-    digits, mark, power = f"{number:.15g}".partition("e")
-    return digits + "0" * (len(digits.partition(".")[2]) == 3) + mark + power
-
-
-def written(number: float, shown: Shown, *, since_1904: bool = False) -> str:
-    """A number as its format shows it, with all its digits.
-
-    Examples
-    --------
-    >>> written(0.125, "share"), written(45352.0, "date"), written(45352.5, "date")
-    ('12.5%', '2024-03-01', '2024-03-01 12:00')
-    """
-    if shown == "share":
-        return f"{_plain(100.0 * number)}%"
-    if shown == "number" or not 0.0 <= number < 2_958_466.0:
-        return _plain(number)
-    begin = datetime(1904, 1, 1) if since_1904 else datetime(1899, 12, 30)
-    when = begin + timedelta(seconds=round(86_400 * number))
-    if shown == "year":
-        return str(when.year)
-    clock = when.strftime("%H:%M:%S").removesuffix(":00")
-    if shown == "time" and number < 1.0:
-        return clock
-    return f"{when:%Y-%m-%d}" + (f" {clock}" if number % 1.0 else "")
 
 
 @final
