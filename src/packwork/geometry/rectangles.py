@@ -16,6 +16,10 @@ ROUNDING = 1e-12
 """Difference up to which coordinates are one number, over the extent of all: what some thousand
 sums of doubles may be off. Larger would take thin overlaps for touching. Derived."""
 
+FARTHEST = 2048.0
+"""Size of numbers, over the extent of what they place, up to which they are good to ``ROUNDING`` of
+it: three roundings of theirs are 7e-13. Derived."""
+
 
 def exact_boxes(outlines: Sequence[Outline]) -> FloatArray | None:
     """Left, top, right and bottom ``(n, 4)`` of upright rectangles; None if one is no such.
@@ -39,24 +43,15 @@ def exact_boxes(outlines: Sequence[Outline]) -> FloatArray | None:
     return np.hstack([low, high]) if is_upright else None
 
 
-def touches_alone(outlines: Sequence[Outline], container: Outline) -> bool:
-    """Whether two rectangles overlap nowhere, exactly; or one does not stick out of the container.
-
-    False where one of them is no upright rectangle.
+def is_near(reach: float, extent: float) -> bool:
+    """Whether numbers up to ``reach`` place what is ``extent`` long, both in one unit, exactly.
 
     Examples
     --------
-    >>> left, right, sheet = (Outline.box(x, 0, x + w, 1) for x, w in ((0, 1), (1, 1), (0, 2)))
-    >>> touches_alone([left, right], sheet), touches_alone([right], left)
+    >>> is_near(400.0, 1.0), is_near(1e7, 64.0)
     (True, False)
     """
-    boxes = exact_boxes([*outlines, container])
-    if boxes is None:
-        return False
-    *own, whole = boxes
-    if len(own) == 1:
-        return bool((own[0][:2] >= whole[:2]).all() and (own[0][2:] <= whole[2:]).all())
-    return bool(((own[0][2:] <= own[1][:2]) | (own[1][2:] <= own[0][:2])).any())
+    return reach <= FARTHEST * extent
 
 
 def _as_one(values: FloatArray, most: float) -> FloatArray:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from packwork.geometry import rectangles
+from packwork.geometry.rectangles import ROUNDING as EXACTLY
 from packwork.live.chart_groups import stray
 from packwork.live.commands.aligning import LineUp
 from packwork.live.commands.command import Command
@@ -19,6 +19,7 @@ from packwork.live.commands.placing import NEARLY, Arrange, Cover, Exchange, Mov
 from packwork.live.document import Change, Document, Invalidation, differing
 from packwork.live.names import called
 from packwork.metrics.certificate import Promise, off_shares
+from packwork.metrics.touching import StraightItems, straight_items
 from packwork.metrics.violations import Violation, ViolationSet
 from packwork.steps.measure import reason
 
@@ -53,8 +54,11 @@ class Certificate:
     def violations(self, document: Document) -> tuple[Violation, ...]:
         """Conflicts of a document, items by their numbers."""
         found = self._brought_to(document).violations
-        gap = promise_of(document).gap
-        return tuple(one for one in found if not _is_exactly(gap, one, document))
+        straight = straight_items(document.layout) if found else None
+        if straight is None:
+            return found
+        rows = {number: k for k, number in enumerate(document.ids.tolist())}
+        return tuple(one for one in found if not _is_exactly(one, straight, rows, document))
 
     def in_the_way(self, document: Document) -> tuple[str, ...]:
         """Reasons that keep a document from its certificate, a sentence each."""
@@ -83,18 +87,18 @@ class Certificate:
         return standing
 
 
-def _is_exactly(gap: float, one: Violation, document: Document) -> bool:
-    """Whether straight rectangles keep the gap but for rounding; of none they may touch."""
-    if gap > 0.0 and one.gap_cu + rectangles.ROUNDING * document.container.side < gap:
-        return False
-    both = [one.item] if one.other is None else [one.item, one.other]
-    rows = np.flatnonzero(np.isin(document.ids, both)).tolist()
-    if any(document.items[k].coarseness > 0.0 for k in rows):
-        return False
-    if gap > 0.0:
-        return one.overlap_cu2 == 0.0
-    placed = [document.items[k].outline.mapped(document.poses.matrix(k)) for k in rows]
-    return rectangles.touches_alone(placed, document.container.outline)
+def _is_exactly(
+    one: Violation, straight: StraightItems, rows: Mapping[int, int], document: Document
+) -> bool:
+    """Whether straight rectangles keep the gap but for rounding; of none they may touch.
+
+    As what is measured of a whole layout does.
+    """
+    promise, side = promise_of(document), document.container.side
+    if promise.gap > 0.0:
+        is_apart = one.gap_cu + EXACTLY * side >= promise.least_gap(side)
+        return one.overlap_cu2 == 0.0 and is_apart
+    return straight.is_free(rows[one.item], None if one.other is None else rows[one.other])
 
 
 def beyond(wrong: Iterable[Violation], near: set[int]) -> set[int]:

@@ -71,6 +71,22 @@ TAMPERED: dict[str, tuple[Callable[[str], str], str]] = {
         lambda text: text.replace('id="shape-1"', 'id="shape-1" style="transform:scale(2)"'),
         r"item 1 .*style \(transform",
     ),
+    "another line by a style": (
+        lambda text: text.replace('id="shape-1"', """id="shape-1" style="d:path('M0 0h9v9')\""""),
+        r"item 1 .*style \(d\)",
+    ),
+    "a container's line by a style": (
+        lambda text: re.sub('(id="container".*\n<path )', r"""\1style="d:path('M0 0z')" """, text),
+        r"the container's line: style \(d\)",
+    ),
+    "a style beside a motion": (
+        lambda text: text.replace(
+            "<defs>",
+            """<style>[id="a"]{animation:way-1 1s;d:path("M0 0h9v9")}"""
+            "@media (prefers-reduced-motion:reduce){a{animation:none!important}}</style><defs>",
+        ),
+        "the file: the style sheet",
+    ),
     "a crop": (
         lambda text: re.sub('viewBox="0 0 [^"]*"', 'viewBox="0 0 300 300"', text),
         "the page was cropped",

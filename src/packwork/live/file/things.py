@@ -7,7 +7,7 @@ import logging
 import re
 import zlib
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Literal, TypeVar
 
 import numpy as np
@@ -51,6 +51,7 @@ from packwork.recipe.refusals import refusal
 from packwork.scene.container import Backdrop, Container, repeating
 from packwork.scene.item import Datum, FontFile, Item, Label, LiveText, Parts, TextRun
 from packwork.scene.pose import Poses
+from packwork.uses.tilings import is_straight
 
 _LOG = logging.getLogger("packwork")
 
@@ -177,7 +178,7 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
     """The item of a record; rows of data frames are not in files."""
     outline = shared.outline(record.outline)
     label, datum, text = record.label, record.datum, record.text
-    return Item(
+    made = Item(
         record.name,
         record.source,
         outline,
@@ -192,6 +193,9 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         parts=_parts_of(record.parts, shared) if record.parts else None,
         coarseness=record.coarseness,
     )
+    # That it may touch others is no matter of a file's word.
+    is_claimed = record.coarseness == 0.0
+    return made if not is_claimed or is_straight(made) else replace(made, coarseness=1.0)
 
 
 def _part_records(parts: Parts, things: Things) -> tuple[PartRecord, ...]:

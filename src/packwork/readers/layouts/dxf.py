@@ -18,6 +18,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.arcs import ArcLine, circle
 from packwork.geometry.polygon import Region, region
+from packwork.geometry.rectangles import is_near
 from packwork.readers.dxf.item import line_art
 from packwork.readers.layouts.assembly import (
     FoundItem,
@@ -273,6 +274,10 @@ def _canvas(header: dict[str, list[float]]) -> tuple[float, float, Unit]:
     unit = _UNITS.get(round(codes[0])) if codes else None
     if unit is None or len(sizes) != 2 or not min(sizes) > 0:
         raise UnfitError(f"states no size and unit, {_NOT_OURS}")
+    if max(sizes) > MAX_COORDINATE:
+        raise UnfitError(
+            f"states a sheet of {sizes[0]:g} x {sizes[1]:g}; up to {MAX_COORDINATE:g} can be used"
+        )
     return sizes[0], sizes[1], unit
 
 
@@ -311,6 +316,13 @@ class _Paper:
         """Points of a line, y turned down from the sheet's top."""
         return self.turned(line).flattened(self.tolerance)
 
+    def turns_exactly(self, lines: Sequence[DxfLine]) -> bool:
+        """Whether lines are straight, and the turn leaves all of their digits that count."""
+        points = np.concatenate([one.line.points for one in lines])
+        reach = max(self.height, float(np.abs(points).max()))
+        is_bent = any(one.line.bulges.any() for one in lines)
+        return not is_bent and is_near(reach, float(np.ptp(points, axis=0).max()))
+
     def turned(self, line: ArcLine) -> ArcLine:
         """A line with its arcs, y turned down from the sheet's top."""
         return line.mapped(np.array([[1.0, 0.0, 0.0], [0.0, -1.0, self.height]]), 0.0)
@@ -337,7 +349,7 @@ def _item(lines: Sequence[DxfLine], paper: _Paper, *, plain: bool) -> tuple[Foun
     number, name, weight = lines[0].said
     around = [line for line in lines if not line.is_engraved]
     shape = paper.region(around)
-    is_straight = paper.is_straight and not any(one.line.bulges.any() for one in around)
+    is_straight = paper.is_straight and paper.turns_exactly(around)
     if plain or not (len(around) < len(lines) or any(one.line.bulges.any() for one in around)):
         return FoundItem(name, shape, sound_weight(weight), is_straight=is_straight), 0
     outline = sound_outline(shape, f"item {number} ({name})")

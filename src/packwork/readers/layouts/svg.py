@@ -32,6 +32,7 @@ from packwork.readers.layouts.assembly import (
     FoundSheet,
     assembled,
     sound_gap,
+    sound_outline,
     sound_weight,
 )
 from packwork.readers.layouts.foreign_svg import (
@@ -44,7 +45,7 @@ from packwork.readers.layouts.foreign_svg import (
 )
 from packwork.readers.layouts.lettering import LetteringOutlines, bare, lettering_path
 from packwork.readers.layouts.lines import LineParts
-from packwork.readers.layouts.paths import is_straight, polygon_of
+from packwork.readers.layouts.paths import is_placed_exactly, is_straight, polygon_of
 from packwork.readers.layouts.sheet import (
     backdrop_of,
     drawing_of,
@@ -173,7 +174,8 @@ class _Drawings:
         self._outlines: dict[ET.Element, Outline] = {}
         self._letterings = LetteringOutlines(_SPECK)
         self._stated = 0
-        self._has_straight_walls = True
+        groups = [group_named(root, name) for name in ("items", "container")]
+        self._is_exact = all(one is None or not one.get("transform") for one in groups)
         self.places = {one: place_and_art(self.source(one), one)[0] for one in drawn}
         """Maps (2 x 3) from each item's units to where it lies."""
         for one, place in self.places.items():
@@ -185,16 +187,20 @@ class _Drawings:
         paths = [_path(e.get("d", "")) for e in group if tag(e) == "path"]
         if not paths:
             raise UnfitError(f"has no path in the group named container, {_NOT_OURS}")
-        self._has_straight_walls = all(is_straight(one) for one in paths)
-        return self._followed(paths, 1.0)
+        found = self._followed(paths, 1.0)
+        outline = sound_outline(found, "the container")
+        self._is_exact &= all(is_straight(p) and is_placed_exactly(p, p, outline) for p in paths)
+        return found
 
-    def is_straight(self, source: ET.Element) -> bool:
+    def is_straight(self, drawn: ET.Element, outline: Outline) -> bool:
         """Whether a drawing, as all walls, is a path without curves, and nothing but that is told.
 
-        Its paint may have no stroke, but where it is a line to cut.
+        Its paint may have no stroke, but where it is a line to cut. ``outline``: its own units.
         """
+        source = self.source(drawn)
         is_stroked = not self._of_lines and {"stroke", "style", "class"} & source.attrib.keys()
-        return self._has_straight_walls and not is_stroked and is_straight(source)
+        is_plain = self._is_exact and not is_stroked and is_straight(source)
+        return is_plain and is_placed_exactly(source, drawn, outline)
 
     @property
     def on_trust(self) -> tuple[str, ...]:
@@ -306,7 +312,7 @@ def _found(
     )
     place = affine.compose(to_canvas, drawings.places[drawn])
     weight = sound_weight(drawn.get("data-weight", "1"))
-    return FoundItem(item.name, item, weight, place, drawings.is_straight(source))
+    return FoundItem(item.name, item, weight, place, drawings.is_straight(drawn, item.outline))
 
 
 def _outline_of(
@@ -314,13 +320,13 @@ def _outline_of(
     to_canvas: FloatArray, keeps_holes: bool,
 ) -> FoundItem:  # fmt: skip
     """An item of which nothing but its outline is known."""
-    _, drawn, source = element
+    drawn = element[1]
     name = drawn.get("data-name", "item")
     outline = drawings.outline(drawn, keeps_holes)
     place = affine.compose(to_canvas, drawings.places[drawn])
     weight = sound_weight(drawn.get("data-weight", "1"))
     item = Item(name, name, outline, outline, FlatArt())
-    return FoundItem(name, item, weight, place, drawings.is_straight(source))
+    return FoundItem(name, item, weight, place, drawings.is_straight(drawn, outline))
 
 
 def _not_kept(root: ET.Element, items: ET.Element | None, texts: int) -> list[str]:

@@ -54,6 +54,9 @@ _OF_DRAWINGS = ATTRIBUTES | _HARMLESS | {"href", "unicode-bidi"}
 _MOVING = frozenset(
     {"transform", "translate", "rotate", "scale", "transform-origin", "transform-box"}
 )
+_GEOMETRY = frozenset({"d", "points", "x", "y", "cx", "cy", "r", "rx", "ry", "width", "height"})
+"""Of styles; what is measured, and all that we write, has attributes instead."""
+
 _SOURCES = frozenset({"path", "g", "image", "rect", "circle", "ellipse", "polygon"})
 _ACTING = re.compile(r"animate\w*|set|script|foreignObject|handler|listener")
 _SILENT = frozenset({"title", "desc", "metadata"})
@@ -69,7 +72,7 @@ _OWN_STYLE = re.compile(
     r"path\[data-lines\],path\[data-item\]\{vector-effect:non-scaling-stroke;stroke-width:1px\}\}\})*"
 )
 _OWN_MOTION = re.compile(
-    r'(?:\[id="[^"]*"\]\{animation:way-[^{}]*\}|\s'
+    r'(?:\[id="[^"]*"\]\{animation:way-[^{};]*\}|\s'
     r"|@keyframes way-[\w-]+\{(?:[\d.]+%\{[^{}]*\})*\})*"
     r"@media \(prefers-reduced-motion:reduce\)\{[^{}]*\{animation:none!important\}\}\s*"
 )
@@ -325,7 +328,7 @@ def _of_drawing(source: ET.Element, first: Mapping[str, ET.Element]) -> Iterator
                 yield key
         for key, value in declared(element).items():
             if not _is_colour_only(key, value) and not (
-                key in PROPERTIES and safe_value(value) is not None
+                key in PROPERTIES - _GEOMETRY and safe_value(value) is not None
             ):
                 yield f"style ({key})"
         for target in _targets(element):
@@ -343,8 +346,9 @@ def _odd(
         is_known = bare in known | _HARMLESS or _is_foreign(key) or bare[:2] == "on"
         if not (is_known or (bare in {"x", "y"} and parse_length(value, 0.0) == 0)):
             yield bare, where
+    of_paint = known & (_COLOURING | _OF_LINES) - _GEOMETRY
     for key, value in declared(element).items():
-        if key not in known & (_COLOURING | _OF_LINES) and not _is_colour_only(key, value):
+        if key not in of_paint and not _is_colour_only(key, value):
             yield f"style ({key})", where
     if hides and _hides(element):
         yield "what hides it", where
