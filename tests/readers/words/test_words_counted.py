@@ -489,10 +489,13 @@ def told(source: object, **options: object) -> str:
     return "; ".join(str(error) for error in ranked_words(asked).told)
 
 
-@pytest.mark.parametrize("text", ["bear,5\nfox,3\n", "w;n\nbear; 2,5"])
+@pytest.mark.parametrize(
+    "text", ["bear,5\nfox,3\n", "w;n\nbear; 2,5", "word;n;kind\nbear;5;a\nfox;3;b"]
+)
 def test_a_table_that_is_read_as_a_text_is_told(tmp_path: Path, text: str) -> None:
     (tmp_path / "a.txt").write_text(text, encoding="utf-8")
     assert "looks like a table" in told(str(tmp_path / "a.txt"))
+    assert "looks like a table" in told("word\tn\tkind\nbear\t5\ta\nfox\t3\tb")
     assert "looks" not in told("Anna Bear\nHoney Street, 12\nForest, 1984")
     assert "looks" not in told("In the year, 1984\nthe bears, and the bees\ncame, 12 of them")
 

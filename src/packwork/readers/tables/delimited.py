@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from packwork.errors import ReadError
@@ -162,15 +162,21 @@ def delimiter_of(text: str, file: str, usual: str) -> str:
     return usual if usual in wide or not wide else wide[0]
 
 
-def is_parted_by_tabs(text: str) -> bool:
-    r"""Whether tabs part all lines into equally many cells, with a column of numbers.
+def is_parted_by(marks: Iterable[str], text: str) -> bool:
+    r"""Whether one of some marks parts all lines into equally many cells, with a column of numbers.
 
     Examples
     --------
-    >>> is_parted_by_tabs("land\tkg\nPeru\t2\n"), is_parted_by_tabs("\tA bear,\n\tand 2 bees\n")
-    (True, False)
+    >>> texts = "land\tkg\nPeru\t2\n", "\tA bear,\n\tand 2 bees\n"
+    >>> [is_parted_by("\t;", text) for text in texts]
+    [True, False]
     """
-    rows = _rows_below(_parted(_sample(text), "\t"))
+    sample = _sample(text)
+    return any(_has_numbers(_rows_below(_parted(sample, mark))) for mark in marks)
+
+
+def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:
+    """Whether rows are of equally many cells, and a column holds numbers below its first cell."""
     if len(rows) < 2 or not _is_even(rows):
         return False
     columns = ([cell for cell in column if cell] for column in zip(*rows[1:], strict=False))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import sys
 from collections import Counter
 from collections.abc import Container, Iterable, Mapping, Sequence
@@ -14,7 +13,7 @@ from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, check_no_document, decoded
-from packwork.readers.tables.delimited import ENDINGS, UNICODE_TEXT, is_parted_by_tabs
+from packwork.readers.tables.delimited import ENDINGS, NAMES, UNICODE_TEXT, is_parted_by
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.tables.workbook import ending_of
@@ -200,7 +199,7 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
     else:
         text = _text(source, asked)
         read = _counted(text.text, options, stops)
-        said = (text.notice, _LIKE_A_TABLE if _ROWS.fullmatch(text.text) else "")
+        said = (text.notice, _LIKE_A_TABLE if is_parted_by(NAMES, text.text) else "")
         told = (*read.told, *(ReadError(_name(options), one) for one in said if one))
         return replace(read, told=told)
     fields = WordOptions.model_fields
@@ -221,7 +220,6 @@ _OF_TEXTS = (
     "phrases", "plurals",
 )  # fmt: skip
 
-_ROWS = re.compile(r"[^,;\t\n]*[,;\t][^\n]*(\n[^,;\t\n]+[,;\t] *\d[\d.,]*\s*)+")
 _LIKE_A_TABLE = "looks like a table, and its numbers are no weights in a text; name it .csv"
 
 
@@ -358,7 +356,7 @@ def _is_table(source: str, asked: TableFormat) -> bool:
         return False
     ending = ending_of(source)
     if ending == UNICODE_TEXT and exists(source):
-        return is_parted_by_tabs(_text(source, asked).text)
+        return is_parted_by("\t", _text(source, asked).text)
     return ending in {".json", *ENDINGS}
 
 
