@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -142,7 +143,15 @@ def test_few_photos_that_do_not_show_the_shape_are_told_of_the_cut(album: Path) 
     run = uses.fill(uses.photos_recipe("usa", [str(album)], **{**QUICK, "edge": "inside"}))
     assert "--edge crop" in " ".join(run.advice)
     assert "-n " in " ".join(run.advice)
+
+
+def test_a_bare_edge_is_told_with_the_number_that_covers_it(
+    album: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(crop, "MOST_BARE_EDGE", 0.0)
     cut = uses.fill(uses.photos_recipe("usa", [str(album)], **QUICK))
-    told = (*cut.broken, *cut.remarks, *cut.advice)
-    # One is smaller than the even sizes they are first placed at, which nobody asked for.
-    assert not [line for line in told if "--edge" in line or "--size-ratio" in line]
+    assert 0 < crop.bare_edge(cut.layout, 0.0) < 1
+    (line,) = cut.advice
+    assert re.fullmatch(
+        r"\d+ % of the container's edge lies bare; -n \d+ would cover more of it", line
+    )

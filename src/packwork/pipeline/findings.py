@@ -68,6 +68,10 @@ class Sentence(Enum):
         "it is lines {width:.2g} {unit} wide; wider ones, or what they enclose, would show",
     )
     MORE_ITEMS = Told.PART, "-n {count} would show it"
+    BARE_EDGE = (
+        Told.ADVICE,
+        "{percent:.0f} % of the container's edge lies bare; -n {count} would cover more of it",
+    )
     CROPPED = Told.PART, "--edge crop, which cuts photos at its line, would show more of it"
     PLAINER = Told.PART, "a container of fewer and larger parts would show"
     FREE_SIZES = Told.PART, "--sizes free would show it"

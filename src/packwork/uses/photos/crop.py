@@ -12,11 +12,12 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered
+from packwork.geometry.overlay import buffered, intersection, union
 from packwork.metrics.certificate import HAIR
-from packwork.pipeline.findings import Filling, Unplaced
+from packwork.pipeline.findings import Filling, Sentence, Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules
+from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.plan.limits import check_padding
 from packwork.pipeline.plan.plan import NO_VOIDS, void_plan
 from packwork.pipeline.recorder import Recorder
@@ -25,8 +26,10 @@ from packwork.progress import Observer, Step
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.scene.track import SCALE, Track, numbers_of, poses_of
+from packwork.steps.shortfalls import CLEARLY_MORE
 from packwork.units import parse_length
 from packwork.uses.cutting import Cut, cut
 from packwork.uses.photos.rim import spread_to
@@ -48,6 +51,14 @@ puts small ones there, which are lost, smaller covers less. Tried."""
 LEAST_SEEN = 1 / 3
 """Share of an item that has to be seen once it is cut: an item of less is left out. Larger loses
 items, smaller leaves slivers of them. Chosen."""
+
+MOST_BARE_EDGE = 0.15
+"""Share of the container's line that may be bare and is not told of. Larger passes letters with
+bites in them, smaller tells of specks. Chosen by eye."""
+
+EDGE_REACH = 2e-3
+"""Distance within which an item covers the line, as a share of the canvas. Larger passes gaps that
+are seen, smaller counts those that are kept for rounding. Chosen."""
 
 CLEARANCE = 3 * HAIR
 """Least gap between what is cut and the container's line, as a share of the canvas: what is
@@ -275,6 +286,33 @@ class CutRecorder(Recorder):
         rows = found.kept[which]
         track = self._whole.track(found.whole.subset(rows), self._numbers[rows], items)
         return followed(track, found, which, self._depth)
+
+
+@final
+class AdviseOnEdge(RunStep):
+    """Advice on a container's line much of which no photo covers, if more of them would do."""
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the advice, unless there is one on the shape."""
+        layout, _ = state.measured
+        plan = state.job.plan
+        needed = items_needed(layout.container, "free", plan.size_ratio).count
+        is_told = any(said.sentence is Sentence.POOR_SHAPE for said in state.findings)
+        if is_told or needed <= CLEARLY_MORE * len(layout.items):
+            return state
+        bare = bare_edge(layout, plan.gap)
+        if bare <= MOST_BARE_EDGE:
+            return state
+        return state.with_finding(Sentence.BARE_EDGE, percent=100 * bare, count=needed)
+
+
+def bare_edge(layout: Layout, gap: float) -> float:
+    """Share of the container's line that has no item within the gap and a little more."""
+    container = layout.container
+    reach = gap + EDGE_REACH * container.side
+    line = container.outline.region.boundary
+    near = union([buffered(outline.region, reach) for outline in layout.outlines])
+    return 1.0 - float(intersection(line, near).length / line.length)
 
 
 def lost(found: Cropped, placed: RunState) -> tuple[Unplaced, ...]:

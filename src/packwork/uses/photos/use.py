@@ -20,7 +20,7 @@ from packwork.steps.shortfalls import usual_remedy
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import KnownContainer, material_of
 from packwork.uses.letters import copies_for_letters
-from packwork.uses.photos.crop import CropAtEdge, crops
+from packwork.uses.photos.crop import AdviseOnEdge, CropAtEdge, crops
 
 SQUARE = "square"
 """Shape of photos where none is asked for: the largest square in the middle of each."""
@@ -90,6 +90,8 @@ class PhotosUse(Use):
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks."""
         told = reporting(job, is_dressed=False)
+        if self.is_cut:
+            told.append(AdviseOnEdge())
         if self.repeated is not None:
             kinds, total = self.repeated
             told.append(RemarkRepeated(kinds, total))
