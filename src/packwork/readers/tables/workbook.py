@@ -289,7 +289,7 @@ class _SheetReader:
         self._parts: list[str] | None = None
         self._at = self._rows = self._cells = self._letters = 0
         self._has_formula = False
-        self._uncomputed: list[str] = []
+        self._uncomputed, self._first_uncomputed = 0, ""
 
     @property
     def text(self) -> str:
@@ -301,9 +301,9 @@ class _SheetReader:
         """Sentence about formulas without a saved value; empty if there are none."""
         if not self._uncomputed:
             return ""
-        cells = number_of(len(self._uncomputed), "cell is a formula", "cells are formulas")
+        cells = number_of(self._uncomputed, "cell is a formula", "cells are formulas")
         return (
-            f"{cells} without a saved value, as {self._uncomputed[0]}: open it in Excel or "
+            f"{cells} without a saved value, as {self._first_uncomputed}: open it in Excel or "
             "LibreOffice, and save it there"
         )
 
@@ -351,7 +351,8 @@ class _SheetReader:
             # A formula may give an empty text, whose kind is told.
             is_empty = self._cell.kind != "str" and not self._row.get(self._cell.column)
             if self._has_formula and is_empty:
-                self._uncomputed.append(self._cell.name)
+                self._first_uncomputed = self._first_uncomputed or self._cell.name
+                self._uncomputed += 1
         elif name == "row":
             width = max(self._row, default=0)
             self._rows, self._cells = self._rows + bool(width), self._cells + width
