@@ -19,10 +19,11 @@ from packwork.geometry.rectangles import ROUNDING
 from packwork.separation.shapes import Floats
 
 MOST_PUSHED = 2_000
-"""Parts that are pushed together: more take longer than a second for each thousand."""
+"""Parts that are pushed together: so many discs of 64 corners that lay apart take 4 s."""
 
-MOST_ROUNDS = 12
-"""Rounds of both axes. Parts with slanted edges go on by ever less; the first three do most."""
+MOST_ROUNDS = 4
+"""Rounds of both axes. Of 400 discs that lay apart, eight more brought .03 mm in 40, in three times
+the time. Tried."""
 
 SETTLED = 1e-6
 """Way of a round, over the longer side of all parts, that ends it."""
