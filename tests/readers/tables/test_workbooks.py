@@ -12,7 +12,7 @@ from packwork.readers.charts import ChartOptions
 from packwork.readers.cut_list import read_cut_list
 from packwork.readers.tables import workbook
 from packwork.readers.tables.pairs import read_weights
-from packwork.readers.tables.shown import shown_by
+from packwork.readers.tables.shown import BUILT_IN, shown_by, written
 from packwork.readers.tables.table import read_table
 from packwork.readers.tables.workbook import MOST_BESIDES
 from packwork.readers.words.options import WordOptions
@@ -47,7 +47,7 @@ def _relations(targets: Mapping[str, tuple[str, str]]) -> str:
 def _book(file: Path, sheets: Mapping[str, str], *, before: str = "", **other: str) -> str:
     """A workbook of sheets by their names, of the elements of their rows."""
     parts = {f"s{k}": ("worksheet", f"/xl/sheets/{k}.xml") for k in range(len(sheets))}
-    named = "".join(
+    named = other.get("named", "") + "".join(
         f'<sheet name="{name}" r:id="s{k}" state="{"hidden" if name == "Secret" else "visible"}"/>'
         for k, name in enumerate(sheets)
     )
@@ -135,6 +135,68 @@ def test_days_and_shares_are_as_they_are_shown(tmp_path: Path, properties: str, 
 
 
 @pytest.mark.parametrize(
+    ("code", "number", "text"),
+    [
+        ("[h]:mm", "1.5208333333333333", "36:30"),
+        ("[h]:mm:ss", "1.5208333333333333", "36:30"),
+        ("[h]:mm:ss", "0.00011574074", "0:00:10"),
+        ("mm:ss", "1.75", "42:00"),
+        ("hh:mm", "1.75", "18:00"),
+        ("[hh]", "-0.5", "-0.5"),
+        ("[$-409][Red]d mmm", "45352", "2024-03-01"),
+        ("0\\ h", "1.75", "1.75"),
+        ('0" d;"', "1.75", "1.75"),
+        ("h:mm:ss.00", "0.5", "12:00"),
+        ("yyyy-mm-dd", "1", "1900-01-01"),
+        ("yyyy-mm-dd", "59", "1900-02-28"),
+        ("yyyy-mm-dd", "61", "1900-03-01"),
+        ("yyyy-mm-dd", "2958465.9999", "9999-12-31 23:59:51"),
+        ("yyyy-mm-dd", "2958465.9999999", "2958465.9999999"),
+        ("General", "1234567890123456789", "1234567890123456789"),
+        ("0", "1234567890123456.0", "1234567890123456"),
+        ("0", " 0.30000000000000004 ", "0.3"),
+    ],
+)
+def test_a_number_is_as_excel_shows_it(code: str, number: str, text: str) -> None:
+    assert written(number, shown_by(code)) == text
+
+
+def test_days_past_the_last_one_of_1904_are_numbers() -> None:
+    assert written("2957003", "date", since_1904=True) == "9999-12-31"
+    assert written("2957004", "date", since_1904=True) == "2957004"
+
+
+def test_built_in_formats_of_lengths_of_time() -> None:
+    assert [BUILT_IN[k] for k in (20, 21, 45, 46, 47)] == ["time"] * 2 + ["duration"] * 3
+
+
+@pytest.mark.parametrize(
+    ("cell", "text"),
+    [
+        ("<c t='s'><v/></c>", ""),
+        ("<c t='s'><v> 1 </v></c>", "kg"),
+        ("<c t='b'><v>true</v></c>", "TRUE"),
+        ("<c t='b'><v>0</v></c>", "FALSE"),
+        ("<c s='-1'><v>0.5</v></c>", "0.5"),
+        ("<c t='inlineStr'><is><t>a</t><rPh sb='0' eb='1'><t>x</t></rPh></is></c>", "a"),
+        ("<c r='A2' t='inlineStr'><is><t>a</t></is></c>" * 2, "a"),
+    ],
+)
+def test_a_rare_cell_is_read_as_it_is_shown(tmp_path: Path, cell: str, text: str) -> None:
+    names = "<row><c t='str'><v>a</v></c><c t='str'><v>b</v></c></row>"
+    rows = f"{names}<row>{cell}<c r='B2'><v>1</v></c></row>"
+    (row,) = read_table(_book(tmp_path / "a.xlsx", {"S": rows})).rows
+    assert row == {"a": text, "b": "1"}
+
+
+def test_a_sheet_that_lies_outside_of_the_file_is_passed_over(tmp_path: Path) -> None:
+    file = _book(tmp_path / "a.xlsx", {"Sales": ROWS}, named='<sheet name="Far" r:id="far"/>')
+    assert len(read_table(file).rows) == 2
+    with pytest.raises(ReadError, match="has no sheet 'Far'; there are Sales"):
+        read_table(f"{file}#Far")
+
+
+@pytest.mark.parametrize(
     ("made", "said"),
     [
         ({"sheets": {"S": ROWS}, "before": "<!DOCTYPE a [<!ENTITY b 'c'>]>"}, "declares a type"),
@@ -142,7 +204,11 @@ def test_days_and_shares_are_as_they_are_shown(tmp_path: Path, properties: str, 
         ({"sheets": {"S": "<row r='2'/><row r='2'/>"}}, "its row 2 follows row 2"),
         ({"sheets": {"S": "<row><c r='ZZZ1'><v>1</v></c></row>"}}, "has a column 18,278"),
         ({"sheets": {"S": "<row><c t='s'><v>7</v></c></row>"}}, "is no workbook of Excel"),
-        ({"sheets": {"S": "<row><c><v>x</v></c></row>"}}, "is no workbook of Excel"),
+        ({"sheets": {"S": "<row><c t='s'><v>-1</v></c></row>"}}, "a cell has text -1 of 2"),
+        ({"sheets": {"S": "<row><c><v>x</v></c></row>"}}, "holds 'x', which is no number"),
+        ({"sheets": {"S": "<row><c><v>1_0</v></c></row>"}}, "holds '1_0', which is no number"),
+        ({"sheets": {"S": "<row><c><v>nan</v></c></row>"}}, "holds 'nan', which is no number"),
+        ({"sheets": {"S": "<row><c><v>1e999</v></c></row>"}}, "holds '1e999', which is no number"),
         ({"sheets": {}}, "it has no sheet of cells"),
         ({"sheets": {"S": "<row>"}}, "is no workbook of Excel"),
     ],

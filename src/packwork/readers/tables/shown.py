@@ -5,6 +5,7 @@ Codes of formats are those of ECMA-376, part 1, 18.8.30 and 18.8.31.
 
 from __future__ import annotations
 
+import math
 import re
 from datetime import datetime, timedelta
 from typing import Literal, TypeAlias
@@ -12,34 +13,47 @@ from typing import Literal, TypeAlias
 LONGEST_FORMAT = 255
 """Letters of a number format, as Excel has it."""
 
-Shown: TypeAlias = Literal["number", "share", "date", "time", "year"]
+Shown: TypeAlias = Literal["number", "share", "date", "time", "duration", "year"]
 
 BUILT_IN: dict[int, Shown] = {
     **dict.fromkeys((9, 10), "share"),
     **dict.fromkeys((*range(14, 18), 22, *range(27, 37), *range(50, 59)), "date"),
-    **dict.fromkeys((*range(18, 22), *range(45, 48)), "time"),
+    **dict.fromkeys(range(18, 22), "time"),
+    **dict.fromkeys(range(45, 48), "duration"),
 }
 """Number formats that files name by their numbers alone."""
 
-_QUOTED = re.compile(r'"[^"]*"|\\.|_.|\*.|\[[^\[\]]*\]')
+_QUOTED = re.compile(r'"[^"]*"|\\.|_.|\*.|\[(?!(?:h+|m+|s+)\])[^\[\]]*\]', re.IGNORECASE)
+_ELAPSED = re.compile(r"\[[hms]+\]")
+_FRACTION = re.compile(r"s[.,]0+")
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[Ee][+-]?[0-9]+)?")
+_LONG = re.compile(r"(-?[1-9][0-9]{15,})(?:\.0*)?")
 
 
 def shown_by(code: str) -> Shown:
-    """Kind of what a number format shows.
+    r"""Kind of what a number format shows.
 
     Examples
     --------
     >>> [shown_by(code) for code in ("0.0%", "dd/mm/yyyy", "h:mm", "yyyy", '#,##0.00 "days"')]
     ['share', 'date', 'time', 'year', 'number']
+    >>> [shown_by(code) for code in ("[h]:mm", "mm:ss.0", "0\\ h", '0" d;"')]
+    ['duration', 'duration', 'number', 'number']
     """
-    plain = _QUOTED.sub("", code[:LONGEST_FORMAT].partition(";")[0]).casefold()
+    plain = _QUOTED.sub("", code[:LONGEST_FORMAT]).partition(";")[0].casefold()
     if "%" in plain:
         return "share"
-    if set(plain) == {"y"}:
+    if _ELAPSED.search(plain):
+        return "duration"
+    letters = set(_FRACTION.sub("s", plain))
+    if letters == {"y"}:
         return "year"
-    if "general" in plain or not set(plain) & set("ymdhs"):
+    # No day and no time has digits besides those of a second.
+    if "general" in plain or letters & set("0#?") or not letters & set("ymdhs"):
         return "number"
-    return "date" if set(plain) & set("yd") or not set(plain) & set("hs") else "time"
+    if letters & set("yd") or not letters & set("hs"):
+        return "date"
+    return "time" if "h" in letters else "duration"
 
 
 def _plain(number: float) -> str:
@@ -52,23 +66,45 @@ def _plain(number: float) -> str:
     return digits + "0" * (len(digits.partition(".")[2]) == 3) + mark + power
 
 
-def written(number: float, shown: Shown, *, since_1904: bool = False) -> str:
-    """A number as its format shows it, with all its digits.
+def written(text: str, shown: Shown, *, since_1904: bool = False) -> str:
+    """A cell's number as its format shows it, with all its digits.
+
+    A day or duration that Excel does not show is its number.
+
+    Raises
+    ------
+    ValueError
+        If it is no number.
 
     Examples
     --------
-    >>> written(0.125, "share"), written(45352.0, "date"), written(45352.5, "date")
+    >>> written("0.125", "share"), written("45352.0", "date"), written("45352.5", "date")
     ('12.5%', '2024-03-01', '2024-03-01 12:00')
+    >>> written("1.5", "duration"), written("1.5", "time"), written("1234567890123456789", "number")
+    ('36:00', '12:00', '1234567890123456789')
     """
+    text = text.strip()
+    number = float(text) if _NUMBER.fullmatch(text) else math.inf
+    if math.isinf(number):
+        raise ValueError(f"a cell holds {text[:20]!r}, which is no number")
     if shown == "share":
         return f"{_plain(100.0 * number)}%"
-    if shown == "number" or not 0.0 <= number < 2_958_466.0:
+    if shown == "number":
+        long = _LONG.fullmatch(text)
+        return long[1] if long else _plain(number)
+    # Excel's days since 1900 have a 29th of February in that year, the 60th.
+    is_early = number < 60.0 and not since_1904
+    begin = datetime(1904, 1, 1) if since_1904 else datetime(1899, 12, 30 + is_early)
+    seconds = round(86_400 * number)
+    if not 0 <= seconds <= (datetime.max - begin) // timedelta(seconds=1):
         return _plain(number)
-    begin = datetime(1904, 1, 1) if since_1904 else datetime(1899, 12, 30)
-    when = begin + timedelta(seconds=round(86_400 * number))
+    if shown == "duration":
+        minutes, second = divmod(seconds, 60)
+        return f"{minutes // 60}:{minutes % 60:02}" + (f":{second:02}" if second else "")
+    when = begin + timedelta(seconds=seconds)
     if shown == "year":
         return str(when.year)
     clock = when.strftime("%H:%M:%S").removesuffix(":00")
-    if shown == "time" and number < 1.0:
+    if shown == "time":
         return clock
-    return f"{when:%Y-%m-%d}" + (f" {clock}" if number % 1.0 else "")
+    return f"{when:%Y-%m-%d}" + (f" {clock}" if seconds % 86_400 else "")

@@ -137,7 +137,7 @@ class _Workbook:
 
         def start(name: str, told: Mapping[str, str]) -> None:
             nonlocal since_1904
-            if name == "sheet":
+            if name == "sheet" and "name" in told:
                 sheets.append(told)
                 self._count(sheets)
             elif name == "workbookPr":
@@ -145,7 +145,8 @@ class _Workbook:
 
         self._parse(main, start)
         targets = self._targets(main)
-        tables = {one["name"]: targets[one["id"]] for one in sheets}
+        # Others are charts, or lie outside of the file.
+        tables = {one["name"]: targets.get(one.get("id", ""), ("", "")) for one in sheets}
         parts = {name: part for name, (kind, part) in tables.items() if kind == "worksheet"}
         if not parts:
             raise ValueError("it has no sheet of cells")
@@ -168,7 +169,8 @@ class _Workbook:
         found: dict[str, tuple[str, str]] = {}
 
         def start(element: str, told: Mapping[str, str]) -> None:
-            if element == "Relationship" and told.get("TargetMode") != "External":
+            is_whole = told.keys() >= {"Id", "Type", "Target"}
+            if element == "Relationship" and is_whole and told.get("TargetMode") != "External":
                 target = posixpath.normpath(posixpath.join("/", folder, told["Target"]))[1:]
                 found[told["Id"]] = told["Type"].rpartition("/")[2], target
                 self._count(found)
@@ -287,7 +289,8 @@ class _SheetReader:
         self._row: dict[int, str] = {}
         self._cell = _Cell(0, "n", 0)
         self._parts: list[str] | None = None
-        self._at = self._rows = self._cells = self._letters = 0
+        self._is_value = self._is_spoken = False
+        self._at = self._rows = self._cells = self._letters = self._room = 0
         self._has_formula = False
         self._uncomputed, self._first_uncomputed = 0, ""
 
@@ -324,35 +327,40 @@ class _SheetReader:
                     column = 26 * column + ord(letter) - ord("A") + 1
             if column > MOST_COLUMNS:
                 raise ValueError(f"it has a column {column:,}")
-            name = told.get("r", f"one of row {self._at}")
-            self._cell = _Cell(column, told.get("t", "n"), int(told.get("s", 0)), name[:10])
-            self._has_formula = False
+            name = told.get("r", "")[:10] or f"one of row {self._at}"
+            self._cell = _Cell(column, told.get("t", "n"), int(told.get("s", 0)), name)
+            self._has_formula, self._parts, self._room = False, None, LONGEST_CELL
+        elif name == "rPh":
+            self._is_spoken = True
         elif name == "f":
             self._has_formula = True
-        elif name in {"v", "t"}:
-            self._parts = [] if self._parts is None else self._parts
+        elif name in {"v", "t"} and not self._is_spoken:
+            self._is_value, self._parts = True, self._parts or []
 
     def letters(self, text: str) -> None:
         """Take letters of a value."""
-        if self._parts is not None:
-            self._parts.append(text)
+        if self._parts is not None and self._is_value and self._room > 0:
+            self._parts.append(text[: self._room])
+            self._room -= len(text)
 
     def end(self, name: str) -> None:
         """End a value, or write a row."""
-        if name in {"v", "t"} and self._parts is not None:
-            text = self._meant("".join(self._parts)[:LONGEST_CELL])
-            before = self._row.get(self._cell.column, "") if name == "t" else ""
-            self._row[self._cell.column] = before + text
-            self._parts = None
-            self._letters += len(text)
+        if name in {"v", "t"}:
+            self._is_value = False
+        elif name == "rPh":
+            self._is_spoken = False
+        elif name == "c":
+            if self._parts is not None:
+                text = self._row[self._cell.column] = self._meant("".join(self._parts))
+                self._letters += len(text)
             if self._letters > MOST_LETTERS:
                 raise ReadError(self._file, f"has more than {MOST_LETTERS:,} letters; give fewer")
-        elif name == "c":
             # A formula may give an empty text, whose kind is told.
             is_empty = self._cell.kind != "str" and not self._row.get(self._cell.column)
             if self._has_formula and is_empty:
-                self._first_uncomputed = self._first_uncomputed or self._cell.name
                 self._uncomputed += 1
+                self._first_uncomputed = self._first_uncomputed or self._cell.name
+            self._parts, self._has_formula = None, False
         elif name == "row":
             width = max(self._row, default=0)
             self._rows, self._cells = self._rows + bool(width), self._cells + width
@@ -362,11 +370,15 @@ class _SheetReader:
     def _meant(self, text: str) -> str:
         """A value as the sheet shows it, in one line."""
         kind, style = self._cell.kind, self._cell.style
+        if kind in {"s", "b", "n"} and not text.strip():
+            return ""
         if kind == "s":
+            if not 0 <= int(text) < len(self._texts):
+                raise ValueError(f"a cell has text {text[:20]} of {len(self._texts):,}")
             text = self._texts[int(text)]
         elif kind == "b":
-            text = "TRUE" if text.strip() == "1" else "FALSE"
-        elif kind == "n" and text.strip():
-            shown = self._shown[style] if style < len(self._shown) else "number"
-            text = written(float(text), shown, since_1904=self._since_1904)
+            text = "TRUE" if text.strip() in {"1", "true"} else "FALSE"
+        elif kind == "n":
+            shown = self._shown[style] if 0 <= style < len(self._shown) else "number"
+            text = written(text, shown, since_1904=self._since_1904)
         return " ".join(text.split("\n")).replace("\r", " ").replace("\0", "")
