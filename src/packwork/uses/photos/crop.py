@@ -226,10 +226,7 @@ Listed: TypeAlias = Callable[[Job], Sequence[RunStep]]
 
 @final
 class CropAtEdge(RunStep):
-    """Items that cover the container's edge, cut at its line; none is lost if that can be.
-
-    Small sizes are not told of: they were of more even sizes, and have changed since.
-    """
+    """Items that cover the container's edge, cut at its line; none is lost if that can be."""
 
     def __init__(self, job: Job, listed: Listed) -> None:
         self._listed = listed
@@ -261,7 +258,6 @@ class CropAtEdge(RunStep):
             job=found.job,
             poses=found.poses,
             unplaced=gone,
-            small=None,
             filling=refilled(solved, found),
             left_out=len(gone),
             numbers=solved.numbers[found.kept],
