@@ -262,10 +262,18 @@ R = TypeVar("R")
 T = TypeVar("T", bound=_Identified)
 
 
+MOST_POINTS_KEPT = 4_000_000
+"""Points of all results of one function that are remembered: 64 MB, ten times those of a thousand
+words. Chosen."""
+
+
 def cached_by_identity(
-    most: int,
+    most: int, points_of: Callable[[Any], int] = lambda _: 0
 ) -> Callable[[Callable[Concatenate[T, P], R]], Callable[Concatenate[T, P], R]]:
     """Keep the ``most`` results of a function of a typeface that were last asked for.
+
+    Fewer where ``points_of`` them are more than ``MOST_POINTS_KEPT``: glyphs of strangers' fonts
+    may have many.
 
     Typefaces of the same content are one. A typeface is opened anew for each run, so results that
     were kept by the object would never be found again, and would keep its file in memory.
@@ -284,10 +292,11 @@ def cached_by_identity(
 
     def caching(compute: Callable[Concatenate[T, P], R]) -> Callable[Concatenate[T, P], R]:
         known: OrderedDict[Any, R] = OrderedDict()
-        lock = Lock()
+        lock, points = Lock(), 0
 
         @functools.wraps(compute)
         def cached(one: T, /, *args: P.args, **options: P.kwargs) -> R:
+            nonlocal points
             key = (one.identity, args, *(sorted(options.items()) if options else ()))
             with lock:
                 if key in known:
@@ -295,9 +304,12 @@ def cached_by_identity(
                     return known[key]
             found = compute(one, *args, **options)
             with lock:
+                # Another thread may have been as fast.
+                if key not in known:
+                    points += points_of(found)
                 known[key] = found
-                while len(known) > most:
-                    known.popitem(last=False)
+                while len(known) > most or points > MOST_POINTS_KEPT:
+                    points -= points_of(known.popitem(last=False)[1])
             return found
 
         return cached

@@ -23,7 +23,7 @@ from packwork.readers.fonts.drawn import drawn_outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import EM_PX, WORD_SPACE, lines_to_set, shaped_word
+from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, lines_to_set, shaped_word
 from packwork.readers.words.options import Word
 from packwork.scene.container import Container, placed_container
 from packwork.scene.layout import Layout
@@ -133,7 +133,7 @@ class PlacedWords:
     @cached_property
     def layout(self) -> Layout:
         """One item per entry, its curves followed as finely as in a print."""
-        shaped = [shaped_word(word.word, self.fonts, "keep") for word in self.words]
+        shaped = [self._as_in_a_print(word.word) for word in self.words]
         items = tuple(word.item for word in shaped)
         areas = np.array([item.outline.area for item in items]) * self.poses.scale**2
         # Centres of what is drawn and of what it covers are not quite the same.
@@ -143,6 +143,13 @@ class PlacedWords:
         moved = [affine.apply(self.poses.matrix(k), way[None])[0] for k, way in enumerate(off)]
         x, y = np.reshape(moved, (-1, 2)).T
         return Layout(self.container, items, replace(self.poses, x=x, y=y), areas)
+
+    def _as_in_a_print(self, word: Word) -> ShapedWord:
+        """The word, as coarse as it may be drawn where its font is too rich for more."""
+        try:
+            return shaped_word(word, self.fonts, "keep")
+        except UnfitError:
+            return shaped_word(word, self.fonts, "keep", 1e-6, COARSEST)
 
 
 def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) -> Container:

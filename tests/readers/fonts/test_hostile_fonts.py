@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 import packwork.readers.fonts.face as face_module
 from made_fonts import doubled_font, nested_font, scribbled_font
 from packwork.errors import ReadError
+from packwork.readers import cache
 from packwork.readers.fonts.face import MAX_FONT_BYTES, Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.reading import UnfitError, reading_file
@@ -28,6 +29,7 @@ from packwork.readers.text import Letter, container_of_words, letters_of
 from packwork.readers.words.items import word_item
 from packwork.readers.words.options import Word
 from packwork.scene.item import FontFile, LiveText, TextRun
+from packwork.wordcloud import WordCloud
 from packwork.writers.svg_live_text import embedded_fonts
 
 SECONDS_AT_MOST = 20.0
@@ -336,3 +338,44 @@ def test_a_file_that_is_too_large(tmp_path):
         file.truncate(MAX_FONT_BYTES + 1)
     with pytest.raises(ReadError, match="larger than 50 MB"):
         container_of_words("text:a", 100, tmp_path / "large.ttf")
+
+
+def _curled_font() -> bytes:
+    """A font whose letter a has 15,000 curves from side to side, and whose b is small."""
+    pen = TTGlyphPen(None)
+    pen.moveTo((0, 0))
+    for k in range(1, 15_000):
+        pen.qCurveTo((900 * (k % 2), 31 * k % 900), (17 * k % 900, 13 * k % 900))
+    pen.closePath()
+
+    def curl(font: TTFont) -> None:
+        font["glyf"]["b"] = font["glyf"]["a"]
+        font["glyf"]["a"] = pen.glyph()
+        font["glyf"]["a"].recalcBounds(font["glyf"])
+
+    return changed(TRUETYPE, curl)
+
+
+@pytest.mark.usefixtures("soon")
+def test_pictures_show_no_letter_that_files_refuse(tmp_path, caplog):
+    (tmp_path / "curled.ttf").write_bytes(_curled_font())
+    cloud = WordCloud(str(tmp_path / "curled.ttf"), 200, 100, random_state=1)
+    cloud.generate_from_frequencies({"ba": 2, "b": 1})
+    assert [word for (word, _), *_ in cloud.layout_] == ["b"]
+    assert "not placed: ba: is a font with a glyph" in caplog.text
+    assert "<svg" in cloud.to_svg()
+
+
+def test_what_is_remembered_of_fonts_is_bound_by_points(monkeypatch):
+    monkeypatch.setattr(cache, "MOST_POINTS_KEPT", 10)
+    asked = []
+
+    @cache.cached_by_identity(100, len)
+    def many(_face: Typeface, count: int) -> str:
+        asked.append(count)
+        return count * "x"
+
+    face = Typeface(TRUETYPE, "a.ttf")
+    assert [len(many(face, count)) for count in (4, 5, 4, 6, 5, 11, 4)] == [4, 5, 4, 6, 5, 11, 4]
+    # Six makes five give way, and what is too large by itself all.
+    assert asked == [4, 5, 6, 5, 11, 4]

@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline, centre_of_area, joined
 from packwork.readers.cache import cached_by_identity
-from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.face import Typeface, check_glyph, check_points
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.fonts.glyph_ink import glyph_ink, rings_of
 from packwork.readers.fonts.itemise import MOST_KNOWN, Piece
@@ -41,7 +41,7 @@ def drawn_outline(
     )
 
 
-@cached_by_identity(MOST_WORDS)
+@cached_by_identity(MOST_WORDS, lambda found: 0 if found is None else len(found[0].points))
 def _drawn_by(
     face: Typeface, _name: str, lines: tuple[tuple[Piece, ...], ...], *asked: Any
 ) -> tuple[Outline, FloatArray] | None:
@@ -69,8 +69,9 @@ def _drawn(
                 sizes.append(run.scale)
     if not outlines:
         return None
-    points, starts = joined(outlines)
     counts = [len(outline.points) for outline in outlines]
+    check_points(sum(counts), "word")
+    points, starts = joined(outlines)
     moved = points * np.repeat(sizes, counts)[:, None] + np.repeat(places, counts, axis=0)
     whole = Outline(moved * (size / word.units), starts)
     x, y = centre_of_area(whole)
@@ -79,7 +80,7 @@ def _drawn(
     return Outline(whole.points - (x, y), starts), similarity(-x, -y, 0.0, 1.0)
 
 
-@cached_by_identity(MOST_KNOWN)
+@cached_by_identity(MOST_KNOWN, lambda found: 0 if found is None else len(found.points))
 def glyph_rings(face: Typeface, number: int, tolerance: float) -> Outline | None:
     """Contours of a glyph about its origin, its curves followed to ``tolerance``; None of a space.
 
@@ -95,6 +96,7 @@ def glyph_rings(face: Typeface, number: int, tolerance: float) -> Outline | None
     rings = [ring for ring in rings_of(face.drawing(number), tolerance) if len(ring) >= 3]
     if not rings:
         return None
+    check_glyph(rings)
     found = Outline.from_rings(rings)
     if found.area < 0:
         found = Outline.from_rings([ring[::-1] for ring in rings])

@@ -110,11 +110,15 @@ def check_drawing(count: int, points: FloatArray, em: float) -> None:
         raise UnfitError("is a font with a glyph that reaches too far; give an intact one")
 
 
+def check_points(count: int, what: str) -> None:
+    """Refuse a glyph or a word of more points than an outline may have."""
+    if count > MAX_POINTS:
+        raise UnfitError(f"is a font with a {what} of {count:,} points; give a plainer one")
+
+
 def check_glyph(rings: Sequence[FloatArray]) -> None:
     """Refuse a glyph whose flattened contours would take minutes, and all memory, to resolve."""
-    points = sum(map(len, rings))
-    if points > MAX_POINTS:
-        raise UnfitError(f"is a font with a glyph of {points:,} points; give a plainer one")
+    check_points(sum(map(len, rings)), "glyph")
     try:
         Allowance(MAX_CROSSINGS).spend([ring for ring in rings if len(ring)])
     except TooRichError as error:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.affine import similarity
@@ -118,7 +119,7 @@ class GlyphPath:
         return self.template.format(*moved.ravel().tolist()).replace(" -", "-")
 
 
-@cached_by_identity(MOST_KNOWN)
+@cached_by_identity(MOST_KNOWN, lambda path: len(path.points))
 def glyph_path(face: Typeface, number: int) -> GlyphPath:
     """Curves of a glyph."""
     segments = face.drawing(number)
@@ -127,7 +128,7 @@ def glyph_path(face: Typeface, number: int) -> GlyphPath:
     return GlyphPath("".join(pieces), np.array(values, dtype=np.float64).reshape(-1, 2))
 
 
-@cached_by_identity(MOST_KNOWN)
+@cached_by_identity(MOST_KNOWN, lambda glyph: 3 * shapely.get_num_coordinates(glyph.region))
 def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     """Region of a glyph, its curves followed to ``tolerance``.
 
