@@ -10,6 +10,7 @@ import pytest
 
 import packwork as pw
 from packwork.compaction import separate
+from packwork.errors import RecipeError
 from packwork.live import refilling
 from packwork.live.refilling import MOST_RUINED
 from packwork.progress import never
@@ -77,14 +78,20 @@ def test_of_several_runs_the_fullest_is_kept(monkeypatch: pytest.MonkeyPatch) ->
     before = session.document
     # As if the gesture had left all of them small.
     settled = before.with_poses(replace(before.poses, scale=before.poses.scale / 2))
-    shares = iter((0.7, 0.9, 0.8))
+    shares = iter((0.7, 0.9, 0.8, 0.9, 0.0))
 
     def poured(*_: object, **__: object) -> SimpleNamespace:
-        scale = before.poses.scale * next(shares)
+        if (share := next(shares)) == 0.0:
+            raise RecipeError("items", "there is no room")
+        scale = before.poses.scale * share
         smaller = before.with_poses(replace(before.poses, scale=scale))
         return SimpleNamespace(applied=lambda *_: smaller)
 
     monkeypatch.setattr(refilling, "poured_again", poured)
+    found = refilling.refilled(before, before, settled, np.array([0]), never)
+    assert found is not None
+    assert found.document.covered == pytest.approx(0.81 * before.covered)
+    # One that cannot be takes nothing from those before it.
     found = refilling.refilled(before, before, settled, np.array([0]), never)
     assert found is not None
     assert found.document.covered == pytest.approx(0.81 * before.covered)

@@ -56,6 +56,17 @@ def test_tilings_are_found(
     assert found.length == pytest.approx(sheet[0], rel=1e-12)
 
 
+def test_tries_end_where_they_are_stopped() -> None:
+    asked = list[int]()
+
+    def stop() -> bool:
+        asked.append(1)
+        return len(asked) == 2
+
+    found, is_least = best_fit([[(2.0, 2.0)], [(9.0, 1.0)]], [5, 1], (4.0, 4.0), 1, 0, stop)
+    assert (found.left, is_least, len(asked)) == ((1, 1), False, 2)
+
+
 def test_what_has_no_room_is_left() -> None:
     found, is_least = best_fit([[(2.0, 2.0)], [(9.0, 1.0)]], [5, 1], (4.0, 4.0), 1, 0)
     assert (found.left, len(found.sheets[0]), is_least) == ((1, 1), 4, False)

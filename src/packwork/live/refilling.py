@@ -96,8 +96,8 @@ def refilled(
         try:
             poured = poured_again(pinned, seed, stop=stop).applied(pinned, Library())
         except PackworkError:
-            # What is held leaves no room for a run: what was settled stands.
-            return None
+            # What is held leaves no room for this run.
+            break
         if stop():
             return None
         kept = replace(poured, held=asked.held, weights=asked.weights)

@@ -8,7 +8,7 @@ x, goes on to further sheets, and tries other preferences at random until nothin
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,9 @@ from packwork.geometry.rectangles import ROUNDING
 
 MOST_LOOKS = 1_000_000
 """Rectangles held against a gap, in all tries: .7 s. More find rarer tilings. Tried."""
+
+MOST_IN_A_TRY = 8_000_000
+"""The same in one try, by estimate, of all kinds: 1,400 of one each. Measured."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,7 @@ class Fitted:
 def best_fit(
     sizes: Sequence[Sequence[tuple[float, float]]], counts: Sequence[int],
     sheet: tuple[float, float], most_sheets: float, seed: int,
+    stop: Callable[[], bool] = lambda: False,
 ) -> tuple[Fitted, bool]:  # fmt: skip
     """Lay rectangles on equal sheets; and whether they cannot lie on less.
 
@@ -55,6 +59,8 @@ def best_fit(
         (length, height) of each kind as it may lie, one or two of them.
     sheet
         Length, which may be infinite, and height.
+    stop
+        Asked after each try whether to end with the best so far.
 
     Examples
     --------
@@ -68,7 +74,7 @@ def best_fit(
     many = 1 if math.isinf(length) else max(math.ceil(area / (length * height) * (1 - ROUNDING)), 1)
     taken = 0.0 if many == 1 else (many - 1) * length
     least = (0, many, (area / height - taken) * (1.0 + 1e-9))
-    looks = sum(counts) * 2 * sum(len(one) for one in sizes)
+    looks = _looks(sizes, counts)
     best = Fitted((), tuple(counts), 0.0)
     for number in range(max(MOST_LOOKS // max(looks, 1), 1)):
         # By height, then by area and by length, then any preference between.
@@ -78,9 +84,22 @@ def best_fit(
         likes = random.uniform(0.0, 1.0, len(sizes)) * noise
         found = _Pass(sizes, counts, sheet, across, likes.tolist()).run(most_sheets)
         best = min(best, found, key=lambda one: one.rank)
-        if best.rank <= least:
+        if best.rank <= least or stop():
             break
     return best, best.rank <= least
+
+
+def is_too_much(sizes: Sequence[Sequence[tuple[float, float]]], counts: Sequence[int]) -> bool:
+    """Whether one try with so many kinds, of so many each, takes too long.
+
+    >>> is_too_much([[(2.0, 1.0)]], [100_000]), is_too_much([[(2.0, 1.0)]] * 4_000, [1] * 4_000)
+    (False, True)
+    """
+    return _looks(sizes, counts) > MOST_IN_A_TRY
+
+
+def _looks(sizes: Sequence[Sequence[tuple[float, float]]], counts: Sequence[int]) -> int:
+    return sum(counts) * 2 * sum(len(one) for one in sizes)
 
 
 class _Pass:

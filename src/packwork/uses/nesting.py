@@ -22,6 +22,7 @@ from packwork.geometry.overlay import buffered, polygon_parts
 from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise
 from packwork.phrasing import enumerated
+from packwork.progress import Stop, until_over
 from packwork.separation.container import SquareGround, SquareSearch
 from packwork.separation.ground import Ground
 from packwork.separation.push import pushed
@@ -114,7 +115,7 @@ def nest(
         "gap": gap, "margin": margin, "effort": work.name or None, "passes": 0,
         "seed": seed, "workers": workers,
     }  # fmt: skip
-    tiled = _tiled(parts, sheets, about)
+    tiled = _tiled(parts, sheets, about, until_over(stop, work.seconds))
     if tiled is not None and tiled[1]:
         return tiled[0]
     # What is certified of a layout is a hair of its longer side.
@@ -175,11 +176,11 @@ def _result(
 
 
 def _tiled(
-    parts: Sequence[SheetPart], sheets: Sequence[Sheet], about: dict[str, Any]
+    parts: Sequence[SheetPart], sheets: Sequence[Sheet], about: dict[str, Any], stop: Stop
 ) -> tuple[NestedSheets, bool] | None:
     """Rectangles in exact places, certified, and whether they need no less; None of others."""
     gap, margin = about["gap"], about["margin"]
-    tiling = tiling_of(parts, sheets, gap, margin, about["seed"])
+    tiling = tiling_of(parts, sheets, gap, margin, about["seed"], stop)
     if tiling is None:
         return None
     found = [

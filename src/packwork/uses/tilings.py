@@ -13,9 +13,10 @@ from shapely.geometry import box
 
 from packwork.geometry.polygon import Region
 from packwork.geometry.rectangles import exact_boxes
+from packwork.progress import Stop
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.line_art import LineArt
-from packwork.separation.best_fit import Placed, best_fit
+from packwork.separation.best_fit import Placed, best_fit, is_too_much
 from packwork.separation.push import pushed
 from packwork.separation.windows import LaidSheet
 from packwork.uses.nested import Sheet, SheetPart
@@ -57,9 +58,10 @@ def is_straight(item: Item) -> bool:
 
 
 def tiling_of(
-    parts: Sequence[SheetPart], sheets: Sequence[Sheet], gap: float, margin: float, seed: int
-) -> Tiling | None:
-    """Plain rectangles on plain sheets of one kind, or on a strip; None where others are asked.
+    parts: Sequence[SheetPart], sheets: Sequence[Sheet], gap: float, margin: float, seed: int,
+    stop: Stop,
+) -> Tiling | None:  # fmt: skip
+    """Plain rectangles on plain sheets of one kind, or on a strip; None of others, or too many.
 
     ``gap``, ``margin``: distance of parts, and of parts to the edge, in the sheet's unit.
     """
@@ -78,9 +80,10 @@ def tiling_of(
     sizes = [[(x1 - x0 + gap, y1 - y0 + gap) for x0, y0, x1, y1 in kind] for kind in boxes]
     most = math.inf if sheet.count is None else sheet.count
     room = sheet.length - 2.0 * margin + gap, sheet.height - 2.0 * margin + gap
-    if min(room) <= 0.0:
+    counts = [one.count for one in parts]
+    if min(room) <= 0.0 or is_too_much(sizes, counts):
         return None
-    found, is_least = best_fit(sizes, [one.count for one in parts], room, most, seed)
+    found, is_least = best_fit(sizes, counts, room, most, seed, stop)
     laid = tuple(
         LaidSheet(
             k, tuple(one.kind for one in placed),
