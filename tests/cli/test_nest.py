@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import math
+import re
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -584,3 +585,32 @@ def test_an_outline_without_a_size_is_as_long_as_is_told(shop: Path, packwork: C
     (sheet,) = read_sheets(f"{shop / 'bracket.svg'}@16in*3")
     assert (sheet.length, sheet.height) == pytest.approx((16.0, 10.0))
     assert (sheet.unit, sheet.count) == ("in", 3)
+    (heart,) = read_sheets("heart@300MM")
+    assert max(heart.length, heart.height) == pytest.approx(300.0)
+
+
+def test_small_coordinates_of_a_sheet_are_lengths_and_no_degrees(tmp_path: Path) -> None:
+    ring = [[0, 0], [60, 0], [60, 40], [0, 40], [0, 0]]
+    file = tmp_path / "flat.geojson"
+    file.write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}), encoding="utf-8")
+    (sheet,) = read_sheets(f"{file}@120mm")
+    assert (sheet.length, sheet.height) == pytest.approx((120.0, 80.0))
+
+
+@pytest.mark.parametrize(
+    "side", ["0mm", "12furlong", "300x200mm", "1e9mm", "", "5%", "-3mm", "nan"]
+)
+def test_a_longer_side_that_is_none_is_refused_by_the_name_of_its_sheet(
+    side: str, shop: Path
+) -> None:
+    with pytest.raises(ReadError) as refused:
+        read_sheets(f"{shop / 'bracket.svg'}@{side}")
+    assert f"bracket.svg@{side}: " in str(refused.value)
+    assert re.search(r"its longer side is one length|a side is \S+ to", str(refused.value))
+
+
+@pytest.mark.parametrize("ending", ["geojson", "dxf", "svg", "packwork"])
+def test_an_earlier_nest_has_its_size(ending: str, shop: Path, packwork: Command) -> None:
+    assert packwork(f"nest 120x80mm disc.svg --passes 2 -o a.{ending}").exit_code == 0
+    with pytest.raises(ReadError, match="is an earlier nest, whose parts have their sizes"):
+        read_sheets(f"{shop / 'a'}.{ending}@120mm")

@@ -158,7 +158,7 @@ def _of_named_parts(
     """Container of a map or an SVG, which keeps it."""
     if Path(source).suffix.lower() in ENDINGS:
         text = file_text(data, source)
-        made = container_of_map(text, name, source, side or DEFAULT_SIDE)
+        made = container_of_map(text, name, source, side or DEFAULT_SIDE, is_plane=reading.is_plane)
     else:
         made = container_of_svg(data, name, source, side, reading)
     return replace(made, file=data)

@@ -74,14 +74,25 @@ class Feature:
 
 def is_map(path: Path) -> bool:
     """Whether GeoJSON holds features or areas, and is no layout of ours."""
-    data = read_bytes(path, MOST_BYTES)
-    return _TYPE.search(data) is not None and _OURS.search(data) is None
+    return _TYPE.search(read_bytes(path, MOST_BYTES)) is not None and not is_ours(path)
 
 
-def container_of_map(text: str, name: str, source: str, side: float) -> Container:
-    """Container of all regions of a map, ``side`` long on its longer side."""
+def is_ours(path: Path) -> bool:
+    """Whether GeoJSON holds a layout of ours."""
+    return _OURS.search(read_bytes(path, MOST_BYTES)) is not None
+
+
+def container_of_map(
+    text: str, name: str, source: str, side: float, *, is_plane: bool = False
+) -> Container:
+    """Container of all regions of a map, ``side`` long on its longer side.
+
+    ``is_plane``: whether its coordinates are lengths, however small.
+    """
     with reading_file(source):
-        whole = clean_union(*(feature.region for feature in _features(text)))
+        # Called as elsewhere, so that a map is kept for its parts.
+        features = _features(text, is_plane=True) if is_plane else _features(text)
+        whole = clean_union(*(feature.region for feature in features))
         left, top, right, bottom = whole.bounds
         box = (left, top, right - left, bottom - top)
         return placed_container(name, source, whole, box, side)
@@ -193,7 +204,7 @@ def _listed(text: str) -> list[Any] | None:
 
 
 @lru_cache(maxsize=1)
-def _features(text: str) -> tuple[Feature, ...]:
+def _features(text: str, *, is_plane: bool = False) -> tuple[Feature, ...]:
     """Features with an area, of the last map once more; others are left out."""
     listed = _listed(text)
     if listed is None:
@@ -212,7 +223,8 @@ def _features(text: str) -> tuple[Feature, ...]:
     if not found:
         raise UnfitError("holds no regions: none of its features is a Polygon or MultiPolygon")
     rings = [ring for _, polygons in found for each in polygons for ring in each]
-    is_globe = (np.abs(np.concatenate(rings)).max(axis=0) <= (360.0 + OFF, 90.0 + OFF)).all()
+    most = np.abs(np.concatenate(rings)).max(axis=0)
+    is_globe = not is_plane and bool((most <= (360.0 + OFF, 90.0 + OFF)).all())
     allowance, shapes = Allowance(MAX_CROSSINGS), list[Region]()
     for names, polygons in found:
         allowance.spend([ring for each in polygons for ring in each])

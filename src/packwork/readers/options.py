@@ -37,13 +37,15 @@ HALF = 0.5
 class ReadOptions:
     """Choices that a file cannot state itself, as the options of those names.
 
-    None leaves ``trim`` and ``keep_page`` to what the drawing looks like.
+    None leaves ``trim`` and ``keep_page`` to what the drawing looks like. ``is_plane``: whether
+    coordinates of GeoJSON are lengths, however small, and no degrees.
     """
 
     trim: bool | None = None
     close_gaps: str = GAPS_AUTO
     keep_page: bool | None = None
     alpha_threshold: float = HALF
+    is_plane: bool = False
 
 
 AS_DRAWN = ReadOptions(trim=False, close_gaps=GAPS_NONE)

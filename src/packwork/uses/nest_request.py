@@ -21,13 +21,15 @@ from packwork.readers.engraving import Engraving
 from packwork.readers.instances import is_instance, read_instance
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import SESSION, holds_layout, read_written
+from packwork.readers.maps import ENDINGS, is_ours
+from packwork.readers.options import ReadOptions
 from packwork.readers.reading import exists, is_folder
 from packwork.recipe.rules import Rotation
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.line_art import LineArt
 from packwork.sources import names_like
-from packwork.units import Unit, canvas_size, convert, length_asked
+from packwork.units import Unit, as_unit, canvas_size, convert, length_asked, split_length
 from packwork.uses.nested import Sheet, SheetPart
 
 _LOG = logging.getLogger("packwork")
@@ -53,8 +55,12 @@ _TIMES = re.compile(r"(?P<source>.+?)\s*\*\s*(?P<count>[0-9]+)")
 _LIKE_A_COUNT = re.compile(r"[0-9][^/\\.]*")
 _SIZED = re.compile(r"(?P<source>.+?)\s*@\s*(?P<side>[0-9.]+\s*[a-z]*)")
 
+_SIZED_SHEET = re.compile(r"(?P<source>.+?)\s*@\s*(?P<side>[^@]*)")
+
 RULES = ("rotate", "mirror", "optional", "priority", "together", "size")
 """Columns of a cut list that say how its parts may lie, and how large they are."""
+
+_AS_LENGTHS = ReadOptions(is_plane=True)
 
 _COUNT_DIGITS = 6
 """Digits of a count at most."""
@@ -115,8 +121,9 @@ def read_sheets(text: str) -> list[Sheet]:
         if not source:
             raise RecipeError("sheet", f"{text[:40]!r} names an empty one; write it as 600x400mm,"
                               "hide.svg")  # fmt: skip
-        met = None if exists(source) else _SIZED.fullmatch(source)
-        if met and exists(met["source"]):
+        met = None if exists(source) else _SIZED_SHEET.fullmatch(source)
+        # A file that is not there may be called icon@2x.svg.
+        if met and not Path(met["side"]).suffix[1:2].isalpha():
             found.append(_of_size(met["source"], met["side"], 1 if count is None else count))
             continue
         if exists(source) and _is_nest(source):
@@ -139,7 +146,7 @@ def read_sheets(text: str) -> list[Sheet]:
             )  # fmt: skip
             continue
         if exists(source) or Path(source).suffix[1:2].isalpha():
-            read = read_container(source)
+            read = read_container(source, reading=_AS_LENGTHS)
             found.append(
                 Sheet(height=read.height, length=read.width, unit=read.unit, name=read.name,
                       outline=read.outline, count=1 if count is None else count)
@@ -162,9 +169,24 @@ def read_sheets(text: str) -> list[Sheet]:
 
 
 def _of_size(source: str, side: str, count: int) -> Sheet:
-    """Sheet of an outline whose longer side is told, whatever its file says of its size."""
-    size = canvas_size(side)
-    read = read_container(source)
+    """Sheet of an outline whose longer side is told, whatever its file says of its size.
+
+    Raises ``ReadError`` for a side that is none, and for a layout of ours, whose parts it would
+    lose.
+    """
+    said = split_length(side.lower())
+    if said is None or as_unit(said[1] or "px") is None:
+        raise ReadError(f"{source}@{side}", f"its longer side is one length, as 1200mm, not "
+                        f"{side[:20]!r}")  # fmt: skip
+    try:
+        size = canvas_size(side)
+    except RecipeError as error:
+        raise ReadError(f"{source}@{side}", str(error).removeprefix("canvas: ")) from None
+    ending = Path(source).suffix.lower()
+    if exists(source) and (is_ours(Path(source)) if ending in ENDINGS else _is_nest(source)):
+        raise ReadError(f"{source}@{side}", "is an earlier nest, whose parts have their sizes; "
+                        f"give it without one: {source}")  # fmt: skip
+    read = read_container(source, reading=_AS_LENGTHS)
     x0, y0, x1, y1 = read.outline.bounds
     scale = size.width / max(x1 - x0, y1 - y0)
     to_sheet = np.array([[scale, 0.0, -x0 * scale], [0.0, scale, -y0 * scale]])
