@@ -28,7 +28,7 @@ SHAPES = ["star", "heart", "hexagon", "moon"]
 
 @cache
 def thirty(seed: int) -> pw.Layout:
-    return pw.fill("circle", SHAPES, count=30, epochs=100, levels="50,100", seed=seed)
+    return pw.fill("circle", SHAPES, count=30, epochs=100, levels="50,100", seed=seed, padding="0")
 
 
 def dragged(session: Session, item: int) -> list[int]:
