@@ -18,6 +18,7 @@ from packwork.readers.words.options import Word
 from packwork.wordcloud import WordCloud
 from packwork.wordcloud.engine import COARSEST, DrawnWord
 
+Corners = list[tuple[float, float]]
 FONTS = Path(__file__).parents[1] / "readers" / "fonts"
 WORDS = [
     ("", "W.A.Y."), ("", "(a) i®"), ("NotoNaskhArabic.ttf", "العربية"),
@@ -51,28 +52,49 @@ def test_files_have_words_where_the_picture_has_them() -> None:
         assert off.area < 0.01 * there.area
 
 
-class _Crossed(Typeface):
-    """A face whose letters have a stroke that runs the other way beside the main one."""
+def ring_of(x: float, y: float, side: float, turn: int) -> Corners:
+    return [(x, y), (x + side, y), (x + side, y + side), (x, y + side)][::turn]
 
-    def __init__(self) -> None:
+
+ARCH = [(0.0, 0.0), (700.0, 0.0), (700.0, 100.0), (100.0, 100.0), (100.0, 600.0), (700.0, 600.0),
+        (700.0, 700.0), (0.0, 700.0)]  # fmt: skip
+STROKES = {
+    "beside": [ring_of(0, 0, 200, 1), ring_of(300, 0, 100, -1)],
+    "in a bay": [ARCH, ring_of(300, 250, 200, -1)],
+    "on the rim": [ring_of(0, 0, 700, 1), ring_of(600, 300, 200, -1)],
+    "in a hole": [ring_of(0, 0, 700, 1), ring_of(100, 100, 500, -1), ring_of(200, 200, 300, -1)],
+    "holes that meet": [ring_of(0, 0, 700, 1), ring_of(100, 0, 300, -1), ring_of(300, 0, 300, -1)],
+    "one that crosses itself": [[(0.0, 0.0), (700.0, 600.0), (700.0, 0.0), (0.0, 700.0)]],
+    "a plain hole": [ring_of(0, 0, 700, 1), ring_of(100, 100, 500, -1)],
+    "rings in holes": [ring_of(0, 0, 700, 1), ring_of(100, 100, 500, -1), ring_of(200, 200, 300, 1),
+                       ring_of(300, 300, 100, -1)],
+}  # fmt: skip
+
+
+class _Crossed(Typeface):
+    """A face whose letters are all of these strokes."""
+
+    def __init__(self, kind: str) -> None:
         self.__dict__ = {**bundled_typeface().__dict__, "_known": {}}
+        self.kind = kind
 
     @property
     def identity(self) -> str:  # type: ignore[override]
-        return "crossed"
+        return f"crossed {self.kind}"
 
     def drawing(self, number: int):  # type: ignore[no-untyped-def]
-        def box(x: float, side: float):  # type: ignore[no-untyped-def]
-            ring = [(x, 0.0), (x + side, 0.0), (x + side, side), (x, side)]
-            return [("M", ring[0]), *(("L", corner) for corner in ring[1:]), ("Z", ())]
-
-        first, second = box(0.0, 200.0), box(300.0, 100.0)
-        corners = second[:4][::-1]
-        return (*first, ("M", corners[0][1]), *(("L", one[1]) for one in corners[1:]), ("Z", ()))
+        return tuple(
+            segment
+            for first, *others in STROKES[self.kind]
+            for segment in (("M", first), *(("L", corner) for corner in others), ("Z", ()))
+        )
 
 
-def test_strokes_either_way_round_are_ink_alike() -> None:
-    found = glyph_rings(_Crossed(), 1, 1.0)
+@pytest.mark.parametrize("kind", STROKES)
+def test_strokes_either_way_round_are_ink_alike(kind: str) -> None:
+    found = glyph_rings(_Crossed(kind), 1, 1.0)
     assert found is not None
-    assert found.area == pytest.approx(200.0**2 + 100.0**2)
-    assert np.all(found.ring_areas > 0)
+    rings = [np.array(ring) for ring in STROKES[kind]]
+    # On pixels a ring takes away what it goes round the other way.
+    assert found.area == pytest.approx(region(rings, "nonzero").area)
+    assert covered(found).equals(region(rings, "nonzero"))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.affine import similarity
@@ -107,9 +108,21 @@ def glyph_rings(face: Typeface, number: int, tolerance: float) -> Outline | None
 
 
 def _has_holes_only_in_rings(outline: Outline) -> bool:
-    """Whether each ring that runs the other way may lie in one that does not."""
-    first, filled = outline.starts[:-1], outline.ring_areas > 0
-    low, high = (end.reduceat(outline.points, first) for end in (np.minimum, np.maximum))
-    begins_within = (low[:, None] >= low[filled]).all(axis=2)
-    is_within = begins_within & (high[:, None] <= high[filled]).all(axis=2)
-    return bool((filled | np.any(is_within, axis=1)).all())
+    """Whether nothing is taken away but once of what is filled.
+
+    Of holes that meet, the smallest must lie in as many filled rings as there are holes.
+    """
+    which = np.repeat(np.arange(len(outline.starts) - 1), np.diff(outline.starts))
+    drawn = shapely.polygons(shapely.linearrings(outline.points, indices=which))
+    # Of one that crosses itself a part may run the other way.
+    if not shapely.is_valid(drawn).all():
+        return False
+    filled = outline.ring_areas > 0
+    if filled.all():
+        return True
+    holes, sizes = drawn[~filled], -outline.ring_areas[~filled]
+    within, _ = shapely.STRtree(drawn[filled]).query(holes, predicate="within")
+    one, other = shapely.STRtree(holes).query(holes, predicate="intersects")
+    met = one[sizes[other] >= sizes[one]]
+    count = len(holes)
+    return bool((np.bincount(within, minlength=count) >= np.bincount(met, minlength=count)).all())
