@@ -10,24 +10,25 @@ import operator
 import re
 from collections.abc import Callable
 
-MAX_TERMS = 60
-"""Numbers, words and signs of one call. Chosen."""
+MAX_TERMS = 200
+"""Numbers, words, signs and brackets of one call: CSS asks for 32 terms at least. Chosen."""
 
-UNCOMPUTABLE = (ArithmeticError, LookupError, SyntaxError, ValueError)
+UNCOMPUTABLE = (ArithmeticError, LookupError, SyntaxError, TypeError, ValueError)
 """What comes of calls that make no sense."""
 
 _NUMBER = re.compile(r"((?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)([a-z%]*)")
-_PLAIN = re.compile(r"[\w\s.%+*/(),-]*")
+_PLAIN = re.compile(r"(?:[\w\s.%+*/()-]|,(?!\s*\)))*")
+"""Python lets a comma stand before a bracket."""
 _TERM = re.compile(r"[\w.%]+|[^\w\s]")
 _OPERATORS: dict[type[ast.AST], Callable[..., float]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
     ast.USub: operator.neg, ast.UAdd: operator.pos,
 }  # fmt: skip
 _CALLS: dict[str, Callable[..., float]] = {
-    "calc": lambda *values: values[0],
+    "calc": lambda value: value,
     "min": lambda *values: min(values),
     "max": lambda *values: max(values),
-    "clamp": lambda *values: max(values[0], min(values[1], values[2])),
+    "clamp": lambda low, value, high: max(low, min(value, high)),
 }
 
 
