@@ -26,6 +26,8 @@ _HOMES = {
     "svg": ("SvgOptions", "svg_text"),
 }  # fmt: skip
 
+__all__ = sorted(name for names in _HOMES.values() for name in names)
+
 
 def __getattr__(name: str) -> Any:
     """Load a name when it is first used."""
