@@ -205,6 +205,7 @@ def test_a_sheet_that_lies_outside_of_the_file_is_passed_over(tmp_path: Path) ->
         ({"sheets": {"S": "<row><c r='ZZZ1'><v>1</v></c></row>"}}, "has a column 18,278"),
         ({"sheets": {"S": "<row><c t='s'><v>7</v></c></row>"}}, "is no workbook of Excel"),
         ({"sheets": {"S": "<row><c t='s'><v>-1</v></c></row>"}}, "a cell has text -1 of 2"),
+        ({"sheets": {"S": "<row><c t='s'><v>0_0</v></c></row>"}}, "a cell has text 0_0 of 2"),
         ({"sheets": {"S": "<row><c><v>x</v></c></row>"}}, "holds 'x', which is no number"),
         ({"sheets": {"S": "<row><c><v>1_0</v></c></row>"}}, "holds '1_0', which is no number"),
         ({"sheets": {"S": "<row><c><v>nan</v></c></row>"}}, "holds 'nan', which is no number"),

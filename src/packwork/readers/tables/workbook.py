@@ -243,8 +243,9 @@ class _Workbook:
             depth += 1
             if depth > DEEPEST:
                 raise ValueError(f"it nests elements more than {DEEPEST} deep")
-            plain = {key.rpartition(" ")[2]: value for key, value in told.items()}
-            start(name.rpartition(" ")[2], plain)
+            if told:
+                told = {key.rpartition(" ")[2]: value for key, value in told.items()}
+            start(name.rpartition(" ")[2], told)
 
         def close(name: str) -> None:
             nonlocal depth
@@ -373,7 +374,7 @@ class _SheetReader:
         if kind in {"s", "b", "n"} and not text.strip():
             return ""
         if kind == "s":
-            if not 0 <= int(text) < len(self._texts):
+            if not text.strip().isdecimal() or int(text) >= len(self._texts):
                 raise ValueError(f"a cell has text {text[:20]} of {len(self._texts):,}")
             text = self._texts[int(text)]
         elif kind == "b":
