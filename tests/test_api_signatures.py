@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import inspect
 import re
+from operator import attrgetter
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 import pytest
 
@@ -31,6 +33,20 @@ def test_what_a_value_may_be_is_shown_as_it_is_written() -> None:
     assert shown["time"].annotation == "float | None"
     assert shown["palette"].annotation == "Colours | None"
     assert shown["canvas"].annotation == "str | float | Sequence[float] | None"
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["fill", "words", "photos", "pile", "chart", "series", "chart_series"]
+    + [f"Layout.{one}" for one in ("save", "save_film", "to_svg", "to_png", "to_image")],
+)
+def test_types_of_options_can_be_asked_for_as_other_libraries_do(name: str) -> None:
+    function = attrgetter(name)(pw)
+    (keywords,) = get_args(get_type_hints(function)["options"])
+    told = get_type_hints(keywords)
+    assert told
+    # Series show them by **options alone.
+    assert "series" in name or told.keys() <= inspect.signature(function).parameters.keys()
 
 
 def test_saving_shows_how_layouts_are_drawn() -> None:

@@ -13,6 +13,7 @@ from PIL import Image
 from pydantic import ValidationError
 
 from packwork import writers
+from packwork.api.keywords import SaveKeywords
 from packwork.api.signatures import of_model
 from packwork.display.extras import data_frame, draw_on_axes, geo_data_frame
 from packwork.display.picture import notebook_png, notebook_svg
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     from geopandas import GeoDataFrame
     from matplotlib.axes import Axes
     from pandas import DataFrame
-
-    from packwork.api.keywords import SaveKeywords
 
 
 def drawing_options(options: Mapping[str, Any]) -> writers.WriteOptions:

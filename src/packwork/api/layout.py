@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from packwork import writers
 from packwork.api.exports import Exported, drawing_options
 from packwork.api.history import History
+from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.parts import (
     Placement,
     Pose,
@@ -41,7 +42,6 @@ from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
-    from packwork.api.keywords import FilmKeywords, SaveKeywords
     from packwork.api.session import Session
 
 

@@ -6,10 +6,11 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from packwork import threads, writers
 from packwork.api.inputs import handed_over, with_names
+from packwork.api.keywords import ChartKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.api.plain import with_columns
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
@@ -25,9 +26,6 @@ from packwork.timeline.film import filmed
 from packwork.timeline.solve import Solved, report, solved
 from packwork.timeline.step import SeriesStep, chart_steps, step_files, word_steps
 from packwork.uses.words.recipe import weights_by_word
-
-if TYPE_CHECKING:
-    from packwork.api.keywords import ChartKeywords, WordsKeywords
 
 
 @dataclass(frozen=True, eq=False, repr=False)

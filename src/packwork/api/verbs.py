@@ -6,11 +6,12 @@ import contextlib
 import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from packwork import uses
 from packwork.api.history import keeper
 from packwork.api.inputs import handed_over, with_names
+from packwork.api.keywords import ChartRun, FillRun, PhotosRun, PileRun, WordsRun
 from packwork.api.layout import Layout, public
 from packwork.api.parts import measures
 from packwork.api.plain import weighed, with_columns, without_none
@@ -31,9 +32,6 @@ from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container, on_canvas
 from packwork.uses.overriding import overridden
 from packwork.uses.photos.recipe import photos_recipe
-
-if TYPE_CHECKING:
-    from packwork.api.keywords import ChartRun, FillRun, PhotosRun, PileRun, WordsRun
 
 
 @of_verb(Verbs.FILL)
