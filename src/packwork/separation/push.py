@@ -104,7 +104,7 @@ def _room(
     back: Floats, shift: tuple[float, float], ahead: Floats, there: tuple[float, float],
     most: float, slack: float,
 ) -> float:  # fmt: skip
-    """How far edges can slide until they meet others, at most as far as given."""
+    """Ways that edges can slide until they meet others, at most as far as given."""
     along, across = shift[0] - there[0], shift[1] - there[1]
     if not (back.size and ahead.size):
         return most

@@ -282,7 +282,7 @@ def _halos(layout: Layout, digits: int) -> list[str]:
 
 
 def container_line(container: Container, show: bool | None) -> tuple[bool, tuple[str, float]]:
-    """Whether a container's line is drawn; its colour and width, canvas units."""
+    """Line of a container: if it is drawn, and its colour and width in canvas units."""
     usual = CONTAINER_STROKE, container.side * CONTAINER_STROKE_SHARE
     return container.pen is not None if show is None else show, container.pen or usual
 

@@ -199,7 +199,7 @@ class Keeper:
 
     @property
     def missed(self) -> str:
-        """What of the journal could not be done again, in a line; empty if nothing."""
+        """Line on what of the journal could not be done again; empty if nothing."""
         return self._disk.missed
 
     def begin(self, session: Session) -> None:
