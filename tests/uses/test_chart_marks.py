@@ -206,7 +206,8 @@ def test_the_unit_that_is_offered_is_enough() -> None:
         ("t.csv", "", "has no rows"),
         ("t.json", "{", "is not JSON"),
         ("t.json", "[1]", "holds no rows"),
-        ("t.txt", "a", "is no table"),
+        ("t.txt", "a", "has no rows"),
+        ("t.doc", "a", "is no table"),
         ("t.parquet", "a", "parquet: (needs pandas|is not Parquet)"),
     ],
 )

@@ -74,12 +74,12 @@ def has_one_colour(art: Art) -> bool:
 
 
 ALIKE = 1 / 6
-"""Chance that two items are of one colour, or copies, from which drawings run together. Derived:
-of six neighbours one is like the item."""
+"""Chance that two items are different drawings of one colour, from which these run together.
+Derived: of six neighbours one is like the item."""
 
 
 def run_together(items: Sequence[Item]) -> bool:
-    """Whether of different drawings many neighbours are of one colour, or copies: two look as one.
+    """Whether many neighbours are different drawings of one colour, which then look as one.
 
     Examples
     --------
@@ -87,13 +87,15 @@ def run_together(items: Sequence[Item]) -> bool:
     >>> run_together([builtin_item("star"), builtin_item("star")])
     False
     """
-    arts = Counter(item.art for item in items)
-    kinds = Counter[Art | tuple[int, int, int, int]]()
-    for art, count in arts.items():
-        if not isinstance(art, PhotoArt):
-            kinds[one_colour(art) or art] += count
-    alike = sum(count * (count - 1) for count in kinds.values())
-    return len(arts) > 1 and alike >= ALIKE * len(items) * (len(items) - 1)
+    drawings = Counter((item.source, item.art) for item in items)
+    colours = Counter[tuple[int, int, int, int]]()
+    copies = 0
+    for (_, art), count in drawings.items():
+        if (colour := one_colour(art)) is not None:
+            colours[colour] += count
+            copies += count * (count - 1)
+    alike = sum(count * (count - 1) for count in colours.values()) - copies
+    return 0 < alike >= ALIKE * len(items) * (len(items) - 1)
 
 
 def one_colour(art: Art) -> tuple[int, int, int, int] | None:
