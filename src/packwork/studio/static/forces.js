@@ -56,6 +56,7 @@ export class Forces {
   begin() {
     this.studio.gestures.draw();
     this.isDrawing = true;
+    this.studio.redraw();
   }
 
   /** @param {Point} to @param {Point} from in the window */

@@ -26,6 +26,7 @@ export class Lasso {
     this.isDrawing = true;
     this.before = [...this.studio.choice.ids];
     this.base = adds ? this.before : [];
+    this.studio.redraw();
     say(`${this.asks}; Escape leaves off`);
   }
 
