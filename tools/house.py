@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 73_015,
+    "lines of code": 73_017,
     "lines of docstrings": 20_306,
     "files": 615,
     "functions of the road in one plain fill": 94,

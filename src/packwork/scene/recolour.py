@@ -87,10 +87,10 @@ def run_together(items: Sequence[Item]) -> bool:
     >>> run_together([builtin_item("star"), builtin_item("star")])
     False
     """
-    drawings = Counter((item.source, item.art) for item in items)
+    drawings = Counter(item.art for item in items)
     colours = Counter[tuple[int, int, int, int]]()
     copies = 0
-    for (_, art), count in drawings.items():
+    for art, count in drawings.items():
         if (colour := one_colour(art)) is not None:
             colours[colour] += count
             copies += count * (count - 1)
