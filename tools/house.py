@@ -61,9 +61,9 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 73_017,
-    "lines of docstrings": 20_306,
-    "files": 615,
+    "lines of code": 73_413,
+    "lines of docstrings": 20_321,
+    "files": 614,
     "functions of the road in one plain fill": 94,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,

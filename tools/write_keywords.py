@@ -1,4 +1,4 @@
-"""Write ``api/keywords.pyi``, the types of options in Python, from the fields of the options.
+"""Write ``api/keywords.py``, the types of options in Python, from the fields of the options.
 
     python tools/write_keywords.py
 
@@ -10,11 +10,16 @@ from __future__ import annotations
 import subprocess
 import sys
 import textwrap
+from collections.abc import Callable as AbstractCallable
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-from packwork.api.option_types import RULES, kind_of, kind_of_option
+from pydantic import BaseModel
+
+from packwork.api.inputs import COLOURS, CONTAINERS, ITEMS, PICTURES, VECTORS
 from packwork.api.signatures import BACKGROUND
 from packwork.options import Offer, Offered, Options, Verbs, offered
 from packwork.recipe import Recipe
@@ -23,8 +28,20 @@ from packwork.recipe.verbs import VERBS, default_of, run_options
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
-TARGET = Path(__file__).resolve().parents[1] / "src" / "packwork" / "api" / "keywords.pyi"
+TARGET = Path(__file__).resolve().parents[1] / "src" / "packwork" / "api" / "keywords.py"
 WIDTH = 100
+TABLES = {Pin: "PinTable", Rule: "RuleTable"}
+RULES = "Sequence[RuleTable]"
+
+OF_PYTHON = {
+    **dict.fromkeys(COLOURS, "Colours | None"),
+    "seed": "Generator | int | None",
+    "weights": "str | Path | Mapping[str, float] | Cells | None",
+}
+"""Types of options that take values of NumPy, pandas and Matplotlib."""
+
+COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")
+"""Options of charts that name columns, or are the cells of one."""
 
 HEAD = '''"""Options of the verbs as type checkers and editors know them.
 
@@ -85,7 +102,9 @@ def _by_verbs(imports: set[str]) -> dict[tuple[Verbs, ...], list[Key]]:
         more = (BACKGROUND,) if verb in Verbs.WORDS | Verbs.CHART else ()
         for option in (*run_options(verb), *more):
             if option.name != "items":
-                kind = kind_of_option(option, verb, imports)
+                kind = _taken(option.name, option.field, option.offer.takes, imports)
+                if verb is Verbs.CHART and option.name in COLUMNS:
+                    kind = "Cells | None"
                 found.setdefault((option.name, kind, option.help), []).append((verb, option))
     sets: dict[tuple[Verbs, ...], list[Key]] = {}
     for (name, kind, _), offers in found.items():
@@ -121,7 +140,7 @@ def _offered(model: type[Options], imports: set[str]) -> list[Key]:
     return [
         Key(
             option.name,
-            kind_of_option(option, None, imports),
+            _taken(option.name, option.field, option.offer.takes, imports),
             _meaning(option, {repr(option.default): []}),
         )
         for option in offered(model)
@@ -133,10 +152,96 @@ def _keys(model: type[Options], imports: set[str]) -> list[Key]:
     found = []
     for name, field in model.model_fields.items():
         offer = next((said for said in field.metadata if isinstance(said, Offer)), Offer())
-        kind = kind_of(name, field, offer.takes, imports)
+        kind = _taken(name, field, offer.takes, imports)
         kind = f"Required[{kind}]" if field.is_required() else kind
         found.append(Key(name, kind, field.description or ""))
     return found
+
+
+def _taken(name: str, field: Any, takes: Any, imports: set[str]) -> str:
+    """Type of what Python may give for a field."""
+    if name == "start":
+        imports.add("from packwork.scene.layout import Layout")
+        imports.add("from packwork.scene.pose import Poses")
+        return "str | Path | Layout | Poses | None"
+    if name in OF_PYTHON:
+        imports.add("from numpy.random import Generator")
+        imports.add("from packwork.api.plain import Cells, Colours")
+        return OF_PYTHON[name]
+    if name in (*PICTURES, *VECTORS):
+        imports.add("from packwork.readers.memory.values import Value")
+        return "Value | None"
+    if name in (*ITEMS, *CONTAINERS):
+        imports.add("from packwork.readers.memory.values import Value")
+        more = {"region": "Sequence[str | float] | ", "shape": ""}.get(name, "Iterable[Value] | ")
+        return f"Value | {more}None"
+    kinds = list(dict.fromkeys(_spelt(field.annotation if takes is None else takes, imports)))
+    if "str" not in kinds:
+        # A text would be a sequence of texts, of one letter each.
+        kinds = [
+            kind.replace("Sequence", many)
+            for kind in kinds
+            for many in (("list", "tuple") if kind.startswith("Sequence[str") else ("Sequence",))
+        ]
+    return " | ".join(kind.replace("tuple[str]", "tuple[str, ...]") for kind in kinds)
+
+
+def _spelt(kind: Any, imports: set[str]) -> list[str]:
+    """Alternatives of a type as they are written; of containers what is read of them."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if origin is Annotated:
+        return _spelt(inner[0], imports)
+    if origin in (Union, UnionType):
+        return [said for part in inner for said in _spelt(part, imports)]
+    if origin is Literal:
+        return [f"Literal[{', '.join(map(repr, inner))}]"]
+    if origin is tuple:
+        return _spelt_tuple(inner, imports)
+    if origin is dict or origin is Mapping:
+        return _spelt_mapping(inner, imports)
+    if origin is AbstractCallable:
+        return [_spelt_function(inner, imports)]
+    if origin is not None:
+        name = "AbstractSet" if origin.__name__ == "Set" else origin.__name__
+        return [f"{name}[{', '.join(' | '.join(_spelt(part, imports)) for part in inner)}]"]
+    return [_spelt_name(kind, imports)]
+
+
+def _spelt_tuple(inner: tuple[Any, ...], imports: set[str]) -> list[str]:
+    each = [" | ".join(_spelt(part, imports)) for part in inner if part is not Ellipsis]
+    if Ellipsis in inner:
+        return [f"Sequence[{each[0]}]"]
+    return [f"list[{' | '.join(dict.fromkeys(each))}]", f"tuple[{', '.join(each)}]"]
+
+
+def _spelt_mapping(inner: tuple[Any, Any], imports: set[str]) -> list[str]:
+    keys = _spelt(inner[0], imports)
+    # Keys of a Mapping are invariant: one of texts alone would be refused where both may be.
+    key = keys[0] if len(keys) == 1 else "Any"
+    return [f"Mapping[{key}, {' | '.join(_spelt(inner[1], imports))}]"]
+
+
+def _spelt_function(inner: tuple[Any, Any], imports: set[str]) -> str:
+    *taken, given = inner
+    several = taken[0] if isinstance(taken[0], list) else taken
+    said = (
+        "..." if several == [Ellipsis] else f"[{', '.join(_spelt(t, imports)[0] for t in several)}]"
+    )
+    return f"Callable[{said}, {' | '.join(_spelt(given, imports))}]"
+
+
+def _spelt_name(kind: Any, imports: set[str]) -> str:
+    if kind is NoneType or kind is None:
+        return "None"
+    if kind is Any:
+        return "Any"
+    if kind in TABLES:
+        return TABLES[kind]
+    if issubclass(kind, BaseModel):
+        return "Mapping[str, Any]"
+    if kind.__module__ not in ("builtins", "pathlib"):
+        imports.add(f"from {kind.__module__} import {kind.__name__}")
+    return str(kind.__name__)
 
 
 def _table(name: str, said: str, keys: list[Key], bases: Iterable[str] = ()) -> str:

@@ -7,7 +7,6 @@ import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypedDict, TypeVar
 
-from packwork.api import option_types
 from packwork.options import Offered, Options, Verbs, offered
 from packwork.phrasing import in_python
 from packwork.progress import Listener, Stop, never
@@ -56,29 +55,23 @@ _UNASKED: Mapping[str, Any] = {
 }  # fmt: skip
 
 RUN = [
-    inspect.Parameter(
-        name,
-        inspect.Parameter.KEYWORD_ONLY,
-        default=_UNASKED[name],
-        annotation=kind.__forward_arg__,
-    )
-    for name, kind in RunKeywords.__annotations__.items()
+    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=_UNASKED[name])
+    for name in RunKeywords.__annotations__
 ]
 """Parameters for :class:`RunKeywords`."""
 
 TAB = 4 * " "
 
 RULES = inspect.Parameter(
-    "rules", inspect.Parameter.KEYWORD_ONLY, default=Recipe.model_fields["rules"].default,
-    annotation=option_types.RULES,
-)  # fmt: skip
+    "rules", inspect.Parameter.KEYWORD_ONLY, default=Recipe.model_fields["rules"].default
+)
 """Parameter for rules, which command lines do not have."""
 
 
 def of_verb(verb: Verbs, *more: Offered) -> Callable[[Signed], Signed]:
     """Show what all verbs have, a verb's options, further ones and ``rules`` for ``**options``."""
     listed = (*(option for option in run_options(verb) if option.name != "items"), *more)
-    shown = [*RUN, *(_parameter(o, default_of(verb, o), verb) for o in listed), RULES]
+    shown = [*RUN, *(_parameter(o, default_of(verb, o)) for o in listed), RULES]
     return _showing(shown, listed)
 
 
@@ -88,12 +81,8 @@ def of_model(model: type[Options]) -> Callable[[Signed], Signed]:
     return _showing([_parameter(option, option.default) for option in listed], listed)
 
 
-def _parameter(option: Offered, default: Any, verb: Verbs | None = None) -> inspect.Parameter:
-    # Types as they are written: what Python takes, which validators make the fields' of.
-    kind = option_types.kind_of_option(option, verb, set())
-    return inspect.Parameter(
-        option.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind
-    )
+def _parameter(option: Offered, default: Any) -> inspect.Parameter:
+    return inspect.Parameter(option.name, inspect.Parameter.KEYWORD_ONLY, default=default)
 
 
 def described(text: str, options: Iterable[Offered]) -> str:
@@ -116,9 +105,16 @@ def _showing(
 ) -> Callable[[Signed], Signed]:
     def signed(function: Signed) -> Signed:
         own = inspect.signature(function)
-        *kept, _ = own.parameters.values()
+        *kept, gathered = own.parameters.values()
         there = {each.name for each in kept}
-        added = [each for each in parameters if each.name not in there]
+        # Types as they are written: what Python takes, which validators make the fields' of.
+        table = gathered.annotation.removeprefix("Unpack[").removesuffix("]")
+        kinds = function.__globals__[table].__annotations__
+        added = [
+            each.replace(annotation=kinds[each.name].__forward_arg__)
+            for each in parameters
+            if each.name not in there
+        ]
         changed: Any = function
         changed.__doc__ = changed.__doc__ and described(changed.__doc__, described_by)
         changed.__signature__ = own.replace(parameters=[*kept, *added])

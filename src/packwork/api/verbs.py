@@ -11,7 +11,13 @@ from typing import Any, Unpack
 from packwork import uses
 from packwork.api.history import keeper
 from packwork.api.inputs import handed_over, with_names
-from packwork.api.keywords import ChartRun, FillRun, PhotosRun, PileRun, WordsRun
+from packwork.api.keywords import (
+    ChartRun,
+    FillRun,
+    PhotosRun,
+    PileRun,
+    WordsRun,
+)
 from packwork.api.layout import Layout, public
 from packwork.api.parts import measures
 from packwork.api.plain import weighed, with_columns, without_none

@@ -16,15 +16,15 @@ import numpy as np
 from packwork.geometry.rectangles import ROUNDING
 
 MOST_LOOKS = 1_000_000
-"""Rectangles held against a gap, in all tries: .7 s. More find rarer tilings. Tried."""
+"""Comparisons of a rectangle with a gap, in all tries: .7 s. More find rarer tilings. Tried."""
 
 MOST_IN_A_TRY = 8_000_000
-"""The same in one try, by estimate, of all kinds: 1,400 of one each. Measured."""
+"""The same in one try, as estimated: 1,400 kinds of one part each reach it. Measured."""
 
 
 @dataclass(frozen=True)
 class Placed:
-    """Number of a kind, of its size among those that it may have, and its left top corner."""
+    """One placed rectangle: its kind, which of its two orientations, and its left top corner."""
 
     kind: int
     turn: int
@@ -34,7 +34,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class Fitted:
-    """Rectangles on sheets, how many of each kind have no room, the last sheet's used length."""
+    """Rectangles by sheet, how many of each kind found no room, used length of the last sheet."""
 
     sheets: tuple[tuple[Placed, ...], ...]
     left: tuple[int, ...]

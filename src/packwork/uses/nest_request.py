@@ -171,8 +171,8 @@ def read_sheets(text: str) -> list[Sheet]:
 def _of_size(source: str, side: str, count: int) -> Sheet:
     """Sheet of an outline whose longer side is told, whatever its file says of its size.
 
-    Raises ``ReadError`` for a side that is none, and for a layout of ours, whose parts it would
-    lose.
+    Raises ``ReadError`` where the side is no length, and for an earlier nest, whose parts would be
+    lost.
     """
     said = split_length(side.lower())
     if said is None or as_unit(said[1] or "px") is None:

@@ -40,9 +40,10 @@ class Tiling:
 
 
 def is_straight(item: Item) -> bool:
-    """Whether an item is an upright rectangle of straight lines, not of curves that seem so.
+    """Whether an item is an upright rectangle drawn by straight lines alone.
 
-    What is cut out of one is not seen in all files, so that it is none.
+    False for curves that only seem straight, and for a rectangle with holes, which not all file
+    formats keep as drawn.
 
     Examples
     --------

@@ -193,7 +193,7 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         parts=_parts_of(record.parts, shared) if record.parts else None,
         coarseness=record.coarseness,
     )
-    # That it may touch others is no matter of a file's word.
+    # A file's claim that an item may touch others is checked.
     is_claimed = record.coarseness == 0.0
     return made if not is_claimed or is_straight(made) else replace(made, coarseness=1.0)
 
