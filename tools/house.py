@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 73_413,
-    "lines of docstrings": 20_321,
+    "lines of code": 73_414,
+    "lines of docstrings": 20_329,
     "files": 614,
     "functions of the road in one plain fill": 94,
     "files of the road in one plain fill": 19,

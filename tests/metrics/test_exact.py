@@ -13,6 +13,7 @@ from packwork.errors import ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import exact_coverage, exact_metrics
+from packwork.metrics.violations import ViolationSet, violations
 
 Box = tuple[int, int, int, int]
 
@@ -207,3 +208,16 @@ def test_smallest_gap_of_more_than_one_portion_is_found_wherever_it_is() -> None
     for moved in (tiles, tiles[::-1], [tiles[k] for k in rng.permutation(len(tiles))]):
         found = exact_metrics(moved, box(-1, -1, 26, 26)).min_gap
         assert found == pytest.approx(1 - sides.max(), abs=1e-12)
+
+
+def test_what_outlines_keep_is_prepared_for_nobody() -> None:
+    # Threads share it, and GEOS lets one at a time ask a prepared region.
+    tiles = [Outline.box(k, 0, k + 1, 1) for k in range(3)]
+    container = Outline.box(0, 0, 9, 9)
+    kept = [one.region for one in (*tiles, container)]
+    assert exact_metrics(tiles, container).is_clean
+    assert violations(tiles, container, 0.5)
+    found = ViolationSet(container, 0.5)
+    found.change(dict(enumerate(tiles)))
+    assert found.violations
+    assert not shapely.is_prepared(kept).any()

@@ -22,6 +22,7 @@ from packwork.geometry.overlay import (
     intersection,
     part_about,
     polygon_parts,
+    prepared,
     union,
     valid,
 )
@@ -129,8 +130,7 @@ def _container_region(container: Outline) -> Region:
     whole = valid(container.region)
     if whole.area <= 0:
         raise ShapeError("the container has no area; give a region that can be filled")
-    shapely.prepare(whole)
-    return whole
+    return prepared(whole)
 
 
 def _regions(outlines: Sequence[Outline]) -> _Regions:
@@ -197,8 +197,9 @@ def smallest_gap(regions: _Regions, whole: Region) -> float:
     """
     if len(regions) == 0:
         return math.inf
-    edge = whole.boundary
-    shapely.prepare(edge)
+    edge = prepared(whole.boundary)
+    # Copies: other threads may ask those that outlines keep, which are prepared in turn here.
+    regions = shapely.force_2d(regions)
     tree = shapely.STRtree(regions)
     left, top, right, bottom = whole.bounds
     extent = max(right - left, bottom - top)

@@ -14,7 +14,7 @@ from packwork.arrays import IntArray
 from packwork.geometry.distance import distance
 from packwork.geometry.lattice import Lattice, moved
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import Region, difference, intersection, part_about, valid
+from packwork.geometry.overlay import Region, difference, intersection, part_about, prepared, valid
 from packwork.metrics.torus import images_about
 
 
@@ -45,12 +45,11 @@ def violations(
     >>> [(one.item, one.other, one.overlap_cu2) for one in found]
     [(0, 1, 1.0), (2, None, 3.0)]
     """
-    whole = valid(container.region)
+    whole = prepared(valid(container.region))
     regions = np.empty(len(outlines), dtype=object)
     regions[:] = [valid(outline.region) for outline in outlines]
     first, second = shapely.STRtree(regions).query(regions, predicate="dwithin", distance=gap)
     pairs = [(int(i), int(j)) for i, j in zip(first, second, strict=True) if i < j]
-    shapely.prepare(whole)
     edge = whole.boundary
     shapely.prepare(edge)
     near = ~shapely.covers(whole, regions) | shapely.dwithin(edge, regions, gap)
@@ -169,8 +168,7 @@ class ViolationSet:
         numbers = np.array([k for k, images in self._regions.items() for _ in images])
         everything = _array(one for images in self._regions.values() for one in images)
         rows = np.flatnonzero(np.isin(numbers, changed))
-        regions, is_mine = everything[rows], np.isin(np.arange(len(everything)), rows)
-        shapely.prepare(regions)
+        regions, is_mine = prepared(everything[rows]), np.isin(np.arange(len(everything)), rows)
         tree = shapely.STRtree(everything)
         mine, theirs = tree.query(regions, predicate="dwithin", distance=self._gap)
         for one, other in zip(rows[mine].tolist(), theirs.tolist(), strict=True):
@@ -193,8 +191,7 @@ class _Wall:
     """Edge of a container."""
 
     def __init__(self, container: Outline, gap: float) -> None:
-        self._whole, self._gap = valid(container.region), gap
-        shapely.prepare(self._whole)
+        self._whole, self._gap = prepared(valid(container.region)), gap
         self._line = self._whole.boundary
         shapely.prepare(self._line)
 

@@ -23,6 +23,7 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import prepared
 from packwork.separation.kernels import discs as kernels
 from packwork.separation.kernels.wall import edge_distances, list_edges
 
@@ -229,11 +230,11 @@ class DiscSearch:
         """Random places ``(n, 2)``, those near each other near in memory."""
         container = self._container
         count, (left, top, right, bottom) = len(self._radii), container.bounds
-        shapely.prepare(container.region)
+        room = prepared(container.region)
         found = np.empty((0, 2))
         while len(found) < count:
             drawn = self._random.uniform((left, top), (right, bottom), (count, 2))
-            inside = shapely.contains_xy(container.region, drawn[:, 0], drawn[:, 1])
+            inside = shapely.contains_xy(room, drawn[:, 0], drawn[:, 1])
             found = np.concatenate([found, drawn[inside]])
         found = found[:count]
         rows = np.floor((found[:, 1] - top) / (2 * math.sqrt(container.area / count)))

@@ -13,7 +13,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.tiles import choose_tiles
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered
+from packwork.geometry.overlay import buffered, prepared
 from packwork.metrics.certificate import HAIR
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Finding, Sentence
@@ -85,8 +85,7 @@ def grid_in(outline: Outline, most: int) -> Grid:
 
 def _largest(outline: Outline, most: int) -> Grid | None:
     left, top, right, bottom = outline.bounds
-    whole = outline.region
-    shapely.prepare(whole)
+    whole = prepared(outline.region)
     best: Grid | None = None
     typical = (right - left) / np.sqrt(outline.area / most)
     for columns in np.unique(np.maximum(np.rint(typical * _WIDTHS), 1)).astype(int).tolist():
