@@ -274,7 +274,8 @@ class _ReadCloud:
             if word is None:
                 continue
             self.numbers.append(number)
-            yield Candidate(word.outline, step, self._angles_of(number), WORD_SPACE)
+            kind = self._words[number]
+            yield Candidate(word.outline, step, self._angles_of(number), WORD_SPACE, kind)
             step = 1.0
 
     def _angles_of(self, number: int) -> tuple[float, ...]:

@@ -12,6 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.scene.container import Container
+from packwork.start.first_fit.between import fit_between
 from packwork.start.first_fit.graded import Graded, graded_fit, sizes_down
 from packwork.start.first_fit.greedy_board import Candidate
 from scenes import box
@@ -216,3 +217,47 @@ def test_a_margin_takes_no_rows_of_pixels_more(margin: float) -> None:
     regions = [tile.mapped(found.poses.matrix(k)).region for k in range(len(asked))]
     least = min(one.distance(other) for one, other in combinations(regions, 2))
     assert margin <= least < margin + 200 / 700
+
+
+def meetings(found: Graded, tile: Outline, kinds: list[int]) -> int:
+    """Pairs of one kind with less than half a height of the smaller one between them."""
+    placed = [
+        (kinds[k], scale, tile.mapped(found.poses.matrix(position)).region)
+        for position, (k, scale) in enumerate(zip(found.placed, found.poses.scale, strict=True))
+    ]
+    return sum(
+        kind == alike and one.distance(other) < min(scale, its)
+        for (kind, scale, one), (alike, its, other) in combinations(placed, 2)
+    )
+
+
+def test_copies_of_a_word_stand_apart() -> None:
+    container, tile = builtin_container("heart"), box(-3, -1, 3, 1)
+    kinds = [k % 5 for k in range(60)]
+
+    def met(has_kinds: bool) -> int:
+        first = 0.03 * container.side
+        asked = [
+            Candidate(tile, 1.0 if k else first, kind=kind if has_kinds else None)
+            for k, kind in enumerate(kinds)
+        ]
+        found = graded_fit(container, asked, 60, np.random.default_rng(1))
+        assert sorted(found.placed) == list(range(60))
+        return meetings(found, tile, kinds)
+
+    assert 4 * met(has_kinds=True) < met(has_kinds=False)
+
+
+def test_copies_between_others_stand_apart_from_those_too() -> None:
+    container, tile = builtin_container("circle"), box(-3, -1, 3, 1)
+    middle = 0.5 * container.side
+    lying = [tile.mapped(np.array([[60.0, 0, middle], [0, 60.0, middle]]))]
+    asked = [Candidate(tile, 20.0, kind=kind) for kind in range(4)]
+    least, rng = np.full(4, 10.0), np.random.default_rng(0)
+    found = fit_between(container, lying, asked, least, rng, kinds=[0], most=12)
+    copies = [
+        tile.mapped(found.poses.matrix(position)).region
+        for position in np.flatnonzero(found.placed == 0)
+    ]
+    assert copies
+    assert min(one.distance(lying[0].region) for one in copies) > 10.0

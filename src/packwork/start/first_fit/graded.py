@@ -10,18 +10,19 @@ container is wide, all others where they touch most of what is there already.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
 
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import IntArray
 from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit.greedy_board import Candidate, GreedyBoard, PoseRow
+from packwork.start.first_fit.greedy_board import Candidate, GreedyBoard, Place, PoseRow
 
 STEP = 1.01
 """Factor between sizes tried, which are sought by halves. Larger leaves room: with 1.04 a word of
@@ -51,6 +52,10 @@ AMPLE = 1.5
 """Such size, as a multiple of the least, from which on items are held down. Smaller places hundreds
 of specks in place of words that fill. Tried."""
 
+AHEAD, NEARLY = 24, 0.8
+"""Items of one rank that are looked at for one that stands beside no other of its kind, and its
+size over that of the first, at least. More take longer, smaller ones make all later ones small."""
+
 SMALLER, PLAINLY = (0.85, 0.7), 0.25
 """Sizes of the first item that are tried then in turn, over the largest that it found a place at,
 and by how much the mean logarithm of sizes has to grow: less makes a shape emptier that few long
@@ -64,6 +69,12 @@ class Graded:
 
     placed: IntArray
     poses: Poses
+
+    @classmethod
+    def of(cls, placed: Sequence[int], rows: Sequence[PoseRow]) -> Graded:
+        """The same of a row for each pose."""
+        x, y, angle, scale = np.array(rows).reshape(-1, 4).T
+        return cls(np.array(placed, dtype=np.int64), Poses(x, y, angle, scale))
 
 
 def graded_fit(
@@ -122,12 +133,7 @@ def graded_fit(
         leading[0] = replace(leading[0], step=_balanced(empty, leading[:2], smallest))
     descent = _opened(empty, leading, is_first_bounded, patience, stop)
     descent.put_all(source, patience, stop)
-    return _graded(descent.placed, descent.rows)
-
-
-def _graded(placed: list[int], rows: list[PoseRow]) -> Graded:
-    x, y, angle, scale = np.array(rows).reshape(-1, 4).T
-    return Graded(np.array(placed, dtype=np.int64), Poses(x, y, angle, scale))
+    return Graded.of(descent.placed, descent.rows)
 
 
 class GreedyPlacement:
@@ -161,47 +167,91 @@ class GreedyPlacement:
         )  # fmt: skip
 
     def put_all(self, candidates: Iterable[Candidate], patience: int | None, stop: Stop) -> None:
-        """Put one after another, until too many in a row find no place."""
-        for candidate in candidates:
+        """Put one after another, until too many in a row find no place.
+
+        Of copies in a row, one comes before its turn where the next would stand beside another of
+        its kind.
+        """
+        coming = enumerate(candidates, self._number)
+        waiting = deque(islice(coming, 1))
+        while waiting:
             if (self.rows and stop()) or (patience is not None and self._missed > patience):
                 return
-            self._put(candidate)
+            self._put(waiting, coming)
             self._number += 1
+            if not waiting:
+                waiting.extend(islice(coming, 1))
 
-    def _put(self, candidate: Candidate) -> None:
+    def _put(
+        self,
+        waiting: deque[tuple[int, Candidate]],
+        coming: Iterator[tuple[int, Candidate]],
+    ) -> None:
         # Steps go on through items that find no place.
-        asked = _on_grid(self._most * candidate.step, self.grid)
-        self._most = min(self._most, asked) if self._number else candidate.step
+        first = waiting[0][1]
+        asked = _on_grid(self._most * first.step, self.grid)
+        self._most = min(self._most, asked) if self._number else first.step
         least = self._smallest or LEAST_SHARE * (self.rows[0][3] if self.rows else self._most)
         self._board.is_loose = self._number >= TOUCHING * self._count
-        held = self._held(candidate.outline, least)
+        held = self._held(least)
         most = min(self._most, self.rows[-1][3]) if self.rows else self._most
         downwards = sizes_down(most, max(least, self.grid), self.grid, self._drop)
         sizes = [size for size in downwards if size <= held]
-        pose = self._board.put(candidate, sizes)
-        if pose is None:
+        turn, place = self._next(waiting, coming, sizes)
+        number, candidate = waiting[turn]
+        del waiting[turn]
+        if self._number < LEADING:
+            self._reserve.add(candidate.outline)
+        if place is None:
             self._missed += 1
             return
         self._missed = 0
+        self._board.put(place)
+        size = place.pose[3]
         if self.rows:
-            self.least_share = min(self.least_share, pose[3] / sizes[0])
-        if pose[3] < sizes[0]:
-            self._most = self._again(pose[3], sizes[0])
-        self.placed.append(self._number)
-        self.rows.append(pose)
+            self.least_share = min(self.least_share, size / sizes[0])
+        if size < sizes[0]:
+            self._most = self._again(size, sizes[0])
+        self.placed.append(number)
+        self.rows.append(place.pose)
+
+    def _next(
+        self,
+        waiting: deque[tuple[int, Candidate]],
+        coming: Iterator[tuple[int, Candidate]],
+        sizes: Sequence[float],
+    ) -> tuple[int, Place | None]:
+        """Which of those that wait is put next, and where; of some that wait for this, more come.
+
+        The first, unless it would stand beside another of its kind and one of equal rank would not.
+        """
+        first = self._board.find(waiting[0][1], sizes)
+        if first is None or not first.is_beside:
+            return 0, first
+        tried = {waiting[0][1].kind}
+        for turn in range(1, AHEAD):
+            if turn == len(waiting):
+                waiting.extend(islice(coming, 1))
+            if turn == len(waiting) or waiting[turn][1].step != 1.0:
+                break
+            candidate = waiting[turn][1]
+            if candidate.kind in tried:
+                continue
+            tried.add(candidate.kind)
+            place = self._board.find(candidate, [s for s in sizes if s >= NEARLY * first.pose[3]])
+            if place is not None and not place.is_beside:
+                return turn, place
+        return 0, first
 
     def _again(self, size: float, wanted: float) -> float:
         """Scale that items after one may have again that lacks some of what was wanted."""
         more: float = size * ((wanted / size) ** self._regained - 1)
         return size + (round(more / self._drop) * self._drop if self._drop else more)
 
-    def _held(self, outline: Outline, least: float) -> float:
+    def _held(self, least: float) -> float:
         """Scale that the next item may have at most so that all after it find a place."""
         lowest = self.rows[-1][3] if self.rows else math.inf
-        if self._number < LEADING:
-            self._reserve.add(outline)
-            return lowest
-        if not self._is_held:
+        if self._number < LEADING or not self._is_held:
             return lowest
         for_all = self._reserve.common_size(self._number, self._board.left)
         if self._number == LEADING:
@@ -270,51 +320,6 @@ def _largest_opened(
             break
     assert best is not None  # noqa: S101 - the first try
     return best
-
-
-def fit_between(
-    container: Container,
-    lying: Sequence[Outline],
-    candidates: Sequence[Candidate],
-    smallest: FloatArray,
-    rng: np.random.Generator,
-    *,
-    margin_cu: float = 0.0,
-    most: int = 1_000,
-    stop: Stop = never,
-) -> Graded:
-    """Poses of copies between items that lie already, each where there is most room.
-
-    Candidates are sorts of copies, in turn again and again as long as one finds a place; their
-    steps are their largest scales, ``smallest`` ``(n,)`` the least. ``lying``: in place, clear of
-    each other.
-
-    Examples
-    --------
-    >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
-    >>> wall = tile.mapped(np.array([[50.0, 0, 50], [0, 50.0, 50]]))
-    >>> container = Container("", "", wall, 100.0, 100.0)
-    >>> lying = [tile.mapped(np.array([[30.0, 0, 50], [0, 30.0, 50]]))]
-    >>> rng = np.random.default_rng(0)
-    >>> found = fit_between(container, lying, [Candidate(tile, 9.0)], np.array([8.0]), rng)
-    >>> len(found.placed), float(found.poses.scale.max())
-    (16, 9.0)
-    """
-    board = GreedyBoard(container, len(lying) + most, rng, margin_cu)
-    board.is_loose = True
-    for outline in lying:
-        board.lay(outline)
-    placed, rows = list[int](), list[PoseRow]()
-    left = list(range(len(candidates)))
-    while left and len(placed) < most and not stop():
-        k = left.pop(0)
-        sizes = sizes_down(candidates[k].step, float(smallest[k]))
-        pose = board.put(candidates[k], sizes)
-        if pose is not None:
-            left.append(k)
-            placed.append(k)
-            rows.append(pose)
-    return _graded(placed, rows)
 
 
 def sizes_down(most: float, least: float, grid: float = 0.0, drop: float = 0.0) -> list[float]:

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -24,6 +26,7 @@ from packwork.start.first_fit.kernels import row_bits
 from packwork.start.first_fit.occupancy import (
     NOISE,
     REACH,
+    Bits,
     NearestTaken,
     Occupancy,
     Stencil,
@@ -34,6 +37,9 @@ from packwork.start.first_poses import container_image
 
 PoseRow: TypeAlias = tuple[float, float, float, float]
 """x, y, angle, scale."""
+
+_Span: TypeAlias = tuple[int, int, int, int]
+"""First row and end, first column and end of pixels."""
 
 PIXELS_EACH = 45
 """Pixels of the image's side for each item of a row of them. More waste less room between items and
@@ -83,12 +89,32 @@ class Candidate:
     one size, the first is taken.
     ``apart``: room that it keeps, along and across itself, from those that were put before it, in
     item units: beside the margin of all.
+    ``kind``: what it is a copy of: of places at one size it takes those beside others of its kind
+    last. None for nothing.
     """
 
     outline: Outline
     step: float
     angles: Sequence[float] = (0.0,)
     apart: tuple[float, float] = (0.0, 0.0)
+    kind: Hashable = None
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """Where a candidate may be put.
+
+    ``mask``, ``row``, ``column``: pixels that it takes, and where the first of them lies.
+    ``pose``: canvas units.
+    ``is_beside``: whether it stands beside another of its kind there.
+    """
+
+    mask: BoolArray
+    row: int
+    column: int
+    pose: PoseRow
+    kind: Hashable
+    is_beside: bool
 
 
 def image_side(count: int, least: int = LEAST_PX, most: int = MOST_PX) -> int:
@@ -115,6 +141,16 @@ def _inwards(clearance: FloatArray) -> FloatArray:
     away = np.hypot(rows - middle[0], columns - middle[1])
     farthest = max(float(away[clearance > 0].max(initial=0.0)), 1.0)
     return np.asarray((clearance / widest + 1 - away / farthest) / 2)
+
+
+def _not_in(spans: Sequence[_Span], stencil: Stencil, free: Bits) -> None:
+    """Clear places within the spans, unless there are no others."""
+    kept, column = free.copy(), np.arange(64 * free.shape[1])
+    for top, bottom, left, right in spans:
+        outside = np.packbits((column < left) | (column >= right), bitorder="little").view("<u8")
+        kept[top:bottom] &= outside
+    if kept.any():
+        free[:] = kept
 
 
 class GreedyBoard:
@@ -148,6 +184,7 @@ class GreedyBoard:
         self._occupancy = Occupancy(self._free, REACH)
         self._room = self._left = int(self._free.sum())
         self._first = 0.0
+        self._kinds = defaultdict[Hashable, list[_Span]](list)
         far_px = FAR * container.outline.extent * self._px_per_cu
         self._bareness = Bareness(self._free, far_px)
 
@@ -162,16 +199,17 @@ class GreedyBoard:
         other._occupancy = Occupancy(self._free, REACH)
         other._left, other._first, other.is_loose = self._room, 0.0, False
         other._bareness = self._bareness.emptied()
+        other._kinds = defaultdict(list)
         return other
 
-    def lay(self, outline: Outline) -> None:
+    def lay(self, outline: Outline, kind: Hashable = None) -> None:
         """Take what an item covers that lies in place."""
         posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
         mask, origin = covered(posed, self._reach, is_quick=True)
-        self._take(mask, -origin[0], -origin[1])
+        self._take(mask, -origin[0], -origin[1], kind)
 
-    def put(self, candidate: Candidate, sizes: Sequence[float]) -> PoseRow | None:
-        """Pose of an item at the largest size at which it finds a place; None if at none.
+    def find(self, candidate: Candidate, sizes: Sequence[float]) -> Place | None:
+        """Place of an item at the largest size at which it finds one; None if at none.
 
         Steps down the sizes double until one fits; the one between is sought by halves.
         """
@@ -190,18 +228,15 @@ class GreedyBoard:
                 low = middle
             else:
                 found, high = larger, middle
-        mask, origin, row, column, angle = found
-        self._take(mask, row - origin[0], column - origin[1])
-        self._first = self._first or sizes[high]
-        return column / self._px_per_cu, row / self._px_per_cu, angle, sizes[high]
+        return found
 
-    def _place(
-        self, candidate: Candidate, scale: float
-    ) -> tuple[BoolArray, tuple[int, int], int, int, float] | None:
-        """Pixels of an item of that scale, its origin there and in the image, and its angle.
+    def put(self, place: Place) -> None:
+        """Take a place that was found."""
+        self._take(place.mask, place.row, place.column, place.kind)
+        self._first = self._first or place.pose[3]
 
-        At its best place, at the first of its angles that has one.
-        """
+    def _place(self, candidate: Candidate, scale: float) -> Place | None:
+        """Best place of an item of that scale, at the first of its angles that has one."""
         field, pull, is_everywhere = self._drawn(scale)
         for angle in candidate.angles:
             posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
@@ -209,11 +244,28 @@ class GreedyBoard:
                 continue
             mask, origin = covered(posed, self._reach, is_quick=True)
             wide = self._with_room(mask, origin, candidate.apart, scale, angle)
-            found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
+            beside = self._beside(candidate.kind, wide)
+            keep = partial(_not_in, beside) if beside else None
+            found = self._occupancy.best_place(
+                wide, self._noise, is_everywhere, field, pull, keep=keep
+            )
             if found is not None:
-                row, column = np.array(found[1:]) + wide.origin
-                return mask, origin, int(row), int(column), angle
+                _, top, left = found
+                row, column = top + wide.origin[0], left + wide.origin[1]
+                pose = column / self._px_per_cu, row / self._px_per_cu, angle, scale
+                is_beside = any(a <= top < b and c <= left < d for a, b, c, d in beside)
+                at = row - origin[0], column - origin[1]
+                return Place(mask, *at, pose, candidate.kind, is_beside)
         return None
+
+    def _beside(self, kind: Hashable, stencil: Stencil) -> list[_Span]:
+        """Where the corner of its box may not come to, so that a line fits between its kind."""
+        height, width = stencil.mask.shape
+        gap = min(height, width)
+        return [
+            (max(top - height - gap, 0), bottom + gap, max(left - width - gap, 0), right + gap)
+            for top, bottom, left, right in self._kinds[kind]
+        ]
 
     def _with_room(
         self,
@@ -250,7 +302,9 @@ class GreedyBoard:
         is_drawn = inward > DRAWN
         return self._inward, inward if is_drawn else 0.0, is_drawn
 
-    def _take(self, mask: BoolArray, row: int, column: int) -> None:
+    def _take(self, mask: BoolArray, row: int, column: int, kind: Hashable) -> None:
+        if kind is not None:
+            self._kinds[kind].append((row, row + mask.shape[0], column, column + mask.shape[1]))
         self._occupancy.take(mask, row, column)
         self._bareness.cover(mask, row, column)
         self._left -= int(mask.sum())

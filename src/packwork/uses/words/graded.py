@@ -279,7 +279,7 @@ def _candidates(job: Job, words: _Ranked, first: float, share: float) -> Iterato
         outline = job.items[k].outline
         if unit != 1:
             outline = outline.mapped(similarity(0.0, 0.0, 0.0, float(unit)))
-        yield Candidate(outline, float(step), angles_of(job.plan.rotation, rng))
+        yield Candidate(outline, float(step), angles_of(job.plan.rotation, rng), kind=job.items[k])
 
 
 def angles_of(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:

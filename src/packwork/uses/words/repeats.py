@@ -16,7 +16,7 @@ from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.contrast import between, contrast
 from packwork.scene.item import Item
 from packwork.scene.recolour import recoloured
-from packwork.start.first_fit.graded import fit_between
+from packwork.start.first_fit.between import fit_between
 from packwork.start.first_fit.greedy_board import Candidate
 from packwork.steps.voids import joined_by
 from packwork.uses.words.graded import LEGIBLE, angles_of
@@ -69,11 +69,17 @@ def with_repeats(state: RunState, words: int, letters: Letters, paper: str, stop
         job.container,
         [i.outline.mapped(state.poses.matrix(k)) for k, i in enumerate(job.items)],
         [
-            Candidate(job.items[k].outline, REPEATED * own[k], angles_of(job.plan.rotation, rng))
+            Candidate(
+                job.items[k].outline,
+                REPEATED * own[k],
+                angles_of(job.plan.rotation, rng),
+                kind=job.items[k],
+            )
             for k in fitting
         ],
         np.full(len(fitting), least / EM_PX),
         rng,
+        kinds=job.items,
         margin_cu=job.plan.gap + HAIR * job.container.side,
         most=most,
         stop=stop,
