@@ -18,7 +18,7 @@ export PYTHONDONTWRITEBYTECODE :=
 # other workers need.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: demo gallery figures site check-site setup-browser setup-page check-page test test-lowest check format clean
+.PHONY: demo gallery figures site check-site setup-browser setup-jupyter setup-page check-page test test-lowest check format clean
 
 demo: .venv/installed
 	$(BIN)/packwork demo
@@ -41,6 +41,10 @@ check-site: .venv/installed-dev
 # A Chromium for the studio's tests in a browser; without one they are skipped. Debian and Ubuntu.
 setup-browser:
 	command -v chromium || apt-get install --yes --no-install-recommends chromium
+
+# JupyterLab, for the test of the canvas in a real notebook; without it that is skipped.
+setup-jupyter: .venv/installed-dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[notebook]" "jupyterlab>=4.2"
 
 # What checks the studio's page in development, with Node: types, and axe-core for the tests.
 PAGE_TOOLS := typescript@7 axe-core@4

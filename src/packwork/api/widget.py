@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import importlib
 import json
 import re
+import uuid
 from collections.abc import Callable, Mapping
 from importlib import resources
 from typing import Any
@@ -12,9 +14,10 @@ from typing import Any
 from packwork.api.layout import Layout
 from packwork.api.session import Session
 from packwork.display.extras import import_extra
-from packwork.display.picture import notebook_svg
+from packwork.display.picture import still_html
 from packwork.errors import PackworkError
 from packwork.live.commands.together import COMMANDS
+from packwork.live.document import Document
 from packwork.studio.view import Scenes, View
 from packwork.studio.wire import frame_bytes
 
@@ -126,6 +129,25 @@ class Desk:
         self.session.settle()
 
 
+class OfSession:
+    """What Python reads from a widget."""
+
+    _desk: Desk
+
+    def __repr__(self) -> str:
+        return repr(self.session).replace("Session", "Widget")
+
+    @property
+    def session(self) -> Session:
+        """The session that the hand works on."""
+        return self._desk.session
+
+    @property
+    def layout(self) -> Layout:
+        """The layout as it is now."""
+        return self.session.layout
+
+
 def widget_of(session: Session) -> Any:
     """Widget of a session; ``PackworkError`` if anywidget is not installed."""
     return _widgets()(session)
@@ -136,12 +158,13 @@ def _widgets() -> Any:
     """Class of the widgets, made once anywidget is there."""
     anywidget: Any = import_extra("anywidget", "edit the session by its verbs")
     traitlets: Any = import_extra("traitlets", "edit the session by its verbs")
+    display: Any = importlib.import_module("IPython.display")
 
-    class Widget(anywidget.AnyWidget):  # type: ignore[misc]
+    class Widget(OfSession, anywidget.AnyWidget):  # type: ignore[misc]
         """A session under the hand in a notebook.
 
         ``layout`` is the layout as it is now, ``session`` what has more verbs; ``show`` shows what
-        they have done.
+        they have done. A picture, hidden while the hand is there, is saved with the notebook.
         """
 
         _esm = module_text()
@@ -150,38 +173,41 @@ def _widgets() -> Any:
         shapes = traitlets.Unicode().tag(sync=True)
         frame = traitlets.Bytes().tag(sync=True)
         state = traitlets.Unicode().tag(sync=True)
+        still = traitlets.Unicode().tag(sync=True)
 
         def __init__(self, session: Session) -> None:
             self._desk = Desk(session)
-            super().__init__(**self._desk.present())
-            self.on_msg(lambda _, message, __: self._desk.hear(message, self.show))
+            self._kept: Document | None = None
+            super().__init__(still=f"packwork-{uuid.uuid4().hex}", **self._desk.present())
+            self.on_msg(lambda _, message, __: self._heard(message))
 
-        def __repr__(self) -> str:
-            return repr(self.session).replace("Session", "Widget")
-
-        @property
-        def session(self) -> Session:
-            """The session that the hand works on."""
-            return self._desk.session
-
-        @property
-        def layout(self) -> Layout:
-            """The layout as it is now."""
-            return self.session.layout
-
-        def show(self, said: str = "") -> None:
+        def show(self) -> None:
             """Have the page show the session as it is."""
-            present = self._desk.present(said)
+            self._present()
+            self._keep()
+
+        def _heard(self, message: Mapping[str, Any]) -> None:
+            self._desk.hear(message, self._present)
+            self._keep()
+
+        def _present(self, said: str = "") -> None:
             with self.hold_sync():
-                for name, value in present.items():
+                for name, value in self._desk.present(said).items():
                     setattr(self, name, value)
 
-        def _repr_mimebundle_(self, **asked: Any) -> Any:
-            # What opens the notebook without Python shows the picture.
-            bundle = super()._repr_mimebundle_(**asked)
-            data = bundle[0] if isinstance(bundle, tuple) else bundle
-            if data is not None and (svg := notebook_svg(self.session.layout)):
-                data["image/svg+xml"] = svg
-            return bundle
+        def _keep(self) -> None:
+            """Have the picture that the notebook is saved with as the layout is."""
+            is_old = self._kept is not None and self._kept is not self.session.document
+            if is_old and not self.session.is_grabbed:
+                self._draw(display.update_display)
+
+        def _draw(self, put: Callable[..., object]) -> None:
+            self._kept = self.session.document
+            put({"text/html": still_html(self.layout, self.still)}, raw=True, display_id=self.still)
+
+        def _ipython_display_(self) -> None:
+            data, metadata = self._repr_mimebundle_()
+            display.display(data, metadata=metadata, raw=True)
+            self._draw(display.display)
 
     return Widget

@@ -5,6 +5,7 @@ Items and containers lie below what draws them, so their methods are put on them
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import re
 from dataclasses import replace
@@ -74,6 +75,21 @@ def notebook_png(layout: Layout, side: int = SIDE_PX) -> tuple[bytes, dict[str, 
     width, height = _size(layout, side)
     picture = png_bytes(layout, SHARPNESS * side, _ON_PAPER)
     return picture, {"width": round(width), "height": round(height)}
+
+
+def still_html(layout: Layout, name: str) -> str:
+    """The picture as an element that a page may hide by the name of its class.
+
+    >>> still_html(blank(), "shown")[:64]
+    '<img class="shown" alt="Layout" src="data:image/svg+xml;base64,P'
+    """
+    if svg := notebook_svg(layout):
+        kind, picture, size = "svg+xml", svg.encode(), ""
+    else:
+        kind, picture = "png", png_bytes(layout, SHARPNESS * SIDE_PX, _ON_PAPER)
+        size = f' width="{_size(layout, SIDE_PX)[0]:.0f}"'
+    data = base64.b64encode(picture).decode("ascii")
+    return f'<img class="{name}" alt="Layout"{size} src="data:image/{kind};base64,{data}">'
 
 
 def _alone(shown: Item | Container) -> Layout:

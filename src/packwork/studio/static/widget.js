@@ -27,7 +27,9 @@ class Notebook {
     const actions = [["Undo", () => this.send("undo")], ["Redo", () => this.send("redo")], ["Hold", () => this.hold()], ["Settle", () => this.send("settle")]];
     const buttons = actions.map(([name, act]) => h("button", { type: "button", onclick: act }, name));
     element.classList.add("packwork");
-    element.append(this.canvas, h("div", {}, ...buttons, this.badge));
+    // The picture that the notebook is saved with is hidden while the hand is there.
+    const hiding = h("style", {}, `.${model.get("still")} { display: none !important }`);
+    element.append(hiding, this.canvas, h("div", {}, ...buttons, this.badge));
     this.collage = new Collage();
     this.view = new View(() => this.redraw());
     this.sprites = new Sprites(() => this.redraw());
