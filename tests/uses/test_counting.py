@@ -147,6 +147,14 @@ def test_auto_words_are_those_that_there_are() -> None:
     assert str(found) == "auto chose 2 words"
 
 
+def test_auto_words_are_no_fewer_than_without_it() -> None:
+    weights = {f"w{k}": 200.0 - k for k in range(200)}
+    auto, plain = (
+        uses.read(words_recipe("heart", weights, count=count)).items for count in ("auto", 100)
+    )
+    assert len(auto) == len(plain) == 100
+
+
 def test_the_width_is_told_that_gave_the_number() -> None:
     def told(container: Container, **options: Any) -> str:
         job = uses.read(recipe(count="auto", **options), container=container)

@@ -17,7 +17,7 @@ from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.plan.plan import found_sizes
 from packwork.readers.tables.cells import written_numbers
 from packwork.readers.words.items import WordsRead
-from packwork.readers.words.options import WordOptions
+from packwork.readers.words.options import MOST_BY_DEFAULT, WordOptions
 from packwork.recipe import AUTO, Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -60,10 +60,10 @@ def words_needed(container: Container) -> int:
 
 
 def words_counted(asked: WordOptions, room: KnownContainer) -> WordOptions:
-    """Options of a recipe's words, with a number in place of ``auto``."""
+    """Options of a recipe's words, with a number in place of ``auto``: the usual one at least."""
     if asked.count != AUTO:
         return asked
-    return asked.model_copy(update={"count": words_needed(room.known)})
+    return asked.model_copy(update={"count": max(words_needed(room.known), MOST_BY_DEFAULT)})
 
 
 def nesting(asked: WordOptions, recipe: Recipe, room: KnownContainer) -> WordOptions:
