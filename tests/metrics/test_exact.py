@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from packwork.errors import ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.metrics import exact
 from packwork.metrics.exact import exact_coverage, exact_metrics
 from packwork.metrics.violations import ViolationSet, violations
 
@@ -221,3 +222,37 @@ def test_what_outlines_keep_is_prepared_for_nobody() -> None:
     found.change(dict(enumerate(tiles)))
     assert found.violations
     assert not shapely.is_prepared(kept).any()
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(
+        st.tuples(st.integers(0, 40), st.integers(0, 40), st.integers(1, 20)),
+        min_size=1,
+        max_size=9,
+    )
+)
+def test_strips_see_what_is_nearest_in_any_of_them(tiles: list[tuple[int, int, int]]) -> None:
+    x, y, half = np.array(tiles, dtype=np.float64).T / 2
+    placed = [box(*ends) for ends in zip(x - half, y - half, x + half, y + half, strict=True)]
+    to_edge = np.min([x - half, y - half, 20 - x - half, 20 - y - half])
+    beside = np.abs(np.subtract.outer(x, x)) - np.add.outer(half, half)
+    above = np.abs(np.subtract.outer(y, y)) - np.add.outer(half, half)
+    apart = np.hypot(np.maximum(beside, 0), np.maximum(above, 0))
+    nearest = min(float(to_edge), *apart[~np.eye(len(tiles), dtype=bool)].tolist(), np.inf)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(exact, "STRIP", 2)
+        found = exact_metrics(placed, box(0, 0, 20, 20))
+    assert found.min_gap == pytest.approx(max(nearest, 0.0))
+    if nearest > 0:
+        assert found.coverage * 400 == pytest.approx(float((4 * half**2).sum()))
+
+
+def test_strips_lie_across_the_longer_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    x, y = np.random.default_rng(0).uniform(2, 3, 40), 2.5 * np.arange(40) + 2
+    placed = [box(a - 1, b - 1, a + 1, b + 1) for a, b in zip(x, y, strict=True)]
+    seen, made = list[int](), exact._regions
+    monkeypatch.setattr(exact, "STRIP", 4)
+    monkeypatch.setattr(exact, "_regions", lambda some: seen.append(len(some)) or made(some))
+    assert exact_metrics(placed, box(0, 0, 5, 110)).min_gap == pytest.approx(0.5)
+    assert max(seen) <= 4 + 2

@@ -6,22 +6,14 @@ import json
 import re
 from dataclasses import replace
 
-import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import packwork as pw
-from packwork.geometry.outline import Outline
 from packwork.readers.layouts.read import read_content
 from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
-from packwork.scene.item import Item
-from packwork.scene.layout import Layout, blank
-from packwork.scene.pose import Poses
-from packwork.verify import text as verified
 from packwork.verify.paint import painted_pixels, sets_apart
-from packwork.verify.text import faults_in_file, is_clear
+from packwork.verify.text import faults_in_file
 from packwork.writers.registry import encoded
 
 QUICK = {"effort": "draft", "levels": "24", "epochs": 6, "seed": 1}
@@ -132,50 +124,3 @@ def test_sets_hold_each_item_once_and_apart(layout: pw.Layout) -> None:
                     max(boxes[b][k] - boxes[a][k + 2] for k in (0, 1)),
                 )
                 assert max(apart) > 5.0
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    st.lists(
-        st.tuples(st.integers(0, 40), st.integers(0, 40), st.integers(1, 20)),
-        min_size=1,
-        max_size=9,
-    ),
-    st.integers(0, 3),
-)
-def test_strips_see_what_is_too_near_in_any_of_them(tiles, gap):
-    item = Item("tile", outline=Outline.box(-1, -1, 1, 1))
-    x, y, half = np.array(tiles, dtype=np.float64).T / 2
-    count = len(tiles)
-    layout = Layout(
-        blank(20.0, 20.0).container, (item,) * count, Poses(x, y, np.zeros(count), half),
-        np.ones(count),
-    )  # fmt: skip
-    least = gap - 0.25
-    to_edge = np.min([x - half, y - half, 20 - x - half, 20 - y - half])
-    beside = np.abs(np.subtract.outer(x, x)) - np.add.outer(half, half)
-    above = np.abs(np.subtract.outer(y, y)) - np.add.outer(half, half)
-    apart = np.hypot(np.maximum(beside, 0), np.maximum(above, 0)) + np.minimum(
-        np.maximum(beside, above), 0
-    )
-    nearest = min(float(to_edge), *apart[~np.eye(count, dtype=bool)].tolist(), np.inf)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verified, "STRIP", 2)
-        assert is_clear(layout, max(least, 1e-9)) == (nearest > max(least, 1e-9))
-
-
-def test_strips_lie_across_the_longer_side(monkeypatch):
-    count, seen, regions_of = 40, [], verified.regions_of
-    x, y = np.random.default_rng(0).uniform(2, 3, count), 2.5 * np.arange(count) + 2
-    item = Item("tile", outline=Outline.box(-1, -1, 1, 1))
-    layout = Layout(
-        blank(5.0, 110.0).container, (item,) * count, Poses(x, y, np.zeros(count), np.ones(count)),
-        np.ones(count),
-    )  # fmt: skip
-    monkeypatch.setattr(verified, "STRIP", 4)
-    monkeypatch.setattr(
-        verified, "regions_of", lambda placed: seen.append(len(placed)) or regions_of(placed)
-    )
-    assert is_clear(layout, 0.4)
-    assert not is_clear(layout, 0.6)
-    assert max(seen) <= 4 + 2

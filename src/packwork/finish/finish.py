@@ -135,6 +135,9 @@ def finish(
         run.fine()
         run.level()
     found, gap, undersized, rounds = run.result(), run.gap, run.undersized, run.rounds
+    if run.is_clear_at(found):
+        # Covers hold the outlines: these need not be looked at.
+        return Finished(found, True, (), undersized, rounds)
     # Its polygons are done with; those among which conflicts are looked for take more than they.
     del run
     conflicts = find_conflicts(container, outlines, found, gap)
@@ -315,6 +318,13 @@ class _Finish:
         turn = np.clip(turn, *turn_ranges(self._poses.angle, self._options))
         angle, scale = self._poses.angle + turn, self._poses.scale * np.exp(growth)
         return replace(self._poses, x=x.copy(), y=y.copy(), angle=angle, scale=scale)
+
+    def is_clear_at(self, poses: Poses) -> bool:
+        """Whether the outlines that were worked on keep the gap in such poses, a last result."""
+        turn, growth = poses.angle - self._poses.angle, np.log(poses.scale / self._poses.scale)
+        arrangement = self.arrangement
+        arrangement.put(np.arange(len(poses)), np.column_stack([poses.x, poses.y, turn, growth]))
+        return len(arrangement.conflicts(arrangement.pairs(self.gap), self.gap)) == 0
 
     def level(self) -> None:
         """Bring shared sizes to one common factor without a conflict."""

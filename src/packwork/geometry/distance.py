@@ -12,8 +12,11 @@ Geometry 13 (1999), 199-214), repeated until that changes nothing (D. Halperin a
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from packwork.arrays import IntArray
 from packwork.geometry import _kernels
@@ -45,27 +48,25 @@ def distance(first: Region, second: Region) -> float:
 
 
 def near_pairs(
-    tree: shapely.STRtree, first: int, count: int, last: int, reach: float
+    tree: shapely.STRtree, portion: NDArray[Any], first: int, last: int, reach: float
 ) -> tuple[IntArray, IntArray]:
-    """Pairs within ``reach`` of which one is among ``count`` regions of a tree from ``first`` on.
+    """Pairs within ``reach`` of which one is among the ``portion`` of a tree's regions.
 
-    Each is found once, where regions before ``last`` are asked about by portions in their order:
-    for two of these by the later one. Faster where the portion is prepared.
+    ``portion``: those from ``first`` on, or copies, which is faster where they are prepared. Of two
+    regions before ``last``, which are asked about by portions in their order, the later one finds
+    the other. Numbers in the portion and in the tree.
 
-    >>> row = [shapely.box(x, 0, x + 1, 1) for x in (0.0, 1.5, 3.5)]
-    >>> [pairs.tolist() for pairs in near_pairs(shapely.STRtree(row), 0, 3, 3, 0.75)]
+    >>> row = np.array([shapely.box(x, 0, x + 1, 1) for x in (0.0, 1.5, 3.5)])
+    >>> [pairs.tolist() for pairs in near_pairs(shapely.STRtree(row), row, 0, 3, 0.75)]
     [[1], [0]]
     """
-    regions = tree.geometries
-    boxes = shapely.bounds(regions[first : first + count]) + reach * np.array(
-        [-1.0, -1.0, 1.0, 1.0]
-    )
+    boxes = shapely.bounds(portion) + reach * np.array([-1.0, -1.0, 1.0, 1.0])
     full = np.flatnonzero(~np.isnan(boxes[:, 0]))
     own, other = tree.query(shapely.box(*boxes[full].T))
-    own = full[own] + first
-    is_once = (other < own) | (other >= last)
+    own = full[own]
+    is_once = (other < own + first) | (other >= last)
     own, other = own[is_once], other[is_once]
-    near = shapely.dwithin(regions[own], regions[other], reach)
+    near = shapely.dwithin(portion[own], tree.geometries[other], reach)
     return own[near], other[near]
 
 

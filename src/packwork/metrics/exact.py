@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 import shapely
 
-from packwork.arrays import IntArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.geometry.distance import distance, near_pairs
 from packwork.geometry.outline import Outline
@@ -26,6 +26,7 @@ from packwork.geometry.overlay import (
     union,
     valid,
 )
+from packwork.threads import at_once
 
 _Regions: TypeAlias = npt.NDArray[Any]
 
@@ -39,6 +40,10 @@ _REACH_GROWTH = 4.0
 
 PORTION = 256
 """Regions whose gaps are measured at a time. Larger: more memory; smaller: more rounds. Chosen."""
+
+STRIP = 1_000
+"""Items whose regions are in memory at once. Larger takes memory, smaller more often what lies at
+the edge of a strip."""
 
 _FEW_PAIRS = 8
 """Pairs that are measured rather than thinned out. Larger: more slow measuring; smaller: more
@@ -93,19 +98,25 @@ def exact_metrics(outlines: Sequence[Outline], container: Outline) -> ExactMetri
     (1.0, 0.07, 0.0)
     """
     whole = _container_region(container)
+    boxes = np.array([outline.bounds for outline in outlines]).reshape(-1, 4)
+    looked_at = _look(boxes, lambda some: _regions([outlines[int(k)] for k in some]), whole)
+    if looked_at.gap > 0 and looked_at.is_inside:
+        covered = float(looked_at.areas.sum())
+        return ExactMetrics(
+            coverage=covered / whole.area, overlap=0.0, exceeding=0.0, overlap_area=0.0,
+            outside_area=0.0, min_gap=looked_at.gap,
+        )  # fmt: skip
     regions = _regions(outlines)
     pairs = _meeting_pairs(regions)
-    inside = shapely.covers(whole, regions)
     covered, outside = _covered_and_outside(_merged(regions, pairs), whole)
     overlap = _overlap_area(regions, pairs)
-    clean = pairs.size == 0 and bool(inside.all())
     return ExactMetrics(
         coverage=covered / whole.area,
         overlap=overlap / whole.area,
         exceeding=outside / whole.area,
         overlap_area=overlap,
         outside_area=outside,
-        min_gap=smallest_gap(regions, whole) if clean else 0.0,
+        min_gap=0.0,
     )
 
 
@@ -190,48 +201,72 @@ def _total(regions: _Regions) -> float:
 
 
 def smallest_gap(regions: _Regions, whole: Region) -> float:
-    """Smallest distance among regions that are disjoint and inside ``whole``.
+    """Smallest distance of regions in ``whole`` from each other and its edge; 0 if some meet."""
+    return _look(shapely.bounds(regions), lambda some: regions[some], whole).gap
 
-    Looks within a short reach first and further only while nothing is found: exact
-    distances are slow, asking whether something is near is fast.
+
+class _Seen(NamedTuple):
+    """Smallest gap of some regions, whether all are inside, and the area of each ``(n,)``.
+
+    Of regions that meet or stick out not all may have been looked at.
     """
-    if len(regions) == 0:
-        return math.inf
-    edge = prepared(whole.boundary)
-    # Copies: other threads may ask those that outlines keep, which are prepared in turn here.
-    regions = shapely.force_2d(regions)
-    tree = shapely.STRtree(regions)
+
+    gap: float
+    is_inside: bool
+    areas: FloatArray
+
+
+def _look(boxes: FloatArray, take: Callable[[IntArray], _Regions], whole: Region) -> _Seen:
+    """Gaps and areas of regions that are taken by their numbers, and that have these boxes.
+
+    By strips across the longer side: only their regions are in memory, of several at once.
+    """
+    if len(boxes) == 0:
+        return _Seen(math.inf, True, np.zeros(0))
+    tree, rank = shapely.STRtree(shapely.box(*boxes.T)), np.empty(len(boxes), dtype=np.int64)
+    order = np.argsort(max(boxes[:, 0], boxes[:, 1], key=np.ptp), kind="stable")
+    rank[order] = np.arange(len(order))
+
+    def look(begin: int, reach: float) -> _Seen:
+        own = order[begin : begin + STRIP]
+        grown = shapely.box(*(boxes[own] + reach * np.array([-1.0, -1.0, 1.0, 1.0])).T)
+        others = np.unique(tree.query(grown)[1])
+        others = others[rank[others] >= begin + STRIP]
+        return _look_at(take(np.concatenate([own, others])), len(own), whole, reach)
+
     left, top, right, bottom = whole.bounds
-    extent = max(right - left, bottom - top)
-    reach = _FIRST_REACH * extent
-    while True:
-        found = _gap_within(reach, tree, regions, edge)
-        if found is not None:
-            return found
+    reach = _FIRST_REACH * max(right - left, bottom - top)
+    while (first := look(0, reach)).gap == math.inf and first.is_inside:
         # An item inside is nearer to the edge than the extent, so this ends.
         reach *= _REACH_GROWTH
+    if first.gap == 0 or not first.is_inside:
+        return first
+    later = [(begin, first.gap) for begin in range(STRIP, len(order), STRIP)]
+    seen = [first, *at_once(look, later)]
+    areas = np.concatenate([one.areas for one in seen])[rank]
+    return _Seen(min(one.gap for one in seen), all(one.is_inside for one in seen), areas)
 
 
-def _gap_within(
-    reach: float, tree: shapely.STRtree, regions: _Regions, edge: Region
-) -> float | None:
-    """Smallest gap of all regions and the edge, if it is within ``reach``.
+def _look_at(regions: _Regions, count: int, whole: Region, reach: float) -> _Seen:
+    """The first so many of some regions; their gap to each other, to all others and to the edge.
 
-    By portions: what is asked about many times is prepared, which takes much memory; and
+    That is infinite beyond ``reach``: exact distances are slow, asking whether something is near
+    is fast. By portions: what is asked about many times is prepared, which takes much memory; and
     what one has found spares the next most of its pairs.
     """
-    least: float | None = None
-    for begin in range(0, len(regions), PORTION):
-        portion = regions[begin : begin + PORTION]
-        shapely.prepare(portion)
-        i, j = near_pairs(tree, begin, len(portion), len(regions), reach)
+    # Copies: other threads may ask those that are kept, and only one may ask what is prepared.
+    edge, own = prepared(whole.boundary), regions[:count]
+    is_inside, areas = bool(shapely.covers(prepared(whole), own).all()), shapely.area(own)
+    tree, least = shapely.STRtree(regions), math.inf
+    for begin in range(0, count, PORTION):
+        portion = prepared(own[begin : begin + PORTION])
+        i, j = near_pairs(tree, portion, begin, count, reach)
         near_edge = portion[shapely.dwithin(edge, portion, reach)]
-        first = np.concatenate([regions[i], np.full(len(near_edge), edge, dtype=object)])
+        first = np.concatenate([portion[i], np.full(len(near_edge), edge, dtype=object)])
         second = np.concatenate([regions[j], near_edge])
         if len(first):
             least = reach = _least_distance(first, second, reach)
-        shapely.destroy_prepared(portion)
-    return least
+    return _Seen(least, is_inside, areas)
 
 
 def _least_distance(first: _Regions, second: _Regions, reach: float) -> float:
@@ -239,6 +274,8 @@ def _least_distance(first: _Regions, second: _Regions, reach: float) -> float:
 
     Halves the reach until few pairs are left: only those are measured.
     """
+    if shapely.intersects(first, second).any():
+        return 0.0
     least = 0.0
     for _ in range(_MOST_HALVINGS):
         if len(first) <= _FEW_PAIRS:

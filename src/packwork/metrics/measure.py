@@ -11,7 +11,7 @@ import shapely
 
 from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import PORTION, regions
-from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
+from packwork.metrics.exact import STRIP, ExactMetrics, exact_coverage, exact_metrics
 from packwork.metrics.pixel import PixelMetrics, ShapeMetrics, pixel_metrics, shape_metrics
 from packwork.metrics.torus import in_cell, torus_metrics
 from packwork.metrics.touching import touching_metrics
@@ -134,8 +134,14 @@ def measure(layout: Layout) -> LayoutMetrics:
     """
     if layout.container.lattice is not None:
         return _measured_in_cell(layout, layout.container.lattice)
-    # A helper mostly takes the first; what regions took is then free for this thread's next ones.
-    (pixel, seen), exact = at_once(_of_kind, [(_by_pixels, layout), (exact_of, layout)])
+    # Exact measures of many are themselves made by several threads.
+    if len(layout.items) > STRIP:
+        pixel, seen = at_once(_of_kind, [(_pixels, layout), (_shape, layout)])
+        exact = exact_of(layout)
+    else:
+        pixel, seen, exact = at_once(
+            _of_kind, [(_pixels, layout), (_shape, layout), (exact_of, layout)]
+        )
     ink = exact.coverage if _is_all_ink(layout) else _ink_coverage(layout, exact)
     return LayoutMetrics(pixel=pixel, exact=exact, ink=ink, seen=seen)
 
@@ -166,9 +172,12 @@ def exact_of(layout: Layout) -> ExactMetrics:
     return touching_metrics(layout) or exact_metrics(layout.outlines, container.outline)
 
 
-def _by_pixels(layout: Layout) -> tuple[PixelMetrics, ShapeMetrics]:
-    container = layout.container
-    return pixel_metrics(layout.outlines, container), shape_metrics(layout.outlines, container)
+def _pixels(layout: Layout) -> PixelMetrics:
+    return pixel_metrics(layout.outlines, layout.container)
+
+
+def _shape(layout: Layout) -> ShapeMetrics:
+    return shape_metrics(layout.outlines, layout.container)
 
 
 def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:

@@ -4,19 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Set
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-import shapely
-from numpy.typing import NDArray
 
 from packwork import writers
 from packwork.errors import PackworkError
-from packwork.geometry.distance import near_pairs
-from packwork.geometry.outline import regions as regions_of
-from packwork.geometry.polygon import Region
 from packwork.metrics.certificate import HAIR, Promise, unclean
-from packwork.metrics.exact import PORTION
 from packwork.metrics.measure import exact_of
 from packwork.phrasing import number_of
 from packwork.readers.gate.door import MAX_BYTES
@@ -84,9 +75,6 @@ def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]
     promise = Promise.of(found.manifest)
     if promise is None:
         return ("what was promised is not written",)
-    is_tile = found.container.lattice is not None
-    if not is_tile and is_clear(found, promise.least_gap(found.container.side)):
-        return ()
     return unclean(promise, found, exact_of(found))
 
 
@@ -164,47 +152,3 @@ def on_trust_in_file(path: str | Path, layout: Layout, size: int = 0) -> tuple[s
     if not beyond:
         return ()
     return (f"what {' and '.join(f'{tag}s' for tag in sorted(beyond))} paint is taken on trust",)
-
-
-STRIP = 1_000
-"""Items of which all that is near is looked at together. Larger takes memory, smaller more often
-what lies at the edge of a strip."""
-
-
-def is_clear(layout: Layout, gap: float) -> bool:
-    """Whether no item is nearer than a gap to another one, or to the container's edge.
-
-    By strips across the longer side: only their regions are in memory.
-    """
-    if not layout.items:
-        return True
-    whole = layout.container.outline.region
-    edge = whole.boundary
-    shapely.prepare([whole, edge])
-    parts = np.array_split(np.arange(len(layout.items)), -(-len(layout.items) // STRIP))
-    boxes = np.array([one.bounds for part in parts for one in layout.placed(part.tolist())])
-    tree = shapely.STRtree(shapely.box(*boxes.T))
-    order = np.argsort(max(boxes[:, 0], boxes[:, 1], key=np.ptp), kind="stable")
-    for begin in range(0, len(order), STRIP):
-        own = order[begin : begin + STRIP]
-        grown = boxes[own] + gap * np.array([-1.0, -1.0, 1.0, 1.0])
-        others = np.setdiff1d(tree.query(shapely.box(*grown.T))[1], own)
-        regions = regions_of(layout.placed(np.concatenate([own, others]).tolist()))
-        if not shapely.covers(whole, regions[: len(own)]).all():
-            return False
-        if not _are_apart(regions, len(own), edge, gap):
-            return False
-    return True
-
-
-def _are_apart(regions: NDArray[Any], count: int, edge: Region, gap: float) -> bool:
-    """Whether the first so many of some regions keep a gap to all of them and to an edge."""
-    tree = shapely.STRtree(regions)
-    for begin in range(0, count, PORTION):
-        portion = regions[begin : min(begin + PORTION, count)]
-        shapely.prepare(portion)
-        near, _ = near_pairs(tree, begin, len(portion), count, gap)
-        shapely.destroy_prepared(portion)
-        if len(near) or shapely.dwithin(edge, portion, gap).any():
-            return False
-    return True

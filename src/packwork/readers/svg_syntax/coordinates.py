@@ -101,15 +101,19 @@ def parse_transform(text: str | None) -> FloatArray:
     >>> parse_transform("translate(10) scale(2)").tolist()
     [[2.0, 0.0, 10.0], [0.0, 2.0, 0.0]]
     """
-    matrix = affine.identity()
-    place = 0
-    plain = _UNIT.sub(_without_unit, text or "")
+    if not text:
+        return affine.identity()
+    matrix, place = None, 0
+    has_units = any(unit in text.lower() for unit in _DEGREES)
+    plain = _UNIT.sub(_without_unit, text) if has_units else text
     while match := _CALL.match(plain, place):
         step = _call(match.group(1).lower(), parse_numbers(match.group(2)))
         if step is None:
             return affine.identity()
-        matrix = affine.compose(matrix, step)
+        matrix = step if matrix is None else affine.compose(matrix, step)
         place = match.end()
+    if matrix is None:
+        return affine.identity()
     for number in matrix.ravel().tolist():
         checked(number)
     return matrix if not plain[place:].strip() else affine.identity()
