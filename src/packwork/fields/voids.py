@@ -39,12 +39,15 @@ class Clearance:
             inner = self._radius[margin:-margin, margin:-margin].copy()
             self._radius[:] = -np.inf
             self._radius[margin:-margin, margin:-margin] = inner
+        # Of each row the largest: to look through all of them for each of many takes long.
+        self._rows = self._radius.max(axis=1)
         self._largest: tuple[float, float, float] | None = None
 
     def largest(self) -> tuple[float, float, float]:
         """Pixel coordinates ``(x, y)`` of the roomiest place and its radius (may be < 0)."""
         if self._largest is None:
-            row, column = divmod(int(np.argmax(self._radius)), self._radius.shape[1])
+            row = int(np.argmax(self._rows))
+            column = int(np.argmax(self._radius[row]))
             self._largest = column + 0.5, row + 0.5, float(self._radius[row, column])
         return self._largest
 
@@ -77,6 +80,7 @@ class Clearance:
         )
         window = self._radius[top:bottom, left:right]
         np.minimum(window, away - radius, out=window)
+        self._rows[top:bottom] = self._radius[top:bottom].max(axis=1)
 
 
 class Void(NamedTuple):

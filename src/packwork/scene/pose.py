@@ -112,7 +112,8 @@ class Poses:
         place = affine.similarity(
             float(self.x[k]), float(self.y[k]), float(self.angle[k]), float(self.scale[k])
         )
-        return affine.compose(place, affine.stretched(float(self.stretch[k])))
+        stretch = float(self.stretch[k])
+        return place if stretch == 1.0 else affine.compose(place, affine.stretched(stretch))
 
     def moved(self, x: float, y: float) -> Poses:
         """Poses moved by so much."""
