@@ -274,10 +274,9 @@ def _halos(layout: Layout, digits: int) -> list[str]:
     """Halos by which items stand out from a picture behind, under all of them."""
     width = f"{2 * HALO_SHARE * layout.container.side:.6g}"
     drawn = [
-        f'<path{attributes({"fill": one.halo, "stroke": one.halo})} '
-        f'd="{path_data(one.ink.mapped(layout.poses.matrix(k)), digits)}"/>'
-        for k, one in enumerate(layout.items) if one.halo
-    ]  # fmt: skip
+        f'<path{attributes({"fill": one.halo, "stroke": one.halo})} d="{path_data(ink, digits)}"/>'
+        for one, ink in zip(layout.items, layout.inks, strict=True) if one.halo
+    ] if any(one.halo for one in layout.items) else []  # fmt: skip
     head = f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">'
     return [head, *drawn, "</g>"] if drawn else []
 
