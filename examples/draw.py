@@ -33,6 +33,7 @@ STARTS = (
     "packwork photos ",
     "packwork pile ",
     "packwork run ",
+    "packwork nest ",
 )
 
 
@@ -65,6 +66,8 @@ def films(arguments: list[str]) -> list[str]:
 def draw(folder: Path) -> None:
     """Run an example's commands and keep their pictures."""
     lines = commands(folder)
+    if not lines:
+        raise SystemExit(f"{folder.name}: its README has no command that makes a layout")
     with tempfile.TemporaryDirectory() as place:
         copy = Path(shutil.copytree(folder, Path(place) / folder.name))
         for script in scripts(folder):

@@ -160,5 +160,5 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        ours = [c for c in commands(page) if c[0] in VERBS | {"run"}]
+        ours = [c for c in commands(page) if c[0] in VERBS | {"run", "nest"}]
         assert draw.commands(page.parent) == ours

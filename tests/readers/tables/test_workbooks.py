@@ -138,9 +138,9 @@ def test_days_and_shares_are_as_they_are_shown(tmp_path: Path, properties: str, 
     ("code", "number", "text"),
     [
         ("[h]:mm", "1.5208333333333333", "36:30"),
-        ("[h]:mm:ss", "1.5208333333333333", "36:30"),
+        ("[h]:mm:ss", "1.5208333333333333", "36:30:00"),
         ("[h]:mm:ss", "0.00011574074", "0:00:10"),
-        ("mm:ss", "1.75", "42:00"),
+        ("mm:ss", "1.75", "42:00:00"),
         ("hh:mm", "1.75", "18:00"),
         ("[hh]", "-0.5", "-0.5"),
         ("[$-409][Red]d mmm", "45352", "2024-03-01"),
@@ -167,7 +167,7 @@ def test_days_past_the_last_one_of_1904_are_numbers() -> None:
 
 
 def test_built_in_formats_of_lengths_of_time() -> None:
-    assert [BUILT_IN[k] for k in (20, 21, 45, 46, 47)] == ["time"] * 2 + ["duration"] * 3
+    assert [BUILT_IN[k] for k in (20, 21, 45, 46, 47)] == ["time"] * 2 + ["seconds"] * 3
 
 
 @pytest.mark.parametrize(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import timedelta
 from typing import Any
 
 from packwork.errors import ReadError
-from packwork.phrasing import number_of
+from packwork.readers.tables.durations import durations
 
 POINT, COMMA = ".", ","
 
@@ -195,6 +195,8 @@ def written_numbers(
 ) -> list[float]:
     """Number of each cell of a column; NaN for what is none. Numbers are as they are.
 
+    Hours of a column of nothing but lengths of time.
+
     ``usual`` parts the fraction where nothing in the column tells, empty to refuse; ``asked``
     in any case.
 
@@ -208,6 +210,11 @@ def written_numbers(
     if figures and all(_MONTH.fullmatch(text.strip()) for text in texts if text.strip()):
         # Months of years, as 03.2024.
         figures = {}
+    if not figures and (hours := durations(text for text in texts if not is_blank(text))):
+        return [
+            hours.get(cell, math.nan) if isinstance(cell, str) else _as_it_is(cell)
+            for cell in cells
+        ]
     _check_units(cells, figures, file, column)
     decimal = asked or _decimal(texts, figures, file, column, usual)
     numbers = {
@@ -220,6 +227,8 @@ def written_numbers(
 
 
 def _as_it_is(cell: object) -> float:
+    if isinstance(cell, timedelta):
+        return cell / timedelta(hours=1)
     if isinstance(cell, bool) or not isinstance(cell, int | float):
         return math.nan
     try:
@@ -356,45 +365,3 @@ def cell_text(cell: Any) -> str:
     if isinstance(cell, float) and cell.is_integer():
         return str(int(cell))
     return " ".join(str(cell).split())
-
-
-def categories(rows: Sequence[Mapping[str, Any]], column: str) -> tuple[list[str], list[str]]:
-    """Category of each row; those that differ in case alone are one, and told.
-
-    Returns
-    -------
-    tuple
-        One per row, and a sentence about each spelling that counts as another.
-
-    Examples
-    --------
-    >>> categories([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], "k")
-    (['Red', 'Red', 'Red'], ["k: 'red' (1 row) counts as 'Red'"])
-    """
-    written = Counter(cell_text(row.get(column)) for row in rows)
-    common: dict[str, str] = {}
-    told = []
-    for text, count in written.most_common():
-        first = common.setdefault(text.casefold(), text)
-        if first != text:
-            rows_said = number_of(count, "row")
-            told.append(f"{column}: {text[:40]!r} ({rows_said}) counts as {first[:40]!r}")
-    return [common[cell_text(row.get(column)).casefold()] for row in rows], told
-
-
-def all_categories(
-    rows: Sequence[Mapping[str, Any]], column: str, shown_names: Iterable[str]
-) -> tuple[str, ...]:
-    """Categories of a column by the alphabet, of rows that are not shown too.
-
-    Examples
-    --------
-    >>> rows = ({"k": "pear"}, {"k": "fig"}, {"k": None}, {"k": "Fig"})
-    >>> all_categories(rows, "k", ["Fig"])
-    ('Fig', 'pear')
-    """
-    known = {name.casefold(): name for name in shown_names}
-    for text in map(cell_text, (row.get(column) for row in rows)):
-        known.setdefault(text.casefold(), text)
-    known.pop(MISSING, None)
-    return tuple(known[key] for key in sorted(known))

@@ -13,13 +13,13 @@ from typing import Literal, TypeAlias
 LONGEST_FORMAT = 255
 """Letters of a number format, as Excel has it."""
 
-Shown: TypeAlias = Literal["number", "share", "date", "time", "duration", "year"]
+Shown: TypeAlias = Literal["number", "share", "date", "time", "duration", "seconds", "year"]
 
 BUILT_IN: dict[int, Shown] = {
     **dict.fromkeys((9, 10), "share"),
     **dict.fromkeys((*range(14, 18), 22, *range(27, 37), *range(50, 59)), "date"),
     **dict.fromkeys(range(18, 22), "time"),
-    **dict.fromkeys(range(45, 48), "duration"),
+    **dict.fromkeys(range(45, 48), "seconds"),
 }
 """Number formats that files name by their numbers alone."""
 
@@ -38,13 +38,13 @@ def shown_by(code: str) -> Shown:
     >>> [shown_by(code) for code in ("0.0%", "dd/mm/yyyy", "h:mm", "yyyy", '#,##0.00 "days"')]
     ['share', 'date', 'time', 'year', 'number']
     >>> [shown_by(code) for code in ("[h]:mm", "mm:ss.0", "0\\ h", '0" d;"')]
-    ['duration', 'duration', 'number', 'number']
+    ['duration', 'seconds', 'number', 'number']
     """
     plain = _QUOTED.sub("", code[:LONGEST_FORMAT]).partition(";")[0].casefold()
     if "%" in plain:
         return "share"
     if _ELAPSED.search(plain):
-        return "duration"
+        return "seconds" if "s" in plain else "duration"
     letters = set(_FRACTION.sub("s", plain))
     if letters == {"y"}:
         return "year"
@@ -53,7 +53,7 @@ def shown_by(code: str) -> Shown:
         return "number"
     if letters & set("yd") or not letters & set("hs"):
         return "date"
-    return "time" if "h" in letters else "duration"
+    return "time" if "h" in letters else "seconds"
 
 
 def _plain(number: float) -> str:
@@ -98,9 +98,11 @@ def written(text: str, shown: Shown, *, since_1904: bool = False) -> str:
     seconds = round(86_400 * number)
     if not 0 <= seconds <= (datetime.max - begin) // timedelta(seconds=1):
         return _plain(number)
-    if shown == "duration":
+    if shown in {"duration", "seconds"}:
         minutes, second = divmod(seconds, 60)
-        return f"{minutes // 60}:{minutes % 60:02}" + (f":{second:02}" if second else "")
+        return f"{minutes // 60}:{minutes % 60:02}" + (
+            f":{second:02}" if second or shown == "seconds" else ""
+        )
     when = begin + timedelta(seconds=seconds)
     if shown == "year":
         return str(when.year)

@@ -10,7 +10,8 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.phrasing import number_of
-from packwork.readers.tables.cells import MISSING, all_categories, as_number, is_missing
+from packwork.readers.tables.categories import all_categories
+from packwork.readers.tables.cells import MISSING, as_number, is_missing
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.palette import check_named, own_colours, palette_colours

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from packwork.errors import RecipeError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.charts import ChartOptions
+from packwork.readers.tables.categories import categories
 from packwork.readers.tables.cells import (
     as_number,
-    categories,
     cell_text,
     is_missing,
     is_numeric,

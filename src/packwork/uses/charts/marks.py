@@ -15,10 +15,9 @@ from packwork.readers.charts import ChartOptions
 from packwork.readers.items import read_items
 from packwork.readers.options import ReadOptions
 from packwork.readers.regions import Holes
+from packwork.readers.tables.categories import all_categories, categories
 from packwork.readers.tables.cells import (
     MISSING,
-    all_categories,
-    categories,
     cell_text,
     is_numeric,
     shown_decimal,
