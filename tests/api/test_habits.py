@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
 import logging
 import pickle
 import re
 import sys
+import typing
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Sequence
@@ -283,6 +285,33 @@ def test_reprs_are_short(layout: pw.Layout) -> None:
     assert repr(layout.edit()) == "<Session: 6 items in heart>"
 
 
+def test_types_of_verbs_can_be_read() -> None:
+    kinds = (pw.Session, pw.Series, pw.Batch, pw.History, pw.Nest)
+    verbs = [
+        (kind, name, verb)
+        for kind in kinds
+        for name, verb in inspect.getmembers(kind, inspect.isfunction)
+        if not name.startswith("_")
+    ]
+    assert len(verbs) > 40
+    for _, _, verb in verbs:
+        typing.get_type_hints(verb)
+    assert typing.get_type_hints(pw.Layout.to_dataframe)["return"] is Any
+
+
+def test_items_are_called_by_arrays_and_columns(layout: pw.Layout) -> None:
+    session = layout.edit()
+    session.hold(np.array([0, 1]))
+    session.hold(name for name in ("star#2",))
+    assert session.document.held.all(axis=1).sum() == 3
+
+
+def test_a_ring_is_fitted() -> None:
+    assert pw.fit_outline([(0, 0), (0, 2), (2, 2), (2, 0)]).controls
+    with pytest.raises(pw.ShapeError, match="an outline is a Shapely polygon"):
+        pw.fit_outline(3)
+
+
 def test_help_says_what_each_option_does() -> None:
     said = pw.fill.__doc__ or ""
     assert "size_ratio\n    With free sizes: 2 lets an item be" in said
@@ -421,6 +450,10 @@ def test_palettes_of_seaborn_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
         ({"best_of": 2, "best_by": len}, "best_by: must be one of"),
         ({"weights": ["a"]}, "weights: takes numbers, not"),
         ({"weights": [1, None]}, "weights: takes numbers, not [1, None]"),
+        (
+            {"weights": np.array([[1], [np.nan]])},
+            "weights: takes numbers, not array([[ 1.], [nan]])",
+        ),
         ({"weights": {"star": None}}, "weights: star: must be a number, not None"),
         ({"background": "white"}, "background: no such option; give it to save"),
         ({"canvas": (300, "x")}, "canvas: use a length such as 600"),

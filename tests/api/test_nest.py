@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -140,3 +141,16 @@ def test_parts_that_leave_room_for_no_other_have_a_sheet_each() -> None:
     found = pw.nest("400x400mm", [(shapely.box(0, 0, 202, 202), 30)], passes=1)
     assert not found.unplaced
     assert [len(layout.outlines) for layout in found] == [1] * 30
+
+
+@pytest.mark.parametrize(
+    ("sheet", "parts", "said"),
+    [
+        (100, "star", "sheet: use a size such as '600x400mm', not 100"),
+        ((100, 50), "star", "sheet: use a size such as '600x400mm', not (100, 50)"),
+        ("100mm", {"star": -3}, "parts: a count is -3; use 0 or more"),
+    ],
+)
+def test_numbers_that_mean_nothing_are_refused(sheet: object, parts: object, said: str) -> None:
+    with pytest.raises(pw.RecipeError, match=re.escape(said)):
+        pw.nest(sheet, parts)

@@ -22,6 +22,8 @@ from packwork.progress import Stop, never
 
 if TYPE_CHECKING:
     from pandas import DataFrame
+else:
+    DataFrame = Any
 
 
 @dataclass(frozen=True, repr=False)

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from geopandas import GeoDataFrame
     from matplotlib.axes import Axes
     from pandas import DataFrame
+else:
+    GeoDataFrame = Axes = DataFrame = Any
 
 
 def drawing_options(options: Mapping[str, Any]) -> writers.WriteOptions:

@@ -18,6 +18,8 @@ from packwork.progress import ObjectiveTerms, Step
 
 if TYPE_CHECKING:
     from pandas import DataFrame
+else:
+    DataFrame = Any
 
 TAKEN = "loss_"
 """What the column of a loss begins with whose name another column has."""

@@ -7,7 +7,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from numbers import Integral
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -15,6 +15,7 @@ from packwork import writers
 from packwork.api.layout import Layout, public
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline, OutlineLike
+from packwork.phrasing import number_of
 from packwork.progress import Stop, never
 from packwork.readers.engraving import Engraving
 from packwork.readers.instances import is_instance
@@ -71,7 +72,7 @@ class Nest:
 
     def __repr__(self) -> str:
         said = "certified" if self.certified else "not certified"
-        return f"<Nest: {len(self)} sheets, {self.density:.1%} covered, {said}>"
+        return f"<Nest: {number_of(len(self), 'sheet')}, {self.density:.1%} covered, {said}>"
 
     @property
     def report(self) -> dict[str, Any]:
@@ -220,6 +221,10 @@ def _is_pair(value: Any) -> bool:
 def _sheets(sheet: Any) -> list[nested.Sheet]:
     if isinstance(sheet, str | os.PathLike):
         return read_sheets(os.fspath(sheet))
+    if isinstance(sheet, Real) or (
+        isinstance(sheet, Sequence) and all(isinstance(side, Real) for side in sheet)
+    ):
+        raise RecipeError("sheet", f"use a size such as '600x400mm', not {sheet!r:.40}")
     ground = sheet if isinstance(sheet, Container) else Container("sheet", outline=sheet)
     return [
         nested.Sheet(height=ground.height, length=ground.width, unit=ground.unit,
@@ -231,6 +236,8 @@ def _parts(
     part: Part, count: int, unit: Unit, *, rotate: str, mirror: bool, holes: Any,
     engraving: Engraving, optional: bool,
 ) -> Iterator[nested.SheetPart]:  # fmt: skip
+    if count < 0:
+        raise RecipeError("parts", f"a count is {count}; use 0 or more")
     if isinstance(part, str | os.PathLike):
         text = os.fspath(part) if count == 1 else f"{os.fspath(part)}*{count}"
         yield from read_parts(

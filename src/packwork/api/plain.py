@@ -146,7 +146,7 @@ def plain_weights(weights: Any, names: Sequence[str]) -> Any:
     except (TypeError, ValueError):
         numbers = [math.nan]
     if not np.isfinite(numbers).all():
-        raise RecipeError("weights", f"takes numbers, not {weights!r:.60}")
+        raise RecipeError("weights", f"takes numbers, not {' '.join(repr(weights).split()):.60}")
     items = [item.name for item in item_reader.read_items(list(names)).items]
     if np.shape(numbers) != (len(items),) or len(set(items)) < len(items):
         raise RecipeError(

@@ -11,8 +11,10 @@ from packwork.api.layout import Layout, public
 from packwork.api.plain import Colour, Colours, plain_colour, plain_colours, plain_texts
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.errors import RecipeError, WriteError
-from packwork.live import edits
-from packwork.live.document import Document
+from packwork.live import edits, picture_edits
+from packwork.live.clips import CopiedItems
+from packwork.live.commands.aligning import Direction, Edge
+from packwork.live.document import Document, Property
 from packwork.live.file.disk import ENDING, Disk
 from packwork.live.file.recipe import SessionRecipe, write_recipe
 from packwork.live.names import Coordinate, Which
@@ -266,3 +268,18 @@ class Session(LiveSession):
 def session_of(layout: scene.Layout, *, record: bool) -> Session:
     """A session that begins with a layout."""
     return Session(Document.from_layout(layout), record=record)
+
+
+# Edits are declared without loading what they are annotated with, for help of command lines is made
+# of them: here it is there, for ``typing.get_type_hints``.
+vars(edits).update(
+    Session=LiveSession,
+    CopiedItems=CopiedItems,
+    Direction=Direction,
+    Edge=Edge,
+    Property=Property,
+    Coordinate=Coordinate,
+    Which=Which,
+    Shades=Shades,
+)
+vars(picture_edits)["Session"] = LiveSession

@@ -20,7 +20,7 @@ from packwork.errors import RecipeError, ShapeError
 from packwork.fit.chains import flattened, straight_chain, without_loops
 from packwork.fit.descent import fit_to_picture
 from packwork.fit.knots import best_chain
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, OutlineLike
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import signed_area
 from packwork.geometry.simplify import simplified
@@ -81,7 +81,7 @@ class FittedOutline:
         return self.ending is not FitEnding.SIMPLIFIED
 
 
-def fit_outline(outline: Outline, curves: int = 20) -> FittedOutline:
+def fit_outline(outline: OutlineLike, curves: int = 20) -> FittedOutline:
     """Closed area of a few cubic curves that looks like an outline.
 
     Never crosses itself: small loops are cut off, and where that does not help a coarser
@@ -116,6 +116,7 @@ def fit_outline(outline: Outline, curves: int = 20) -> FittedOutline:
         raise RecipeError("curves", f"must be a whole number such as 20, not {curves!r}")
     if not FEWEST <= curves <= MOST_CURVES:
         raise RecipeError("curves", f"must be {FEWEST} to {MOST_CURVES}, not {curves}")
+    outline = Outline.of(outline)
     _check_simple(outline)
     return _remembered(outline.points.tobytes(), outline.starts.tobytes(), int(curves))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import fnmatch
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable
 from numbers import Integral
 from typing import TypeAlias
 
@@ -12,9 +12,9 @@ from packwork.errors import RecipeError
 from packwork.live.document import Document
 from packwork.units import length_asked
 
-Which: TypeAlias = str | int | Sequence[str | int]
+Which: TypeAlias = str | int | Iterable[str | int]
 """An item: its name, ``owl``, or of several of that name ``owl#2``; ``*`` stands for any letters;
-or its number. Where several go, a list of these too."""
+or its number. Where several go, a list or a column of these too."""
 
 Coordinate: TypeAlias = str | float
 """Canvas units, or a length such as ``10mm``; ``45%`` is a share of the canvas' width or height."""
@@ -24,7 +24,7 @@ _COPY = re.compile(r"(?P<name>.+)#(?P<copy>[1-9][0-9]{0,5})")
 
 def find_items(document: Document, which: Which) -> tuple[int, ...]:
     """Numbers of the items that a name means, in their order."""
-    if isinstance(which, list | tuple | set | frozenset):
+    if isinstance(which, Iterable) and not isinstance(which, str):
         return tuple(dict.fromkeys(k for one in which for k in find_items(document, one)))
     if isinstance(which, Integral) and not isinstance(which, bool):
         if document.index(int(which)) is None:
