@@ -22,6 +22,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, intersection, part_about
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.threads import at_once
 
 LEAST_STRIDE = 32
 """Successive edges of the container that share a box, at least; of many, their square root. Larger
@@ -29,6 +30,9 @@ looks at more edges, smaller at more boxes. Tried."""
 
 FAR = 9
 """Cells as far as which walls lie that no item meets. Derived: images reach two."""
+
+MOST_PAIRS = 4_000
+"""Pairs whose distances are looked at by one thread at a time, some ten milliseconds. Chosen."""
 
 PAIRS_PER_ITEM = 16
 """Room for near pairs at first; more are counted and then looked for again."""
@@ -130,7 +134,10 @@ class Arrangement:
 
     def distances(self, pairs: IntArray, reach: float) -> FloatArray:
         """``(k,)`` distances of pairs ``(k, 2)``, canvas units: 0 if they meet, or ``reach``."""
-        return np.asarray(distances.distances(self.board, pairs, reach))
+        # What takes less than some milliseconds is not parted.
+        parts = np.array_split(pairs, -(-len(pairs) // MOST_PAIRS)) if len(pairs) else [pairs]
+        calls = [(self.board, part, reach) for part in parts]
+        return np.concatenate(at_once(distances.distances, calls))
 
     def rings(self, items: IntArray) -> tuple[FloatArray, IntArray]:
         """Points ``(p, 2)`` of items ``(m,)`` and images, and starts of rings ``(r + 1,)``."""

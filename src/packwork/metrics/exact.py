@@ -97,16 +97,35 @@ def exact_metrics(outlines: Sequence[Outline], container: Outline) -> ExactMetri
     >>> found.overlap_area, found.coverage, found.min_gap
     (1.0, 0.07, 0.0)
     """
-    whole = _container_region(container)
     boxes = np.array([outline.bounds for outline in outlines]).reshape(-1, 4)
-    looked_at = _look(boxes, lambda some: _regions([outlines[int(k)] for k in some]), whole)
+    return metrics_by_strips(boxes, lambda some: [outlines[int(k)] for k in some], container)
+
+
+def metrics_by_strips(
+    boxes: FloatArray, place: Callable[[IntArray], Sequence[Outline]], container: Outline
+) -> ExactMetrics:
+    """Exact measures of outlines that are in memory only while they are looked at.
+
+    ``boxes``: ``(n, 4)`` in which they lie, left, top, right and bottom, canvas units; ``place``:
+    outlines by their numbers ``(m,)``.
+
+    Examples
+    --------
+    >>> tiles = [Outline.box(k, 1, k + 0.5, 2) for k in range(1, 9)]
+    >>> boxes = np.array([tile.bounds for tile in tiles])
+    >>> whole = Outline.box(0, 0, 10, 10)
+    >>> metrics_by_strips(boxes, lambda some: [tiles[k] for k in some], whole).min_gap
+    0.5
+    """
+    whole = _container_region(container)
+    looked_at = _look(boxes, lambda some: _regions(place(some)), whole)
     if looked_at.gap > 0 and looked_at.is_inside:
         covered = float(looked_at.areas.sum())
         return ExactMetrics(
             coverage=covered / whole.area, overlap=0.0, exceeding=0.0, overlap_area=0.0,
             outside_area=0.0, min_gap=looked_at.gap,
         )  # fmt: skip
-    regions = _regions(outlines)
+    regions = _regions(place(np.arange(len(boxes))))
     pairs = _meeting_pairs(regions)
     covered, outside = _covered_and_outside(_merged(regions, pairs), whole)
     overlap = _overlap_area(regions, pairs)

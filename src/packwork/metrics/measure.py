@@ -11,7 +11,13 @@ import shapely
 
 from packwork.geometry.lattice import Lattice
 from packwork.geometry.outline import PORTION, regions
-from packwork.metrics.exact import STRIP, ExactMetrics, exact_coverage, exact_metrics
+from packwork.metrics.exact import (
+    STRIP,
+    ExactMetrics,
+    exact_coverage,
+    exact_metrics,
+    metrics_by_strips,
+)
 from packwork.metrics.pixel import PixelMetrics, ShapeMetrics, pixel_metrics, shape_metrics
 from packwork.metrics.torus import in_cell, torus_metrics
 from packwork.metrics.touching import touching_metrics
@@ -164,12 +170,23 @@ def _of_kind(kind: Callable[[Layout], Any], layout: Layout) -> Any:
     return kind(layout)
 
 
-def exact_of(layout: Layout) -> ExactMetrics:
-    """Exact measures of a layout's outlines: within its container, or on the torus of a tile."""
+def exact_of(layout: Layout, *, once: bool = False) -> ExactMetrics:
+    """Exact measures of a layout's outlines: within its container, or on the torus of a tile.
+
+    With ``once`` the outlines in place are not kept for other measures.
+    """
     container = layout.container
     if container.lattice is not None:
         return torus_metrics(layout.outlines, container.lattice)
-    return touching_metrics(layout) or exact_metrics(layout.outlines, container.outline)
+    if (found := touching_metrics(layout)) is not None:
+        return found
+    if not once:
+        return exact_metrics(layout.outlines, container.outline)
+    places = np.column_stack([layout.poses.x, layout.poses.y])
+    radii = np.array([item.outline.radius for item in layout.items])
+    reach = (radii * layout.poses.axis_scales.max(axis=1))[:, None]
+    boxes = np.hstack([places - reach, places + reach])
+    return metrics_by_strips(boxes, lambda some: layout.placed(some.tolist()), container.outline)
 
 
 def _pixels(layout: Layout) -> PixelMetrics:

@@ -75,7 +75,7 @@ def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]
     promise = Promise.of(found.manifest)
     if promise is None:
         return ("what was promised is not written",)
-    return unclean(promise, found, exact_of(found))
+    return unclean(promise, found, exact_of(found, once=True))
 
 
 def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str]) -> tuple[str, ...]:
