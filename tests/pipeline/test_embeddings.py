@@ -20,7 +20,7 @@ from packwork.readers.words.cooccurrence import (
     places_of,
     vectors_of,
 )
-from packwork.readers.words.options import Word
+from packwork.readers.words.word import Word
 from packwork.scene.swatch import representative_colour
 
 QUICK = {"levels": "60", "epochs": 60, "effort": "draft", "seed": 0}

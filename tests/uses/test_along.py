@@ -16,8 +16,10 @@ from packwork.pipeline import run
 from packwork.progress import never
 from packwork.readers.container import read_container
 from packwork.readers.layouts.svg import layout_of_svg
-from packwork.readers.words.items import EM_PX, word_fonts
-from packwork.readers.words.options import Word, WordOptions
+from packwork.readers.words.items import word_fonts
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.shaping import EM_PX
+from packwork.readers.words.word import Word
 from packwork.start.lanes import WordOnLine
 from packwork.start.limbs import edges_of
 from packwork.uses import read, words_recipe

@@ -7,7 +7,7 @@ import pytest
 
 import packwork as pw
 from packwork.geometry.outline import Outline
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.uses.words.fitted import BESIDE, FEW_BETWEEN, OF_ONE_COLOUR

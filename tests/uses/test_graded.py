@@ -10,7 +10,7 @@ import pytest
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.pipeline import Run, run
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.uses import read, words_recipe
 from packwork.uses.words.graded import graded_places
 

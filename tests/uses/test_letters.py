@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.uses import fill, read, words_recipe
 from packwork.uses.words.sizes import Letters, heaviest_of, readable_count
 from packwork.uses.words.use import WordsUse

@@ -14,7 +14,8 @@ from PIL import Image
 import packwork as pw
 from packwork import uses
 from packwork.readers.container import read_container
-from packwork.readers.words.items import EM_PX, read_word_items
+from packwork.readers.words.items import read_word_items
+from packwork.readers.words.shaping import EM_PX
 from packwork.uses.icons import KnownContainer
 from packwork.uses.words.copies import for_letters
 from packwork.uses.words.graded import LEGIBLE

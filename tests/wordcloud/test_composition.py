@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from packwork.readers.words.items import EM_PX, WORD_SPACE
+from packwork.readers.words.shaping import EM_PX, WORD_SPACE
 from packwork.wordcloud import WordCloud
 from packwork.wordcloud.engine import EDGE, UPRIGHT
 

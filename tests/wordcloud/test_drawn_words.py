@@ -13,8 +13,8 @@ from packwork.geometry.polygon import region
 from packwork.readers.fonts.drawn import glyph_rings
 from packwork.readers.fonts.face import Typeface, bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
-from packwork.readers.words.items import shaped_word
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import shaped_word
+from packwork.readers.words.word import Word
 from packwork.wordcloud import WordCloud
 from packwork.wordcloud.engine import COARSEST, DrawnWord
 

@@ -14,7 +14,7 @@ from defusedxml import ElementTree
 from PIL import Image, ImageColor
 
 from packwork.readers.layouts.read import read_written
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.scene.contrast import contrast, oklab
 from packwork.wordcloud import (
     STOPWORDS,

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 
 from packwork.readers.fonts.fallback import open_fonts
-from packwork.readers.words.items import shaped_word
+from packwork.readers.words.shaping import shaped_word
 from packwork.wordcloud import WordCloud
 from packwork.writers.bitmaps import png_bytes
 from packwork.writers.svg import SvgOptions

@@ -22,8 +22,8 @@ from made_profiles import press_profile
 from packwork.geometry.curves import Curve
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts, open_fonts
-from packwork.readers.words.items import bent_word, word_item
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import bent_word, word_item
+from packwork.readers.words.word import Word
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

@@ -24,8 +24,8 @@ from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.fonts.glyph_ink import glyph_ink
 from packwork.readers.layouts.read import read_written
-from packwork.readers.words.items import bent_word, word_item
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import bent_word, word_item
+from packwork.readers.words.word import Word
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.writers.svg import SvgOptions, svg_text

@@ -15,7 +15,7 @@ from numpy.random import Generator
 from packwork.api.plain import Cells, Colours
 from packwork.api.signatures import RunKeywords
 from packwork.readers.memory.values import Value
-from packwork.readers.words.options import Word
+from packwork.readers.words.word import Word
 from packwork.recipe.typed import Anchor, Force, Hero
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

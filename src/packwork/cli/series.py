@@ -23,7 +23,7 @@ from packwork.errors import RecipeError
 from packwork.phrasing import number_of
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.readers.words.table import named_column, read_word_steps
 from packwork.sources import check_no_input
 from packwork.timeline.film import filmed

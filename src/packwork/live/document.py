@@ -18,7 +18,7 @@ from packwork.live.kinds import Kind, LineKind, LiveOptions, kind_of
 from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.pipeline.plan.forces import forces_of
-from packwork.readers.words.options import as_one_line
+from packwork.readers.words.word import as_one_line
 from packwork.recipe.pictures import Shades
 from packwork.scene.container import Container
 from packwork.scene.item import Item

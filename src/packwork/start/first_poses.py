@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from packwork.geometry.simplify import hull_areas
 from packwork.raster.coverage import Rasteriser, image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.pose import NO_LIMITS, Limits, Poses
-from packwork.start.options import Placing, StartOptions
 from packwork.start.places import (
     AXIS_ELBOW_ROOM,
     AllowedPixels,
@@ -28,6 +28,9 @@ from packwork.start.places import (
     scatter,
     suitable,
 )
+
+if TYPE_CHECKING:
+    from packwork.start.options import Placing, StartOptions
 
 RESOLUTION = 200
 """Pixels on the longer side of the image that places are chosen on, for up to 1,600

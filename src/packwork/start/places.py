@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -29,7 +29,9 @@ from packwork.fields.voids import Clearance, largest_voids
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser, region_image
 from packwork.scene.pose import Limits, Poses
-from packwork.start.options import Placing
+
+if TYPE_CHECKING:
+    from packwork.start.options import Placing
 
 JITTER = 0.11
 """Random shift of each disc, in its radius: it makes seeds differ and breaks the ties of

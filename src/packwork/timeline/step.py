@@ -17,7 +17,7 @@ from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
 from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import height_shares
-from packwork.readers.words.options import Word
+from packwork.readers.words.word import Word
 from packwork.scene.palette import palette_colours
 from packwork.uses.charts.copies import unit_scales
 from packwork.uses.charts.recipe import chart_recipe

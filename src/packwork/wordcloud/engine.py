@@ -23,8 +23,14 @@ from packwork.readers.fonts.drawn import drawn_outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, lines_to_set, shaped_word
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import (
+    EM_PX,
+    WORD_SPACE,
+    ShapedWord,
+    lines_to_set,
+    shaped_word,
+)
+from packwork.readers.words.word import Word
 from packwork.scene.container import Container, placed_container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

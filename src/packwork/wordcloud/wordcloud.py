@@ -19,9 +19,8 @@ from PIL import Image, ImageDraw
 from packwork import writers
 from packwork.fonts import bundled_file
 from packwork.readers.fonts.fallback import open_fonts
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.scene.layout import Layout
-from packwork.scene.recolour import recoloured
 from packwork.wordcloud.colours import (
     Chance,
     ColourFunction,
@@ -44,10 +43,6 @@ from packwork.wordcloud.engine import (
     scaled_layout,
 )
 from packwork.wordcloud.tokenization import STOPWORDS, process_tokens, tokens, unigrams_and_bigrams
-from packwork.writers.atomic import write_atomic
-from packwork.writers.bitmaps import png_bytes
-from packwork.writers.options import TextChoice
-from packwork.writers.svg import SvgOptions, svg_text
 
 __all__ = ["STOPWORDS", "WordCloud", "get_single_color_func", "random_color_func"]
 
@@ -222,7 +217,7 @@ class WordCloud:
         size = (int(self.width * self.scale), int(self.height * self.scale))
         shown = Image.new("RGBA", size, rgba(self.background_color))
         if any(word.has_pictures for word in self._placed.words):
-            data = png_bytes(self.layout, max(size), SvgOptions())
+            data = writers.png_bytes(self.layout, max(size), writers.SvgOptions())
             with Image.open(io.BytesIO(data)) as drawn:
                 shown.alpha_composite(_without_traces(drawn.convert("RGBA").crop((0, 0, *size))))
         else:
@@ -237,7 +232,7 @@ class WordCloud:
             options = writers.write_options(background=self._css_background())
             writers.write(scaled_layout(self.layout, float(self.scale)), str(filename), options)
         else:
-            write_atomic(str(filename), self._encoded(filename))
+            writers.write_atomic(str(filename), self._encoded(filename))
         return self
 
     def _encoded(self, filename: str | os.PathLike[str]) -> bytes:
@@ -273,10 +268,13 @@ class WordCloud:
             _warn_once("embed_image has no effect: the outlines are what the picture shows")
         if not optimize_embedded_font:
             _warn_once("optimize_embedded_font has no effect: only letters in use are embedded")
-        text: TextChoice = "live" if embed_font else "outlines"
-        return svg_text(
-            scaled_layout(self.layout, float(self.scale)),
-            SvgOptions(background=self._css_background(), text=text),
+        return str(
+            writers.svg_text(
+                scaled_layout(self.layout, float(self.scale)),
+                writers.SvgOptions(
+                    background=self._css_background(), text="live" if embed_font else "outlines"
+                ),
+            )
         )
 
     def _repr_png_(self) -> bytes | None:
@@ -289,6 +287,8 @@ class WordCloud:
     @property
     def layout(self) -> Layout:
         """The engine's layout, in the colours of ``layout_``."""
+        from packwork.scene.recolour import recoloured
+
         self._check_generated()
         layout = self._placed.layout
         items = [

@@ -15,8 +15,8 @@ from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.itemise import clusters, itemised, visual_order
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import word_item
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import word_item
+from packwork.readers.words.word import Word
 from packwork.scene.item import VectorArt
 from packwork.scene.recolour import has_one_colour
 

@@ -11,8 +11,8 @@ from packwork.readers.fonts import lettering
 from packwork.readers.fonts.face import bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
-from packwork.readers.words.items import word_item
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import word_item
+from packwork.readers.words.word import Word
 from packwork.scene.item import Item
 
 

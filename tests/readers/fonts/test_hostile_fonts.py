@@ -26,8 +26,8 @@ from packwork.readers.fonts.face import MAX_FONT_BYTES, Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.text import Letter, container_of_words, letters_of
-from packwork.readers.words.items import word_item
-from packwork.readers.words.options import Word
+from packwork.readers.words.shaping import word_item
+from packwork.readers.words.word import Word
 from packwork.scene.item import FontFile, LiveText, TextRun
 from packwork.wordcloud import WordCloud
 from packwork.writers.svg_live_text import embedded_fonts

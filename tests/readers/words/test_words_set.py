@@ -13,8 +13,10 @@ from packwork.errors import ReadError, RecipeError
 from packwork.readers.fonts.face import Typeface, bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import EM_PX, read_word_items, shaped_word, word_item
-from packwork.readers.words.options import Word, WordOptions
+from packwork.readers.words.items import read_word_items
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.shaping import EM_PX, shaped_word, word_item
+from packwork.readers.words.word import Word
 from packwork.scene.item import bulge_between
 
 

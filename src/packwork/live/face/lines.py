@@ -28,7 +28,7 @@ from packwork.live.relayout import Moment, Shown, ground_of, poured_again, run_s
 from packwork.phrasing import enumerated
 from packwork.progress import Stop, never
 from packwork.readers.fonts.face import bundled_typeface
-from packwork.readers.words.options import as_one_line
+from packwork.readers.words.word import as_one_line
 from packwork.scene.colour import hex_colour
 from packwork.scene.item import FontFile, Item
 from packwork.scene.layout import Layout

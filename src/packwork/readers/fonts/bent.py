@@ -13,12 +13,13 @@ from packwork.geometry import affine
 from packwork.geometry.curves import Curve
 from packwork.geometry.polygon import Region, united
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph
-from packwork.readers.fonts.glyph_ink import GlyphPath, glyph_ink, glyph_path
+from packwork.readers.fonts.glyph_ink import Box, GlyphPath, glyph_ink, glyph_path
 from packwork.readers.fonts.lettering import (
     Curves,
     FontRun,
     Lettering,
     TypeSetting,
+    box_of,
     line_of_runs,
     tolerance_of,
 )
@@ -52,12 +53,12 @@ def bent_lettering(
     letters = [letter for run in runs for letter in _letters(run)]
     if not letters:
         raise UnfitError("has no outlines to draw it with")
-    low, high = _box(letters)
+    low, high = np.array(_box(letters)).reshape(2, 2)
     tolerance = tolerance_of([box for letter in letters for box in letter.boxes()])
     stretch = (end - start) / (high[0] - low[0])
     paths, regions, texts = list[GlyphPath](), list[Region](), list[TextRun | None]()
     for letter in letters:
-        left, right = (corner[0] for corner in _box([letter]))
+        left, _, right, _ = _box([letter])
         middle = np.array([(left + right) / 2, (low[1] + high[1]) / 2])
         along = start + (middle[0] - low[0]) * stretch
         angle = float(curve.angle(along, (high[1] - low[1]) / units / 2))
@@ -114,7 +115,6 @@ def _text(letter: FontRun, put: FloatArray, angle: float, language: str) -> Text
     return replace(own, x=x, y=y, angle=angle)
 
 
-def _box(letters: Sequence[FontRun]) -> FloatArray:
-    """``(2, 2)`` least and largest x, y of the curves of letters."""
-    boxes = np.array([box for letter in letters for box in letter.boxes()])
-    return np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+def _box(letters: Sequence[FontRun]) -> Box:
+    """Box about the curves of letters."""
+    return box_of([box for letter in letters for box in letter.boxes()])

@@ -94,17 +94,35 @@ def glyph_rings(face: Typeface, number: int, tolerance: float) -> Outline | None
     >>> [float(area) > 0 for area in found.ring_areas]
     [True, False]
     """
-    rings = [ring for ring in rings_of(face.drawing(number), tolerance) if len(ring) >= 3]
-    if not rings:
-        return None
-    check_glyph(rings)
-    found = Outline.from_rings(rings)
-    if found.area < 0:
-        found = Outline.from_rings([ring[::-1] for ring in rings])
-    if _has_holes_only_in_rings(found):
+    found = _as_drawn(face, number, tolerance)
+    if found is None or _is_ink(face, number):
         return found
     # Contours that run either way round are one ink all the same.
     return glyph_ink(face, number, tolerance).ink
+
+
+def _as_drawn(face: Typeface, number: int, tolerance: float) -> Outline | None:
+    """Contours of a glyph, on the whole clockwise."""
+    rings = [ring for ring in rings_of(face.drawing(number), tolerance) if len(ring) >= 3]
+    if not rings:
+        return None
+    check_points(sum(map(len, rings)), "glyph")
+    found = Outline.from_rings(rings)
+    return found if found.area >= 0 else Outline.from_rings([ring[::-1] for ring in rings])
+
+
+JUDGED = 1e-3
+"""Tolerance, as a share of an em, at which it is found out how contours lie. Chosen."""
+
+
+@cached_by_identity(MOST_KNOWN)
+def _is_ink(face: Typeface, number: int) -> bool:
+    """Whether contours of a glyph are its ink as they are; asked once for all tolerances."""
+    found = _as_drawn(face, number, JUDGED * face.units)
+    if found is None:
+        return True
+    check_glyph(found.rings)
+    return _has_holes_only_in_rings(found)
 
 
 def _has_holes_only_in_rings(outline: Outline) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 import shapely
@@ -92,6 +93,10 @@ class ClearInk:
         return Outline(points * sizes + np.repeat(self.places, counts, axis=0), starts)
 
 
+Box: TypeAlias = tuple[float, float, float, float]
+"""Left, top, right and bottom."""
+
+
 @dataclass(frozen=True, eq=False)
 class GlyphPath:
     """A glyph's curves about its origin, in its font's units.
@@ -103,11 +108,12 @@ class GlyphPath:
     points: FloatArray
 
     @cached_property
-    def box(self) -> FloatArray:
-        """``(2, 2)`` least and largest x, y; ``(0, 2)`` of a space."""
+    def box(self) -> Box | None:
+        """Left, top, right and bottom; None of a space."""
         if len(self.points) == 0:
-            return self.points
-        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+            return None
+        (left, top), (right, bottom) = self.points.min(axis=0), self.points.max(axis=0)
+        return float(left), float(top), float(right), float(bottom)
 
     def moved(self, x: float, y: float, size: float) -> str:
         """SVG path data with the origin at a place, as exact as the numbers are.

@@ -19,6 +19,7 @@ from packwork.geometry.polygon import Region, united
 from packwork.readers.cache import GlyphInk, cached_by_identity
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Bitmap, Glyph, Typeface
 from packwork.readers.fonts.glyph_ink import (
+    Box,
     ClearInk,
     GlyphPath,
     clear_ink,
@@ -241,13 +242,14 @@ class FontRun:
     piece: Piece
     advance: float
 
-    def boxes(self) -> list[FloatArray]:
-        """``(2, 2)`` least and largest x, y of the curves of each glyph that has some."""
-        drawn = [one for one in zip(self.paths, self.places(), strict=True) if len(one[0].points)]
-        if not drawn:
-            return []
-        boxes, places = np.array([path.box for path, _ in drawn]), np.array([at for _, at in drawn])
-        return list(boxes * self.scale + places[:, None])
+    def boxes(self) -> list[Box]:
+        """Left, top, right and bottom of the curves of each glyph that has some."""
+        found = []
+        for path, (x, y) in zip(self.paths, self.places(), strict=True):
+            if path.box is not None:
+                left, top, right, bottom = (self.scale * end for end in path.box)
+                found.append((x + left, y + top, x + right, y + bottom))
+        return found
 
     @cached_property
     def paths(self) -> list[GlyphPath]:
@@ -278,7 +280,7 @@ class FontRun:
 
     def ends(self) -> list[float]:
         """Leftmost and rightmost of what is drawn."""
-        across = [float(end) for box in self.boxes() for end in box[:, 0]]
+        across = [end for box in self.boxes() for end in box[::2]]
         across += [end for picture in self.pictures() for end in picture.region.bounds[::2]]
         return [min(across), max(across)] if across else []
 
@@ -314,20 +316,36 @@ def line_of_runs(
         runs[k] = FontRun(face, shaped.glyphs, x, y, scale, piece, shaped.advance)
         x += shaped.advance * runs[k].scale
     ends = [end for run in runs.values() for end in run.ends()]
-    middle = float(np.round((min(ends) + max(ends)) / 2)) if ends else 0.0
+    middle = float(round((min(ends) + max(ends)) / 2)) if ends else 0.0
     return [replace(runs[k], x=runs[k].x - middle) for k in range(len(line))]
 
 
-def _coarseness(boxes: Sequence[FloatArray], shown: float, most: float) -> float:
+def box_of(boxes: Sequence[Box]) -> Box:
+    """Box about all of some.
+
+    >>> box_of([(0.0, 1.0, 2.0, 3.0), (-1.0, 2.0, 0.0, 4.0)])
+    (-1.0, 1.0, 2.0, 4.0)
+    """
+    left, top, right, bottom = zip(*boxes, strict=True)
+    return min(left), min(top), max(right), max(bottom)
+
+
+def _extent(boxes: Sequence[Box]) -> float:
+    """Longer side of a box about all."""
+    left, top, right, bottom = box_of(boxes)
+    return max(right - left, bottom - top)
+
+
+def _coarseness(boxes: Sequence[Box], shown: float, most: float) -> float:
     """Side of a picture over a word's extent in it, a power of two; ``shown``: of it, of a unit."""
-    extent = float(np.ptp(np.concatenate(boxes), axis=0).max()) if boxes else 1.0
+    extent = _extent(boxes) if boxes else 1.0
     return 2.0 ** math.floor(math.log2(min(max(1.0 / (extent * shown), 1.0), most)))
 
 
-def tolerance_of(boxes: Sequence[FloatArray]) -> float:
+def tolerance_of(boxes: Sequence[Box]) -> float:
     """Largest distance of chords from curves, in the word's units."""
     if not boxes:
         return 1.0
-    extent = float(np.ptp(np.concatenate(boxes), axis=0).max())
+    extent = _extent(boxes)
     # Words of about one length share their glyphs.
     return _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(max(extent, 1e-9)))

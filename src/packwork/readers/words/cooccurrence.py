@@ -16,7 +16,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.readers.words.options import Word
+from packwork.readers.words.word import Word
 
 WINDOW = 10
 """Words that lie between the two of a pair at most, and one more. Larger tells topics, smaller

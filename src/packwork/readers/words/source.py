@@ -18,7 +18,7 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.tables.workbook import ending_of
 from packwork.readers.words.lists import listed_names, told_of
-from packwork.readers.words.options import Word, WordOptions, sound
+from packwork.readers.words.options import WordOptions
 from packwork.readers.words.plurals import without_clitics, without_plurals
 from packwork.readers.words.table import MAX_BYTES, read_word_table
 from packwork.readers.words.tokens import (
@@ -31,6 +31,7 @@ from packwork.readers.words.tokens import (
     sentences,
     stop_words,
 )
+from packwork.readers.words.word import Word, sound
 from packwork.sources import note_input
 
 LEAST_TOGETHER = 3

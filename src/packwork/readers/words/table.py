@@ -22,7 +22,7 @@ from packwork.readers.tables.pairs import (
     read_pairs,
 )
 from packwork.readers.tables.totals import is_sum_last, total_rows
-from packwork.readers.words.options import Word
+from packwork.readers.words.word import Word
 
 MAX_BYTES = 50_000_000
 """Size of a text or a table: some fifty long novels. Chosen."""

@@ -23,7 +23,7 @@ from typing import Any
 from packwork.errors import RecipeError
 from packwork.offspring import END_WITH_PARENT
 from packwork.readers.reading import exists, is_folder, read_text
-from packwork.readers.words.options import sound
+from packwork.readers.words.word import sound
 from packwork.recipe_paths import is_like_a_path
 
 MAX_BYTES = 2_000_000

@@ -13,7 +13,7 @@ import math
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import accumulate, islice
 
 import numpy as np
 
@@ -364,12 +364,14 @@ class Reserve:
     """
 
     def __init__(self, lengths: Sequence[float], apart_cu: float) -> None:
-        self._lengths, self._apart = np.asarray(lengths, dtype=np.float64), apart_cu
+        self._lengths, self._apart = [float(length) for length in lengths], apart_cu
+        # Of all from one on.
+        self._to_come = [*accumulate(self._lengths[::-1])][::-1]
         self._boxes = list[tuple[float, float]]()
 
     def emptied(self) -> Reserve:
         """The same before any item was seen."""
-        return Reserve(self._lengths.tolist(), self._apart)
+        return Reserve(self._lengths, self._apart)
 
     def add(self, outline: Outline) -> None:
         """See the next item."""
@@ -378,16 +380,16 @@ class Reserve:
 
     def common_size(self, number: int, room: float) -> float:
         """Scale at which all items from one on have room, side by side; infinite if unknown."""
-        to_come = self._lengths[number:]
-        if len(to_come) == 0:
+        count = len(self._lengths) - number
+        if count <= 0:
             return math.inf
-        known = self._lengths[: len(self._boxes)]
-        widths, heights = np.array(self._boxes).T
-        wide = float(widths.sum() / max(known.sum(), 1.0)) * to_come
-        high = float(heights.mean())
+        known = sum(self._lengths[: len(self._boxes)])
+        widths, heights = zip(*self._boxes, strict=True)
+        wide = sum(widths) / max(known, 1.0) * self._to_come[number]
+        high = sum(heights) / len(heights)
         # (w s + a) (h s + a), summed, is the room.
-        square, sides = float(wide.sum()) * high, float(wide.sum()) + high * len(to_come)
-        linear, rest = self._apart * sides, len(to_come) * self._apart**2 - DENSE * room
+        square, sides = wide * high, wide + high * count
+        linear, rest = self._apart * sides, count * self._apart**2 - DENSE * room
         if rest >= 0:
             return 0.0
         return (math.sqrt(linear**2 - 4 * square * rest) - linear) / (2 * square)

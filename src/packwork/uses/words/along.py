@@ -21,8 +21,10 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps
 from packwork.readers.reading import UnfitError
-from packwork.readers.words.items import EM_PX, WordsRead
-from packwork.readers.words.options import Along, Word, sound
+from packwork.readers.words.items import WordsRead
+from packwork.readers.words.options import Along
+from packwork.readers.words.shaping import EM_PX
+from packwork.readers.words.word import Word, sound
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses

@@ -18,7 +18,8 @@ from packwork.readers.pictures.decode import (
 )
 from packwork.readers.reading import exists, read_bytes, reading_file
 from packwork.readers.words.items import WordsRead
-from packwork.readers.words.options import ColourOf, Word, WordOptions
+from packwork.readers.words.options import ColourOf, WordOptions
+from packwork.readers.words.word import Word
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout

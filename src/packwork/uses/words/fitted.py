@@ -16,7 +16,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import check_padding, padded
 from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps
 from packwork.progress import Step, until_over
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.recipe import AUTO
 from packwork.scene.item import Item, VectorArt, bulge_between
 from packwork.scene.pose import Poses

@@ -26,7 +26,7 @@ from packwork.pipeline.plan.counts import lines_width
 from packwork.pipeline.plan.limits import check_padding
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Stop, never
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.shaping import EM_PX
 from packwork.recipe import Recipe
 from packwork.recipe.rules import Rotation
 from packwork.scene.pose import Limits, Poses

@@ -16,8 +16,9 @@ from packwork.progress import Stop
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import Holes
-from packwork.readers.words.items import EM_PX, bent_word, word_fonts
-from packwork.readers.words.options import Word, lines_of
+from packwork.readers.words.items import word_fonts
+from packwork.readers.words.shaping import EM_PX, bent_word
+from packwork.readers.words.word import Word, lines_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses

@@ -11,7 +11,7 @@ from packwork.pipeline.findings import Filling, Sentence
 from packwork.pipeline.plan.copies import ItemRules
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.progress import Stop, until_over
-from packwork.readers.words.items import EM_PX, INK
+from packwork.readers.words.shaping import EM_PX, INK
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.contrast import between, contrast
 from packwork.scene.item import Item

@@ -17,8 +17,9 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.copies import RuleSource, shared_out
 from packwork.pipeline.read import read_regions
 from packwork.pipeline.state import RunContext, RunState, RunStep, run_steps, share_of
-from packwork.readers.words.items import EM_PX, WordsRead
+from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import WordOptions
+from packwork.readers.words.shaping import EM_PX
 from packwork.recipe import Sizes
 from packwork.scene.container import Container
 from packwork.scene.item import Item

@@ -19,8 +19,10 @@ from packwork.pipeline.read import Material, read_named
 from packwork.pipeline.result import Run
 from packwork.pipeline.state import RunContext, RunState, RunStep
 from packwork.readers.vectors import Vectors
-from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
-from packwork.readers.words.options import Word, WordOptions
+from packwork.readers.words.items import WordsRead, read_word_items
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.shaping import EM_PX
+from packwork.readers.words.word import Word
 from packwork.recipe import AUTO, Recipe
 from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
 from packwork.scene.item import Item
