@@ -384,9 +384,8 @@ class Reserve:
         if count <= 0:
             return math.inf
         known = sum(self._lengths[: len(self._boxes)])
-        widths, heights = zip(*self._boxes, strict=True)
-        wide = sum(widths) / max(known, 1.0) * self._to_come[number]
-        high = sum(heights) / len(heights)
+        wide = sum(width for width, _ in self._boxes) / max(known, 1.0) * self._to_come[number]
+        high = sum(height for _, height in self._boxes) / len(self._boxes)
         # (w s + a) (h s + a), summed, is the room.
         square, sides = wide * high, wide + high * count
         linear, rest = self._apart * sides, count * self._apart**2 - DENSE * room

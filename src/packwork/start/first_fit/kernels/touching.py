@@ -29,7 +29,7 @@ def best_touching(free, taken, begin, fringe, reach, worth, field, pull, origin,
     amid = np.zeros(free.shape, np.uint64)
     if is_everywhere and reach > 0:
         _mark_amid(free, reach, amid)
-    # What touches nothing is worth no less than that, and what touches all one more at most.
+    # What the best is worth at least; what touches all is worth one more than what touches nothing.
     least = -np.inf
     for step in (SOME, 1):
         is_counted = step == 1
@@ -52,9 +52,7 @@ def best_touching(free, taken, begin, fringe, reach, worth, field, pull, origin,
                     more = worth[row, column]
                     if pull != 0.0:
                         more += pull * field[row, column]
-                    if not is_counted:
-                        least = max(least, more)
-                        continue
+                    least = max(least, more)
                     if more == -np.inf or 1.0 + more < least:
                         continue
                     touched = 0
@@ -65,14 +63,14 @@ def best_touching(free, taken, begin, fringe, reach, worth, field, pull, origin,
                             continue
                     score = touched / len(fringe) + more
                     least = max(least, score)
-                    if best_y < 0 or score > best:
+                    if is_counted and (best_y < 0 or score > best):
                         best, best_y, best_x = score, y, x
     return best, best_y, best_x
 
 
 SOME = 8
-"""Of so many rows one is looked at to know what a place is worth at least. Larger counts more that
-cannot win, smaller looks at most places twice. Tried."""
+"""Of so many rows one is looked at first, to know what the best place is worth at least. Larger
+counts more that cannot win, smaller looks at more places twice. Tried."""
 
 ROUNDED = 1e-3
 """Pixels of a fringe by which sums may be rounded. Derived: far more than they are, less than 1."""
