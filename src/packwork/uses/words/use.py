@@ -57,13 +57,7 @@ from packwork.uses.words.fitted import (
 from packwork.uses.words.graded import GradedPlaces, can_give_way
 from packwork.uses.words.grown import GrowWords
 from packwork.uses.words.repeats import REPEATED, RepeatWords
-from packwork.uses.words.sizes import (
-    BelowHero,
-    FewerWords,
-    LedByHero,
-    Letters,
-    LettersAtMost,
-)
+from packwork.uses.words.sizes import BelowHero, FewerWords, LedByHero, Letters, LettersAtMost
 
 MANY = 40
 """Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
