@@ -14,6 +14,7 @@ from PIL import Image
 from typer.testing import Result
 
 from packwork.compaction.compact import blocks
+from packwork.steps import finish
 from packwork.threads import at_once, using
 
 Command = Callable[..., Result]
@@ -55,6 +56,8 @@ def sharing(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     for module in (anneal, compact, coverage):
         name = module.__name__.rpartition(".")[2]
         monkeypatch.setattr(module, "at_once", partial(shared, name))
+    # Fewer trials than a full layout takes are shared out as all are.
+    monkeypatch.setitem(finish.TRIALS, "best", 4)
     monkeypatch.setattr(anneal, "NEIGHBOURS", 1)
     monkeypatch.setattr(compact, "blocks", partial(blocks, most=4))
     monkeypatch.setattr(coverage, "PARTED", 1)

@@ -213,6 +213,6 @@ def test_many_gestures_do_not_empty_a_layout() -> None:
     for _ in range(4):
         dragged(session, int(rng.integers(30)))
         assert session.settle().certified
-        while session.is_rough:
-            session.polish(48)
+    while session.is_rough:
+        session.polish(48)
     assert session.document.covered > first - 0.06
