@@ -193,9 +193,3 @@ def any_scenario() -> st.SearchStrategy[Scenario]:
         return scenario(lambda options: draw(st.sampled_from(options)), rng)
 
     return drawn()
-
-
-def seeded_scenario(seed: int) -> Scenario:
-    """Scenario of a number: the same one each time."""
-    rng = np.random.default_rng(seed)
-    return scenario(lambda options: options[int(rng.integers(len(options)))], rng)

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
-
 import numpy as np
 from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray, IntArray
-
-Strategy: TypeAlias = st.SearchStrategy[Any]
 
 SEEDS = st.integers(0, 2**32 - 1)
 SHAPES = st.tuples(st.integers(1, 9), st.integers(1, 9))

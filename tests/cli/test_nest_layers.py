@@ -16,7 +16,7 @@ from typer.testing import Result
 
 import packwork as pw
 from packwork.readers.gate.door import parse_xml
-from packwork.readers.layouts.lines import arc_lines_of
+from packwork.readers.layouts.marks import arc_lines_of
 from packwork.readers.reading import UnfitError
 from packwork.scene.line_art import LineArt
 

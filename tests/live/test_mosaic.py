@@ -14,8 +14,8 @@ from packwork.errors import RecipeError
 from packwork.live.commands.command import named_container
 from packwork.live.commands.container import SetContainer
 from packwork.live.face.exporting import film_of
+from packwork.live.ground import MOSAIC_PX
 from packwork.live.log import Log, read_entries
-from packwork.live.mosaic import MOST_PX
 from packwork.live.owner import Owner
 from packwork.live.relayout import poured_again
 from packwork.live.session import Session
@@ -121,7 +121,7 @@ def test_a_kept_picture_is_bounded(layout: pw.Layout, tmp_path: Path) -> None:
     session.picture(tmp_path / "large.png")
     art = session.document.mosaic.picture.art
     assert isinstance(art, PhotoArt)
-    most = 4 * MOST_PX**2
+    most = 4 * MOSAIC_PX**2
     assert len(art.preview.markup) + len(art.original.printed(9.0).markup) < most
     session.save(tmp_path / "a.packwork")
     assert (tmp_path / "a.packwork").stat().st_size < most

@@ -26,7 +26,6 @@ from packwork.errors import PackworkError, ReadError, RecipeError, WriteError
 from packwork.live.commands.container import SetContainer
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import Document
-from packwork.live.file.parts import packed, part_of
 from packwork.live.file.session_file import read_session, unpacked
 from packwork.live.file.values import text_of
 from packwork.live.log import Log, read_entries
@@ -628,18 +627,6 @@ def test_nothing_is_packed_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     monkeypatch.delattr("packwork.live.file.things.part_of")
     session.save()
     assert pw.Session.open(tmp_path / "a.packwork").layout.container.file == b"{}"
-
-
-def test_a_map_in_its_container_is_read(tmp_path: Path) -> None:
-    # As sessions were written before maps had parts of their own.
-    file = tmp_path / "a.packwork"
-    on_land("{é".encode(), 500.0).save(file)
-    parts = dict(unpacked(file.read_bytes()))
-    name = next(name for name in parts if name.startswith("maps/"))
-    text = json.dumps(parts.pop(name).decode("latin-1")).encode()
-    old = {n: d.replace(f'"{name[5:]}"'.encode(), text) for n, d in parts.items()}
-    file.write_bytes(packed({name: part_of(data) for name, data in old.items()}))
-    assert pw.Session.open(file).layout.container.file == "{é".encode()
 
 
 def test_a_full_disk_leaves_no_half_line_in_the_journal(tmp_path: Path) -> None:

@@ -13,8 +13,7 @@ import pytest
 import packwork as pw
 from packwork.live.document import Document
 from packwork.live.face.opening import Opening
-from packwork.studio.files import Uploads
-from packwork.studio.importer import Importer
+from packwork.studio.files import Importer, Uploads
 from packwork.studio.tab import Tab
 from packwork.studio.workspace import Workspace
 from studio.browsing import WIDE, Server, as_new, chromium, let_go, new_page

@@ -19,9 +19,8 @@ from packwork.live.face.opening import Opening
 from packwork.recipe.verbs import FilmOptions
 from packwork.studio import messages as requests
 from packwork.studio.app import guarded
-from packwork.studio.files import Uploads
+from packwork.studio.files import Importer, Uploads
 from packwork.studio.guard import TOKEN_HEADER
-from packwork.studio.importer import Importer
 from packwork.studio.proof import Secret
 from packwork.studio.workspace import Workspace
 from packwork.writers.options import DrawingOptions

@@ -19,8 +19,7 @@ from packwork.live.face.offers import items_of
 from packwork.live.face.opening import Opening
 from packwork.scene.item import PhotoArt
 from packwork.studio import files as module
-from packwork.studio.files import Uploads, safe_name
-from packwork.studio.importer import Importer
+from packwork.studio.files import Importer, Uploads, safe_name
 from packwork.studio.workspace import Workspace
 
 

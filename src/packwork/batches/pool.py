@@ -98,20 +98,17 @@ class _Pool(Generic[Task, Result]):
                 if self._stop():
                     self._event.set()
                     waiting.clear()
-                self._submit(waiting)
+                while waiting and not self.lost and len(self._under_way) < self._workers + AHEAD:
+                    task = waiting.pop()
+                    try:
+                        self._under_way[self._executor.submit(_called, self._call, task)] = task
+                    except BrokenProcessPool:
+                        self.lost.append(task)
                 for future in wait(self._under_way, LOOK_SECONDS, FIRST_COMPLETED).done:
                     yield from self._taken(future)
         finally:
             self._event.set()
             self._executor.shutdown(wait=True, cancel_futures=True)
-
-    def _submit(self, waiting: list[Task]) -> None:
-        while waiting and not self.lost and len(self._under_way) < self._workers + AHEAD:
-            task = waiting.pop()
-            try:
-                self._under_way[self._executor.submit(_called, self._call, task)] = task
-            except BrokenProcessPool:
-                self.lost.append(task)
 
     def _taken(self, future: Future[Result]) -> Iterator[tuple[Task, Result | Exception]]:
         task = self._under_way.pop(future)

@@ -11,7 +11,7 @@ import json
 import logging
 import os
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -126,7 +126,14 @@ def write(task: Task, found: Drawn) -> RowOutcome:
             for path in task.outputs:
                 check_no_input(path)
         drawn = list(zip(task.outputs, found.files, strict=True))
-        told = dict(found.told) | _digests(task, drawn, found.read)
+        # Digests of all that a row read and wrote.
+        told = dict(found.told) | {
+            "inputs": inputs_of(task.options, found.read),
+            "outputs": {
+                name: hashlib.sha256(data).hexdigest()
+                for name, (_, data) in zip(relative(task.outputs), drawn, strict=True)
+            },
+        }
         writers.write_all([*drawn, (record_path(task.outputs), writers.json_bytes(told))])
     except PackworkError as error:
         return failed(task.row, task.name, error)
@@ -193,19 +200,6 @@ def _told(task: Task, run: pipeline.Run, seconds: float) -> dict[str, Any]:
         "metrics": {**report["metrics"], "items": report["placed"], "seed": report["seed"]},
         "seconds": round(seconds, 3),
         "recipe": make_recipe(**task.options).plain(),
-    }
-
-
-def _digests(
-    task: Task, drawn: Sequence[tuple[Path, bytes]], read: Sequence[str]
-) -> dict[str, Any]:
-    """Digests of all that a row read and wrote."""
-    return {
-        "inputs": inputs_of(task.options, read),
-        "outputs": {
-            name: hashlib.sha256(data).hexdigest()
-            for name, (_, data) in zip(relative(task.outputs), drawn, strict=True)
-        },
     }
 
 

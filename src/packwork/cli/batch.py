@@ -62,9 +62,7 @@ class BatchFiles(Options):
         from packwork import writers
         from packwork.batches.report import report_bytes
 
-        for path in self.paths:
-            writers.check_writable(path)
-        writers.check_outputs(self.paths)
+        writers.check_all(self.paths)
         if self.report is not None:
             report_bytes(self.report, [])
 

@@ -233,7 +233,13 @@ class LazyGroup(TyperGroup):
         What it reads is noted, so that it writes over none of it.
         """
         with clear_errors(), noting_inputs():
-            _check_folder()
+            # Refuse to run in a folder that has been deleted: no name would lead anywhere.
+            try:
+                Path.cwd()
+            except OSError:
+                raise ReadError(
+                    "the current folder", "is there no more; go to another one (cd) and try again"
+                ) from None
             return super().invoke(ctx)
 
     def main(self, *args: Any, **extra: Any) -> Any:
@@ -257,16 +263,6 @@ class LazyGroup(TyperGroup):
                 say(_line(error))
             sys.exit(BAD_INPUT)
         sys.exit(code or 0)
-
-
-def _check_folder() -> None:
-    """Refuse to run in a folder that has been deleted: no name would lead anywhere."""
-    try:
-        Path.cwd()
-    except OSError:
-        raise ReadError(
-            "the current folder", "is there no more; go to another one (cd) and try again"
-        ) from None
 
 
 def is_no_flag(command: str, typed: str) -> str | None:

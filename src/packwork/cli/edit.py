@@ -250,11 +250,7 @@ def edit(
         sides += [] if report is None else [report]
         for path in outputs:
             writers.check_output(path, SESSION)
-        for side in sides:
-            writers.check_writable(side)
-        writers.check_outputs([*outputs, *sides])
-        if no_clobber:
-            writers.check_new([*outputs, *sides])
+        writers.check_all([*outputs, *sides], keeps=no_clobber)
         session, disk = _opened(layout, items)
         for path in (*outputs, *sides):
             check_no_input(path)

@@ -71,11 +71,7 @@ def measure(
         from packwork.sources import check_no_input
 
         outputs = [path for path in (report, diagnose) if path is not None]
-        for path in outputs:
-            writers.check_writable(path)
-        writers.check_outputs(outputs)
-        if no_clobber:
-            writers.check_new(outputs)
+        writers.check_all(outputs, keeps=no_clobber)
         found = read_written(layout)
         for path in outputs:
             check_no_input(path)

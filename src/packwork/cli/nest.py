@@ -190,9 +190,7 @@ def _check_files(files: list[Path], every: list[Path], no_clobber: bool) -> None
     for path in files:
         if path.suffix.lower() != TABLE and not is_session(path):
             writers.check_output(path, TABLE, SESSION)
-    for path in every:
-        writers.check_writable(path)
-    writers.check_outputs(every)
+    writers.check_all(every)
     numbered = [path for one in files for path in _numbered(one)]
     for path in (*every, *numbered):
         check_no_input(path)

@@ -70,17 +70,11 @@ class Outputs:
     def check_paths(self) -> None:
         """The same without what is only of one layout."""
         for path in self.files:
-            if is_session(path):
-                writers.check_writable(path)
-            else:
+            if not is_session(path):
                 writers.check_output(path, SESSION)
         for path in self.films:
             writers.check_film(path)
-        for side in self.sides:
-            writers.check_writable(side)
-        writers.check_outputs(self.every)
-        if self.keeps_files:
-            writers.check_new(self.every)
+        writers.check_all(self.every, keeps=self.keeps_files)
 
     def with_drawing(self, layout: Layout) -> Layout:
         """The layout, its manifest saying how it is drawn, for files that are gone on with."""

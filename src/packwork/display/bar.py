@@ -69,24 +69,12 @@ def in_notebook() -> bool:
     return getattr(shell, "kernel", None) is not None
 
 
-class BarAndObserver:
+class BarAndObserver(Audience):
     """A bar and an observer of one's own, each told as often as it wants to be."""
 
     def __init__(self, bar: Bar, observer: Observer) -> None:
-        self._bar, self._both = bar, Audience([bar, observer])
-        self.every = self._both.every
-
-    def on_step(self, step: Step) -> None:
-        """Tell both."""
-        self._both.on_step(step)
-
-    def tell(self, share: float, text: str) -> None:
-        """Move the bar."""
-        self._bar.tell(share, text)
-
-    def showing(self) -> AbstractContextManager[None]:
-        """Show the bar."""
-        return self._bar.showing()
+        super().__init__([bar, observer])
+        self.tell, self.showing = bar.tell, bar.showing
 
 
 class NotebookBar:

@@ -15,7 +15,7 @@ along the medial axis of a snake they rise from head to tail.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -118,17 +118,7 @@ def longest_paths(mask: BoolArray, least: float) -> Iterator[IntArray]:
     >>> [path.tolist() for path in longest_paths(mask, 2)]
     [[[0, 0], [1, 0], [2, 1], [2, 2]]]
     """
-    from scipy.ndimage import find_objects, label
-    from scipy.sparse.csgraph import dijkstra
-
-    parts, _ = label(mask, np.ones((3, 3)))
-    for part, window in enumerate(find_objects(parts), start=1):
-        inside = parts[window] == part
-        if np.count_nonzero(inside) < least:
-            continue
-        graph = _graph(inside)
-        first = int(np.argmax(dijkstra(graph, directed=False, indices=0)))
-        away, before = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
+    for inside, corner, _, (first, away, before) in _walked(mask, least):
         path = [int(np.argmax(away))]
         while path[-1] != first:
             path.append(int(before[path[-1]]))
@@ -136,7 +126,6 @@ def longest_paths(mask: BoolArray, least: float) -> Iterator[IntArray]:
             continue
         rows, columns = (found[path] for found in np.nonzero(inside))
         inside[rows, columns] = False
-        corner = window[1].start, window[0].start
         yield np.column_stack([columns, rows]) + corner
         yield from (left + corner for left in longest_paths(inside, least))
 
@@ -157,15 +146,7 @@ def loops_of(mask: BoolArray, share: float) -> Iterator[IntArray]:
     >>> [len(loop) >= 10 for loop in loops_of(mask, 0.75)]
     [True]
     """
-    from scipy.ndimage import find_objects, label
-    from scipy.sparse.csgraph import dijkstra
-
-    parts, _ = label(mask, np.ones((3, 3)))
-    for part, window in enumerate(find_objects(parts), start=1):
-        inside = parts[window] == part
-        graph = _graph(inside)
-        first = int(np.argmax(dijkstra(graph, directed=False, indices=0)))
-        away, before = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
+    for inside, corner, graph, (_, away, before) in _walked(mask):
         steps = graph.tocoo()
         closes = (before[steps.row] != steps.col) & (before[steps.col] != steps.row)
         pairs = np.column_stack([steps.row, steps.col])[closes]
@@ -174,7 +155,6 @@ def loops_of(mask: BoolArray, share: float) -> Iterator[IntArray]:
         loop = max(loops, key=len, default=[])
         if len(loop) > share * np.count_nonzero(inside):
             rows, columns = (found[loop] for found in np.nonzero(inside))
-            corner = window[1].start, window[0].start
             yield np.column_stack([columns, rows]) + corner
 
 
@@ -191,6 +171,26 @@ def _loop(pair: Sequence[int], before: IntArray) -> list[int]:
         one.pop()
         other.pop()
     return [*one, *other[-2::-1]]
+
+
+def _walked(
+    mask: BoolArray, least: float = 0.0
+) -> Iterator[tuple[BoolArray, tuple[int, int], Any, tuple[int, FloatArray, IntArray]]]:
+    """Connected parts of ``least`` pixels, their windows' corners, graphs and ways from an end.
+
+    Those are the end's number, each pixel's distance from it, and the pixel before it.
+    """
+    from scipy.ndimage import find_objects, label
+    from scipy.sparse.csgraph import dijkstra
+
+    parts, _ = label(mask, np.ones((3, 3)))
+    for part, window in enumerate(find_objects(parts), start=1):
+        inside = parts[window] == part
+        if np.count_nonzero(inside) >= least:
+            graph = _graph(inside)
+            first = int(np.argmax(dijkstra(graph, directed=False, indices=0)))
+            ways = dijkstra(graph, directed=False, indices=first, return_predecessors=True)
+            yield inside, (window[1].start, window[0].start), graph, (first, *ways)
 
 
 def _graph(inside: BoolArray):  # type: ignore[no-untyped-def] # of a library without types

@@ -90,9 +90,7 @@ def _rooms(document: Document) -> dict[str, IntArray]:
     said, lies = document.manifest.get("groups"), _parts_of(document)
     names = said if isinstance(said, list | tuple) and said else ()
     parts = document.manifest.get("group_parts")
-    if not isinstance(parts, list | tuple):
-        # As files of earlier versions have it: as many for each.
-        parts = [count // len(names)] * len(names) if names else ()
+    parts = parts if isinstance(parts, list | tuple) else ()
     is_sound = len(parts) == len(names) and all(type(one) is int and one > 0 for one in parts)
     ends = np.cumsum(parts) if is_sound and sum(parts) == count else ()
     stated = {

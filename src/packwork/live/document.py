@@ -13,9 +13,8 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray, frozen
 from packwork.forces.forces import NO_FORCES, Forces
-from packwork.live.ground import covering, sheet_box
+from packwork.live.ground import Mosaic, covering, sheet_box
 from packwork.live.kinds import Kind, LineKind, LiveOptions, kind_of
-from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached, attached, notes_on
 from packwork.pipeline.plan.forces import forces_of
 from packwork.readers.words.word import as_one_line

@@ -10,14 +10,13 @@ import numpy as np
 from packwork.arrays import BoolArray, IntArray
 from packwork.live.certificate import Certificate, Settlement, beyond
 from packwork.live.document import PROPERTIES, Change, Document, Invalidation, differing
+from packwork.live.ground import coloured
 from packwork.live.history import Frames, Marks, SessionState
-from packwork.live.mosaic import coloured
 from packwork.live.neighbourhood.allowance import widened, within
 from packwork.live.neighbourhood.caches import LevelCache, ShapeCache
 from packwork.live.neighbourhood.contacts import RINGS
-from packwork.live.neighbourhood.fall import fallen
 from packwork.live.neighbourhood.flow import LINGER, Flow
-from packwork.live.neighbourhood.places import brought_inside
+from packwork.live.neighbourhood.places import brought_inside, fallen
 from packwork.live.neighbourhood.settle import made_smaller, polish, settle, sizes_are_common
 from packwork.live.nested_again import taken_apart
 from packwork.live.refilling import is_other_cloud, refilled, sent_back, taken_back

@@ -13,11 +13,11 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, Protocol, TypeAlias
 
-from pydantic import Field, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
 from packwork.errors import ReadError
 from packwork.live.commands.command import Library
-from packwork.live.commands.together import COMMANDS, AnyCommand
+from packwork.live.commands.together import COMMANDS
 from packwork.live.file.records import ContainerRecord, ItemRecord, Key
 from packwork.live.file.things import (
     Shared,
@@ -49,6 +49,16 @@ MOST_EPOCHS = 100_000
 
 MOST_TRIALS = 10_000
 """Trials of one line at most. Chosen."""
+
+_Level: TypeAlias = Annotated[int, Field(strict=True, ge=COARSEST, le=FINEST)]
+_Epochs: TypeAlias = Annotated[int, Field(strict=True, ge=0, le=MOST_EPOCHS)]
+_Trials: TypeAlias = Annotated[int, Field(strict=True, ge=1, le=MOST_TRIALS)]
+
+_VALUES: Mapping[str, TypeAdapter[Any]] = {
+    "do": COMMANDS,
+    "flow": TypeAdapter(tuple[_Level, _Epochs]),
+    "polish": TypeAdapter(_Trials),
+}
 
 
 class Stream(Protocol):
@@ -176,33 +186,15 @@ def _entry(line: str, number: int, name: str, shared: Before) -> Entry:
 def _checked(kind: str, value: Any, name: str, shared: Before) -> Entry | None:
     if kind in {"settle", "broken_off", "undo", "redo", "kept"}:
         return kind, None
-    if kind == "flow" and _is_flow(value):
-        return kind, (value[0], value[1])
-    if kind == "polish" and _is_whole(value, 1, MOST_TRIALS):
-        return kind, value
-    if kind == "do":
+    if kind in _VALUES:
         try:
-            command: AnyCommand = COMMANDS.validate_python(value)
+            return kind, _VALUES[kind].validate_python(value)
         except ValidationError:
             return None
-        return kind, command
     if kind in BROUGHT:
         with reading_file(name):
             return kind, brought_of(value, kind, shared)
     return None
-
-
-def _is_flow(value: Any) -> bool:
-    return (
-        isinstance(value, list)
-        and len(value) == 2
-        and _is_whole(value[0], COARSEST, FINEST)
-        and _is_whole(value[1], 0, MOST_EPOCHS)
-    )
-
-
-def _is_whole(value: Any, least: int, most: int) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= most
 
 
 BROUGHT = ("item", "container")

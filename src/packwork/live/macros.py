@@ -49,7 +49,10 @@ def brought(session: Session, items: Iterable[Item]) -> Iterator[Add]:
 def weights_in(document: Document, items: Sequence[Item]) -> list[float]:
     """Weights with which items come into a document, in its unit."""
     there = dict(zip(reversed(document.items), reversed(document.weights.tolist()), strict=True))
-    unit = _unit_of(document)
+    # Factor of items' own weights: words weigh what they cover.
+    own = sum(item.weight for item in document.items)
+    total = float(document.weights.sum())
+    unit = total / own if own > 0 and total > 0 else 1.0
     return [there.get(item, item.weight * unit) for item in items]
 
 
@@ -63,13 +66,6 @@ def weighed(session: Session, pairs: Iterable[tuple[Item, float]]) -> Iterator[A
         area = area if true is None else item.outline.area * true**2
         asset = named_item(session.library, item)
         yield made(Add, asset=asset, x=x, y=y, area=area, weight=weight)
-
-
-def _unit_of(document: Document) -> float:
-    """Factor of items' own weights: words weigh what they cover."""
-    own = sum(item.weight for item in document.items)
-    total = float(document.weights.sum())
-    return total / own if own > 0 and total > 0 else 1.0
 
 
 def first_area(document: Document, radius: float, weight: float) -> float:
@@ -139,7 +135,12 @@ def worded(session: Session, read: WordsRead, *, is_lettered: bool) -> Iterator[
         if document.items[k].name in now:
             rows.setdefault(document.items[k].name, k)
     gone = [k for k in words if k not in rows.values()]
-    _check_free(document, gone)
+    # Refuse to take away what is held.
+    held = [document.items[k].name for k in gone if document.held[k].any()]
+    if held:
+        raise RecipeError(
+            "words", f"{enumerated(held)}: held, and not among these words; release it first"
+        )
     # Shares are of another whole each time: what stays is as large as before in all.
     kept = list(rows.values()) or words
     asked = sum(now[name] for name in rows) or sum(now.values())
@@ -302,15 +303,6 @@ def _figure(item: Item) -> tuple[float, float]:
     left, top, right, bottom = item.outline.bounds
     wide, high = right - left, bottom - top
     return math.log(wide / high), math.log(item.outline.area / (wide * high))
-
-
-def _check_free(document: Document, rows: Iterable[int]) -> None:
-    """Refuse to take away what is held."""
-    held = [document.items[k].name for k in rows if document.held[k].any()]
-    if held:
-        raise RecipeError(
-            "words", f"{enumerated(held)}: held, and not among these words; release it first"
-        )
 
 
 def _scarcest(present: Counter[Item], count: int) -> Iterator[Item]:

@@ -9,9 +9,8 @@ from typing import Any
 
 from packwork import uses
 from packwork.live.commands.command import Command, Library, made, named_container, named_item
-from packwork.live.commands.container import SetContainer, SetOption
+from packwork.live.commands.container import SetContainer, SetLines, SetOption
 from packwork.live.commands.items import Add, Remove
-from packwork.live.commands.lines import SetLines
 from packwork.live.document import Document
 from packwork.live.kinds import LineKind, LiveOptions, kind_of
 from packwork.live.relayout import Shown, ground_of, run_shown

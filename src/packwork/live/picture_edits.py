@@ -83,11 +83,11 @@ def picture(session: Session, source: str | None = None, tint: float | str | Non
         How far, as ``.3`` or ``"30%"``. Unless given, photographs keep their colours.
     """
     from packwork.live.commands.command import named_item
-    from packwork.live.mosaic import MOST_PX
+    from packwork.live.ground import MOSAIC_PX
     from packwork.readers.target import kept_picture
     from packwork.units import parse_share
 
     asset = None
     if source is not None:
-        asset = named_item(session.library, kept_picture(source, MOST_PX))
+        asset = named_item(session.library, kept_picture(source, MOSAIC_PX))
     session.do("mosaic", asset=asset, tint=parse_share(tint))

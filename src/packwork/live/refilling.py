@@ -12,8 +12,8 @@ from packwork.live.certificate import Certificate, promise_of
 from packwork.live.chart_groups import sent_home, stray
 from packwork.live.commands.command import Library
 from packwork.live.document import Document
+from packwork.live.ground import advice_on_picture
 from packwork.live.macros import word_rows
-from packwork.live.mosaic import advice_on_picture
 from packwork.live.relayout import gives_way, job_again, poured_again
 from packwork.metrics.pixel import shape_metrics
 from packwork.progress import Stop

@@ -19,9 +19,9 @@ from packwork.live.chart_groups import poured_by_group
 from packwork.live.commands.command import made
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import PROPERTIES, Document
+from packwork.live.ground import Mosaic
 from packwork.live.kinds import LineKind, PileKind
 from packwork.live.macros import word_rows
-from packwork.live.mosaic import Mosaic
 from packwork.live.nested_again import nested_again
 from packwork.metrics.certificate import Promise
 from packwork.pipeline import run

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -10,7 +9,7 @@ from pydantic import Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs
-from packwork.readers.options import check_colour
+from packwork.readers.options import check_colour, texts_of
 
 SizeIs: TypeAlias = Literal["area", "height", "width"]
 
@@ -45,7 +44,9 @@ class ChartOptions(Options):
     """Column that colours come from: of numbers, from small to large along the palette; of
     anything else, a colour for each value."""
 
-    mark: Annotated[tuple[str, ...], Offer(takes=str | Path | tuple[str | Path, ...])] = ()
+    mark: Annotated[
+        tuple[str, ...], texts_of("mark"), Offer(takes=str | Path | tuple[str | Path, ...])
+    ] = ()
     """What stands for a row: an SVG, a picture, a folder or a built-in name. May be given
     several times, with --mark-by. Default: circle."""
 
@@ -104,13 +105,3 @@ class ChartOptions(Options):
             return tuple(rows_of_frame(data))
         except RecipeError as error:
             raise ValueError(error.problem) from None
-
-    @field_validator("mark", mode="before")
-    @classmethod
-    def _one_mark_is_enough(cls, mark: Any) -> Any:
-        if mark is None:
-            return ()
-        several = [mark] if isinstance(mark, str | Path) else mark
-        if not isinstance(several, Iterable):
-            raise ValueError(f"use a mark or a list of them, not {mark!r}")
-        return tuple(str(one) for one in several)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import shapely
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, Field, ValidationError
 from shapely.geometry import Polygon
 
 from packwork.geometry import affine
@@ -74,8 +74,6 @@ _ShapeModel = Annotated[
 
 
 class _PartModel(BaseModel):
-    model_config = ConfigDict(extra="ignore")
-
     id: int
     demand: Annotated[int, Field(ge=0, le=MAX_COUNT)]
     allowed_orientations: Annotated[list[_Number], Field(min_length=1, max_length=360)] | None = (
@@ -85,8 +83,6 @@ class _PartModel(BaseModel):
 
 
 class _InstanceModel(BaseModel):
-    model_config = ConfigDict(extra="ignore")
-
     name: str = ""
     strip_height: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
     items: Annotated[list[_PartModel], Field(min_length=1, max_length=10_000)]

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import AfterValidator, BeforeValidator
 
 
 def check_colour(key: str, text: str) -> str:
@@ -21,6 +26,23 @@ def check_colour(key: str, text: str) -> str:
 
     parse_colour(key, text)
     return text
+
+
+def colour_of(key: str) -> AfterValidator:
+    """Validator of a colour; None is kept, too."""
+    return AfterValidator(lambda text: None if text is None else check_colour(key, text))
+
+
+def texts_of(what: str) -> BeforeValidator:
+    """Validator of one text or path, or of several; None is none of them."""
+
+    def several(value: Any) -> Any:
+        listed = [value] if isinstance(value, str | Path) else () if value is None else value
+        if not isinstance(listed, Iterable):
+            raise ValueError(f"use a {what} or a list of them, not {value!r}")
+        return tuple(map(str, listed))
+
+    return BeforeValidator(several)
 
 
 TEXT_PREFIX = "text:"

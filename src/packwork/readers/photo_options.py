@@ -11,7 +11,7 @@ from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
 from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs
-from packwork.readers.options import check_colour
+from packwork.readers.options import colour_of
 
 ROUNDED = "rounded"
 """Shape of a photo that keeps its proportions and loses its corners."""
@@ -40,7 +40,7 @@ class PhotoOptions(Options):
     """Width of a border around each photo, as a share of its shorter side, such as 4%: it lies
     outside the photo and hides nothing of it."""
 
-    border_color: str = "white"
+    border_color: Annotated[str, colour_of("border_color")] = "white"
     """Colour of the border."""
 
     edge: Literal["inside", "crop"] = "inside"
@@ -82,11 +82,6 @@ class PhotoOptions(Options):
     def _border_is_a_share(cls, border: str) -> str:
         _share("border", border)
         return border
-
-    @field_validator("border_color")
-    @classmethod
-    def _border_has_a_colour(cls, text: str) -> str:
-        return check_colour("border_color", text)
 
 
 def _share(key: str, text: str) -> float:

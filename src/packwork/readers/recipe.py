@@ -69,7 +69,11 @@ def read_recipe(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]
     {'container': 'heart'}
     """
     found = with_paths(read_template(path, allow_code=allow_code), found_from(Path(path).parent))
-    _name_files_elsewhere(path, found)
+    # A recipe may come from anywhere, and what the files hold that it reads may be shown.
+    elsewhere = files_outside(found, [Path(path).parent])
+    if elsewhere:
+        names = enumerated(elsewhere, MOST_NAMED)
+        _LOG.warning("%s reads files outside its folder: %s", path, names)
     return found
 
 
@@ -103,17 +107,6 @@ def _check_numbers(path: str | Path, value: Any) -> None:
             _check_numbers(path, one)
     elif isinstance(value, int) and value.bit_length() > MOST_BITS:
         raise ReadError(path, "holds a number of more than 300 digits; give a smaller one")
-
-
-def _name_files_elsewhere(recipe: str | Path, options: Mapping[str, Any]) -> None:
-    """Name files that a recipe reads and that are not beside it: what they hold may be shown.
-
-    A recipe may come from anywhere, and could set any text that its reader can open.
-    """
-    elsewhere = files_outside(options, [Path(recipe).parent])
-    if elsewhere:
-        names = enumerated(elsewhere, MOST_NAMED)
-        _LOG.warning("%s reads files outside its folder: %s", recipe, names)
 
 
 def check_no_code(options: Mapping[str, Any]) -> None:

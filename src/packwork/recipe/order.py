@@ -6,13 +6,13 @@ import re
 from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic import field_validator, model_validator
+from pydantic import BeforeValidator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import DIRECTIONS
 from packwork.options import Group, Offer, Options, Verbs
 from packwork.phrasing import meant
-from packwork.recipe.refusals import parsed_by
+from packwork.recipe.refusals import one_or_more, parsed_by
 from packwork.recipe.typed import Anchor
 from packwork.recipe_paths import split_words
 from packwork.units import NUMBER
@@ -178,6 +178,8 @@ class EmbeddingOptions(Options):
 
     anchors: Annotated[
         tuple[str, ...],
+        BeforeValidator(one_or_more),
+        parsed_by(lambda texts: [parse_anchor(text) for text in texts]),
         Offer(
             metavar="WHERE=NAME",
             after="embeddings",
@@ -191,18 +193,6 @@ class EmbeddingOptions(Options):
     """Write names among the items, on small plates that are placed as items are: of groups, where
     the table of --embeddings has a column of texts beside the names; else of the parts of an SVG
     as the container that have titles or ids."""
-
-    @field_validator("anchors", mode="before")
-    @classmethod
-    def _one_anchor_is_enough(cls, value: object) -> object:
-        return (value,) if isinstance(value, str) else value or ()
-
-    @field_validator("anchors")
-    @classmethod
-    def _anchors_are_known(cls, value: tuple[str, ...]) -> tuple[str, ...]:
-        for text in value:
-            parse_anchor(text)
-        return value
 
     @model_validator(mode="after")
     def _anchors_of_vectors(self) -> EmbeddingOptions:

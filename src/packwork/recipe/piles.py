@@ -5,24 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal, TypeAlias, get_args
 
-from pydantic import BeforeValidator, Field, field_validator, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, is_pair
 from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs
-from packwork.recipe.refusals import length_of
+from packwork.recipe.refusals import length_of, one_or_more, parsed_by
 from packwork.recipe.typed import Force
 from packwork.recipe_paths import split_words
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
 """Where a container is open."""
-
-
-def _one_or_more(value: object) -> object:
-    """Let one side be a text."""
-    if isinstance(value, str):
-        return (value,)
-    return () if value is None else value
 
 
 @dataclass(frozen=True)
@@ -77,7 +70,7 @@ class PileOptions(Options):
     offers = Offer(group=Group.PLACED, verbs=Verbs.PILE)
 
     open: Annotated[
-        tuple[Side, ...], BeforeValidator(_one_or_more), Offer(takes=Side | tuple[Side, ...])
+        tuple[Side, ...], BeforeValidator(one_or_more), Offer(takes=Side | tuple[Side, ...])
     ] = ()
     """Take the lid off on that side (top, bottom, left or right): items come in through it and
     may heap up beyond it, to the canvas' edge. May be given several times."""
@@ -87,7 +80,7 @@ class PileOptions(Options):
     Default: in the proportions of their files, and so large that all find room and the pile is
     about two thirds high; without a container as large as in their files."""
 
-    emit: str | None = None
+    emit: Annotated[str | None, parsed_by(parse_emitter)] = None
     """Where items come from: top, bottom, left, right (that edge of the canvas), X,Y (a point),
     X,Y X,Y (a line), FILE.svg (a drawn curve) or in NAME (a region: a file or a built-in
     name). Default: each begins at its lowest free place."""
@@ -98,13 +91,6 @@ class PileOptions(Options):
 
     compact: bool = False
     """Report how tight the pile is: shares of its hull, its smallest circle and its box."""
-
-    @field_validator("emit")
-    @classmethod
-    def _emitter_is_known(cls, text: str | None) -> str | None:
-        if text is not None:
-            parse_emitter(text)
-        return text
 
     @model_validator(mode="after")
     def _released_from_somewhere(self) -> PileOptions:

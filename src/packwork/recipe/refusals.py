@@ -175,6 +175,11 @@ def length_of(key: str, *, may_be_zero: bool = False, word: str | None = None) -
     return AfterValidator(check)
 
 
+def one_or_more(value: object) -> object:
+    """One text as several, None as none of them, and what is several as it is."""
+    return (value,) if isinstance(value, str) else () if value is None else value
+
+
 def parsed_by(parse: Callable[[Any], object]) -> AfterValidator:
     """Validator of a value that is kept as it is, if it can be parsed; None is kept, too."""
 

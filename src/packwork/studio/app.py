@@ -25,9 +25,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from packwork.errors import PackworkError
 from packwork.live.face.offers import columns_of, offers
-from packwork.studio.files import MOST_BYTES, Exporter, Uploads
+from packwork.studio.files import MOST_BYTES, Exporter, Importer, Uploads
 from packwork.studio.guard import AGAIN, PROTOCOL, Guard
-from packwork.studio.importer import Importer
 from packwork.studio.proof import Secret
 from packwork.studio.tab import Tab
 from packwork.studio.wording import for_page

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -41,17 +41,29 @@ class PageRequest(Message):
         """Do what the page asks for."""
 
 
-class Open(PageRequest):
+class ReadRequest(PageRequest):
+    """A message that has something read, in the worker of the workspace."""
+
+    doing: ClassVar[str] = "Reading"
+
+    def act(self, tab: Tab) -> None:
+        """Have it read; what is there stays until it lies."""
+        tab.importer.read(partial(self.read, tab), self.doing)
+
+    @abstractmethod
+    def read(self, tab: Tab) -> None:
+        """Read what the page names, and do what it asks for."""
+
+
+class Open(ReadRequest):
     """Have a session, a recipe or a layout that was sent before on the desk, or fill a map."""
 
+    doing = "Opening"
     type: Literal["open"] = "open"
     source: Name
 
-    def act(self, tab: Tab) -> None:
+    def read(self, tab: Tab) -> None:
         """Read it; what is there stays until it lies."""
-        tab.importer.read(partial(self._open, tab), "Opening")
-
-    def _open(self, tab: Tab) -> None:
         if (opening := opening_sent(tab.importer.folder(self.source))) is not None:
             tab.importer.begin(opening)
             return
@@ -64,9 +76,10 @@ class Open(PageRequest):
         ])  # fmt: skip
 
 
-class BeginChart(PageRequest):
+class BeginChart(ReadRequest):
     """Have a chart of a table that was sent before on the desk, in the container of now."""
 
+    doing = "Drawing the chart"
     type: Literal["chart"] = "chart"
     source: Name
     size_by: Name | None = None
@@ -83,11 +96,8 @@ class BeginChart(PageRequest):
     """A bundled drawing; None for circles."""
     title: Annotated[str, Field(max_length=200)] = ""
 
-    def act(self, tab: Tab) -> None:
+    def read(self, tab: Tab) -> None:
         """Read the table, and have a run; what is there stays until it lies."""
-        tab.importer.read(partial(self._begin, tab), "Drawing the chart")
-
-    def _begin(self, tab: Tab) -> None:
         file, container = tab.importer.file(self.source), _room(tab)
         columns = ("size_by", "color_by", "label_by", "by", "by_step", "in_regions")
         asked = {name: getattr(self, name) for name in columns}
@@ -114,9 +124,10 @@ def _room(tab: Tab) -> Container:
     return replace(room, unit=container.unit)
 
 
-class Begin(PageRequest):
+class Begin(ReadRequest):
     """Begin another document with a template, or go on with one that is kept."""
 
+    doing = "Opening"
     type: Literal["begin"] = "begin"
     template: Template | None = None
     source: Name | None = None
@@ -124,11 +135,8 @@ class Begin(PageRequest):
     kept: Annotated[str, Field(pattern="^desk-[0-9]{1,2}$")] | None = None
     """Name of the kept one."""
 
-    def act(self, tab: Tab) -> None:
+    def read(self, tab: Tab) -> None:
         """Open it; what is there stays until it lies."""
-        tab.importer.read(partial(self._begin, tab), "Opening")
-
-    def _begin(self, tab: Tab) -> None:
         shelf = tab.workspace.shelf
         if self.template is not None:
             folder = None if self.source is None else tab.importer.folder(self.source)

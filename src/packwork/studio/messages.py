@@ -6,7 +6,6 @@ written from it.
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter, ValidationError
@@ -24,10 +23,9 @@ from packwork.live.owner import Leap
 from packwork.live.session import Session
 from packwork.scene.container import Container, on_canvas, tiled
 from packwork.studio.clipboard import Copy, Paste
-from packwork.studio.documents import Begin, BeginChart, Font, Name, Open, PageRequest
+from packwork.studio.documents import Begin, BeginChart, Font, Name, Open, PageRequest, ReadRequest
 from packwork.studio.files import FILES
-from packwork.studio.filling import Alike, Fill, Lines, Order, Words
-from packwork.studio.pictures import Mix, Picture
+from packwork.studio.filling import Alike, Fill, Lines, Mix, Order, Picture, Words
 from packwork.studio.wire import SAID
 from packwork.units import canvas_size
 
@@ -129,7 +127,7 @@ def _has_parts(tab: Tab) -> bool:
     return shown is not None and shown.view.kind.has_parts
 
 
-class Bring(PageRequest):
+class Bring(ReadRequest):
     """Bring items: bundled ones by name, or files that were sent before."""
 
     type: Literal["bring"] = "bring"
@@ -137,11 +135,8 @@ class Bring(PageRequest):
     x: Place | None = None
     y: Place | None = None
 
-    def act(self, tab: Tab) -> None:
+    def read(self, tab: Tab) -> None:
         """Read them, and put them where most room is, or there."""
-        tab.importer.read(partial(self._bring, tab))
-
-    def _bring(self, tab: Tab) -> None:
         workspace, importer = tab.workspace, tab.importer
         if len(self.sources) == 1 and self.sources[0].startswith(FILES):
             opening = opening_sent(importer.folder(self.sources[0]))
@@ -161,18 +156,15 @@ class Bring(PageRequest):
             workspace.pour(0, lambda session: list(brought(session, items)))
 
 
-class Swap(PageRequest):
+class Swap(ReadRequest):
     """Put another item in the place of some."""
 
     type: Literal["swap"] = "swap"
     items: ItemIds
     source: Annotated[str, Field(max_length=200)]
 
-    def act(self, tab: Tab) -> None:
+    def read(self, tab: Tab) -> None:
         """Read it, and put it there."""
-        tab.importer.read(partial(self._swap, tab))
-
-    def _swap(self, tab: Tab) -> None:
         source = tab.importer.source(self.source)
         (item, *_) = items_of([source], has_parts=_has_parts(tab)).items
 
@@ -183,7 +175,7 @@ class Swap(PageRequest):
         tab.workspace.change(put, "Replacing")
 
 
-class Room(PageRequest):
+class Room(ReadRequest):
     """Fill another container.
 
     It is a bundled one, ``text:WORD``, a file that was sent before, ``page``, or ``same``: that of
@@ -201,11 +193,8 @@ class Room(PageRequest):
     names: bool = False
     """Whether the names of the parts that its file has are written on them."""
 
-    def act(self, tab: Tab) -> None:
+    def read(self, tab: Tab) -> None:
         """Read it, and have a run."""
-        tab.importer.read(partial(self._pour, tab))
-
-    def _pour(self, tab: Tab) -> None:
         container = self._container(tab)
         is_sent = self.names and self.source.startswith(FILES)
         labels, told = labels_of(container, tab.workspace.is_stopped) if is_sent else ([], [])

@@ -13,7 +13,7 @@ from packwork.errors import PackworkError
 from packwork.live.commands.command import Command
 from packwork.live.owner import MAKING_ROOM, Leap, Owner
 from packwork.scene.pose import Poses
-from packwork.studio.importer import Importer
+from packwork.studio.files import Importer
 from packwork.studio.messages import read
 from packwork.studio.view import View
 from packwork.studio.wire import Line, Said, Scene, Shapes, State, frame_bytes

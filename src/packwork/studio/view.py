@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from itertools import starmap
 from typing import Any, cast
 
@@ -20,9 +20,8 @@ from packwork.live.document import (
     is_straight_word,
 )
 from packwork.live.face.offers import INK_FINENESS, Drawing, drawing_of, font_told, path_of
-from packwork.live.ground import gradient_text, underlays
+from packwork.live.ground import Mosaic, gradient_text, underlays
 from packwork.live.kinds import COLLAGE, Kind, LineKind
-from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
 from packwork.live.relayout import Moment
 from packwork.scene.container import Container
@@ -121,22 +120,8 @@ class View:
 
     def is_like(self, other: View) -> bool:
         """Whether nothing differs but poses."""
-        return (
-            self.container is other.container
-            and self.options == other.options
-            and (self.kind, self.title) == (other.kind, other.title)
-            and (self.palette, self.shades) == (other.palette, other.shades)
-            and (self.ground, self.halos) == (other.ground, other.halos)
-            and self.notes is other.notes
-            and self.mosaic is other.mosaic
-            and self.behind is other.behind
-            and self.left_out == other.left_out
-            and _same(self.ids, other.ids)
-            and _same(self.weights, other.weights)
-            and _same(self.held, other.held)
-            and len(self.items) == len(other.items)
-            and all(a is b for a, b in zip(self.items, other.items, strict=True))
-        )
+        names = (one.name for one in fields(self) if one.name != "poses")
+        return all(_same(getattr(self, name), getattr(other, name)) for name in names)
 
     @property
     def likeness(self) -> float | None:
@@ -176,8 +161,9 @@ class Shown:
     done: int
 
 
-def _same(one: np.ndarray, other: np.ndarray) -> bool:
-    return one is other or np.array_equal(one, other)
+def _same(one: Any, other: Any) -> bool:
+    is_array = isinstance(one, np.ndarray)
+    return one is other or bool(np.array_equal(one, other) if is_array else one == other)
 
 
 def _drawn(one: Attached) -> DrawnNote:

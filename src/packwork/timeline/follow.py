@@ -57,7 +57,10 @@ def followed(
         found = _settled(step, _kept(step, target, beside, names, known), target, stop)
         if found is not None:
             return found
-    return _settled(step, _anew(step, target, known), target, stop)
+    # All words put again, the largest first, each near the place that it had.
+    count = len(target)
+    poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), target.copy())
+    return _settled(step, _put(step, _board(step), poses, np.arange(count), known), target, stop)
 
 
 def _settled(step: SeriesStep, poses: Poses, target: FloatArray, stop: Stop) -> Poses | None:
@@ -102,13 +105,6 @@ def _kept(
     for k in stays:
         board.lay(outlines[k].mapped(poses.matrix(int(k))))
     return _put(step, board, poses, np.flatnonzero(found < 0), known)
-
-
-def _anew(step: SeriesStep, target: FloatArray, known: Places) -> Poses:
-    """All words put again, the largest first, each near the place that it had."""
-    count = len(target)
-    poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), target.copy())
-    return _put(step, _board(step), poses, np.arange(count), known)
 
 
 def _board(step: SeriesStep) -> WordBoard:

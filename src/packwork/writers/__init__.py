@@ -10,8 +10,8 @@ import importlib
 from typing import Any
 
 _HOMES = {
-    "atomic": ("check_new", "check_outputs", "check_writable", "described", "write_all",
-               "write_atomic"),
+    "atomic": ("check_all", "check_new", "check_outputs", "check_writable", "described",
+               "write_all", "write_atomic"),
     "diagnose": ("diagnose_png",),
     "film.film": ("Film", "tell_nobody"),
     "film.registry": ("FILMS", "check_film", "film_bytes"),

@@ -1,6 +1,7 @@
 """Names as type checkers and editors know them; loaded by ``_HOMES`` when first used."""
 
 from packwork.writers.atomic import (
+    check_all,
     check_new,
     check_outputs,
     check_writable,
@@ -33,6 +34,7 @@ __all__ = [
     "Film",
     "SvgOptions",
     "WriteOptions",
+    "check_all",
     "check_film",
     "check_new",
     "check_output",

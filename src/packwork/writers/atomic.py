@@ -87,6 +87,16 @@ def check_new(paths: Iterable[str | Path]) -> None:
             raise WriteError(path, "is there already, and --no-clobber keeps it; use another name")
 
 
+def check_all(paths: Iterable[str | Path], *, keeps: bool = False) -> None:
+    """Refuse, before a run, what cannot be written after it; ``keeps``: what is there, too."""
+    listed = list(paths)
+    for path in listed:
+        check_writable(path)
+    check_outputs(listed)
+    if keeps:
+        check_new(listed)
+
+
 def described(paths: Iterable[str | Path]) -> list[str]:
     """Names of files that are to be written, and what that does to those there, and to folders."""
     names, met = list[str](), set[Path]()

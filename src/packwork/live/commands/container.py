@@ -1,9 +1,9 @@
-"""Commands that change what is to be filled, and the numbers for all."""
+"""Commands that change what is filled, the lines that words follow, and the numbers for all."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Annotated, Any, Literal, cast
 
 import numpy as np
@@ -25,8 +25,10 @@ from packwork.live.commands.command import (
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.live.kinds import LiveOptions
+from packwork.metrics.certificate import Promise
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.limits import check_padding
+from packwork.readers.words.options import Along
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.scene.item import MAX_LENGTH
@@ -230,3 +232,31 @@ def _turned(document: Document, before: LiveOptions) -> Document:
 def _outlined(container: Container, outline: Outline) -> Container:
     # Parts of its file lie elsewhere.
     return replace(container, outline=outline, backdrop=None, walls=None, file=None)
+
+
+RingText = Annotated[Text, Field(max_length=MAX_LENGTH)]
+
+
+class SetLines(Command):
+    """Note which lines words were set along, in which colours, and what is promised of their sizes.
+
+    Moves nothing.
+    """
+
+    kind: Literal["lines"] = "lines"
+    along: Along | None = None
+    ring: Annotated[tuple[RingText, ...], Field(max_length=2)] = ()
+    palette: RingText | None = None
+    areas_in_shares: bool | None = None
+    """Whether areas are promised to be in the shares of weights; None for as they were."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document of words on these lines; of others where there are none."""
+        said = None
+        if self.along is not None or self.ring:
+            said = {"along": self.along, "ring": self.ring, "palette": self.palette}
+        manifest = {**document.manifest, "lines": said}
+        if self.areas_in_shares is not None:
+            promise = Promise(document.options.padding, self.areas_in_shares)
+            manifest["promised"] = asdict(promise)
+        return replace(document, manifest=manifest)

@@ -13,8 +13,7 @@ from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, ItemId, Library, Number, index_of, known
 from packwork.live.document import Document
 from packwork.live.file.records import Text
-from packwork.live.ground import gradient, underlays
-from packwork.live.mosaic import Mosaic, coloured
+from packwork.live.ground import Mosaic, coloured, gradient, underlays
 from packwork.recipe.pictures import Shades, known_palette
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.contrast import channels_of

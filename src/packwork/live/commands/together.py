@@ -17,6 +17,7 @@ from packwork.live.commands.container import (
     PlaceContainer,
     Reshape,
     SetContainer,
+    SetLines,
     SetOption,
 )
 from packwork.live.commands.gestures import Cancel, Drop, Grab, Hold, Release
@@ -32,7 +33,6 @@ from packwork.live.commands.items import (
     Ungroup,
     Weigh,
 )
-from packwork.live.commands.lines import SetLines
 from packwork.live.commands.look import Background, CropPhoto, Paint, SetHalos, SetMosaic
 from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 from packwork.live.document import Document

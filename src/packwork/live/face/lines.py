@@ -17,8 +17,7 @@ import numpy as np
 from packwork import uses
 from packwork.errors import RecipeError
 from packwork.live.commands.command import Command, Library, made
-from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut
-from packwork.live.commands.lines import SetLines
+from packwork.live.commands.container import MOST_LEFT_OUT, LeaveOut, SetLines
 from packwork.live.document import Document, counted_weight, is_ring_text
 from packwork.live.face.offers import font_told, offered_fonts
 from packwork.live.kinds import Kind, LineKind, kind_of
@@ -84,8 +83,14 @@ def _is_word(item: Item) -> bool:
     return item.text is not None or item.label.title.startswith(f"{item.name}: ")
 
 
-def _check_words_alone(document: Document) -> None:
-    """Refuse what would be lost where all words are set anew."""
+def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: Stop) -> Put:
+    before, kind = words_in(document), document.kind
+    known = kind if isinstance(kind, LineKind) else LineKind()
+    along, ring = asked.get("along", known.along), tuple(asked.get("ring", known.ring))
+    words = asked.get("words") or before
+    if not words:
+        raise RecipeError("along", "is for words, and there are none; fill with some first")
+    # Refuse what would be lost where all words are set anew.
     others = dict.fromkeys(item.name for item in document.items if not _is_word(item))
     if others:
         names = enumerated(list(others))
@@ -94,16 +99,6 @@ def _check_words_alone(document: Document) -> None:
     if rows:
         names = enumerated(list(dict.fromkeys(document.items[k].name for k in rows)))
         raise RecipeError("along", f"sets all words anew; release first what is held: {names}")
-
-
-def _set_anew(document: Document, asked: Mapping[str, Any], shown: Shown, stop: Stop) -> Put:
-    before, kind = words_in(document), document.kind
-    known = kind if isinstance(kind, LineKind) else LineKind()
-    along, ring = asked.get("along", known.along), tuple(asked.get("ring", known.ring))
-    words = asked.get("words") or before
-    if not words:
-        raise RecipeError("along", "is for words, and there are none; fill with some first")
-    _check_words_alone(document)
     given: dict[str, Any] = {**ground_of(document), "effort": "draft", "along": along}
     given["padding"] = f"{document.options.padding:.17g}{document.container.unit}"
     given |= {"palette": known.palette} if known.palette else {}

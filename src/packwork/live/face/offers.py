@@ -13,10 +13,9 @@ from typing import Any, TypeAlias, get_args
 from packwork.errors import ReadError
 from packwork.fonts import families_of_face, installed_families, scripts_of
 from packwork.geometry.outline import Outline
-from packwork.live import ground
 from packwork.live.face.exporting import missing
+from packwork.live.ground import MOSAIC_PX, MOST_PX
 from packwork.live.kinds import LiveOptions
-from packwork.live.mosaic import MOST_PX
 from packwork.options import SizeMode, offered
 from packwork.pipeline.region_labels import PartLabel, part_labels
 from packwork.progress import Stop, never
@@ -246,7 +245,7 @@ def told_of_map(container: Container) -> str:
 
 def picture_of(source: str, *, is_behind: bool = False) -> Item:
     """Picture of a file that a mosaic is to show, or that comes behind all."""
-    return kept_picture(source, ground.MOST_PX if is_behind else MOST_PX)
+    return kept_picture(source, MOST_PX if is_behind else MOSAIC_PX)
 
 
 MOST_COLOURS = 8

@@ -12,7 +12,7 @@ from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk, lock_beside
 from packwork.live.file.records import kept_text
-from packwork.live.mosaic import MOST_PX, Mosaic
+from packwork.live.ground import MOSAIC_PX, Mosaic
 from packwork.live.relayout import Shown, poured
 from packwork.live.session import Session
 from packwork.readers.layouts.read import holds_layout, is_drawn, read_written
@@ -169,7 +169,7 @@ def _begun(opening: Opening, shown: Shown) -> tuple[Session, Keeper | None] | No
         layout = poured(opening.recipe, shown, container=opening.container)
         document = Document.from_layout(layout)
         if (picture := opening.recipe.picture) is not None:
-            mosaic = Mosaic(kept_picture(picture, MOST_PX), opening.recipe.tint)
+            mosaic = Mosaic(kept_picture(picture, MOSAIC_PX), opening.recipe.tint)
             document = replace(document, mosaic=mosaic)
     return None if document is None else (Session(document), None)
 

@@ -13,8 +13,8 @@ from packwork.live.commands.command import FARTHEST, sized
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text, kept_text
 from packwork.live.file.values import colour_of, matrix_of, matrix_record
+from packwork.live.ground import Mosaic
 from packwork.live.kinds import LiveOptions
-from packwork.live.mosaic import Mosaic
 from packwork.live.notes import Attached
 from packwork.options import Options
 from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDEST_STRETCH
@@ -120,12 +120,17 @@ def records_of(
 
 def _said(document: Document, place: Callable[[object], int]) -> dict[str, Any]:
     """All of a document beside its items' columns and notes, by the names of the record."""
+    mosaic, behind = document.mosaic, document.behind
     return {
         "container": place(document.container),
         "options": document.options,
         "next_id": document.next_id,
         "manifest": dict(document.manifest),
-        "pictures": _pictures_record(document, place),
+        "pictures": BehindRecord(
+            picture=None if mosaic is None else place(mosaic.picture),
+            tint=None if mosaic is None else mosaic.tint,
+            behind=None if behind is None else place(behind),
+        ),
         "put": tuple(sorted(document.put)),
     }
 
@@ -221,15 +226,6 @@ def _document(
     )
     _check_numbers(document)
     return sized(document, "item"), columns
-
-
-def _pictures_record(document: Document, place: Callable[[object], int]) -> BehindRecord:
-    mosaic, behind = document.mosaic, document.behind
-    return BehindRecord(
-        picture=None if mosaic is None else place(mosaic.picture),
-        tint=None if mosaic is None else mosaic.tint,
-        behind=None if behind is None else place(behind),
-    )
 
 
 def _pictures_of(record: BehindRecord, items: Sequence[Item]) -> tuple[Mosaic | None, Item | None]:

@@ -9,7 +9,6 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from packwork.geometry.lattice import Repeat
 from packwork.options import Options
-from packwork.readers.maps import MAX_MAP_BYTES
 from packwork.readers.regions import MAX_POINTS
 from packwork.scene.item import MAX_LENGTH
 from packwork.units import Unit
@@ -270,7 +269,7 @@ class ContainerRecord(Options):
     backdrop: BackdropRecord | None = None
     walls: Annotated[tuple[Numbers, ...], Field(max_length=MOST_LINES)] | None = None
     repeats: Repeat | None = None
-    file: Annotated[str, Field(max_length=MAX_MAP_BYTES)] | None = None
-    """Hash of the map or drawing that names its parts; older sessions have its text here."""
+    file: Key | None = None
+    """Hash of the map or drawing that names its parts."""
 
     pen: tuple[Annotated[str, Field(pattern=r"^#[0-9a-f]{6}$")], Length] | None = None

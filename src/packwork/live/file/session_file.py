@@ -146,6 +146,8 @@ def _record(kept: SessionState, things: Things, follows: str) -> SessionRecord:
     def place(thing: object) -> int:
         return containers.place(thing) if isinstance(thing, Container) else items.place(thing)
 
+    columns = asdict(kept.marks).items()
+    plain = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in columns}
     return SessionRecord(
         follows=follows,
         documents=tuple(records_of(documents, place)),
@@ -153,7 +155,7 @@ def _record(kept: SessionState, things: Things, follows: str) -> SessionRecord:
         containers=containers.paths,
         present=len(past),
         unsettled=is_unsettled,
-        marks=_marks_record(kept.marks),
+        marks=MarksRecord.model_validate(plain),
     )
 
 
@@ -183,20 +185,10 @@ def _read(parts: Mapping[str, bytes]) -> tuple[SessionState, str]:
         raise UnfitError(f"holds {len(documents)} documents and no number {record.present}")
     document = documents[record.present]
     history = UndoHistory(documents[: record.present], documents[record.present + 1 :])
-    marks = _marks_of(record.marks)
+    columns: dict[str, Any] = {k: set(v) if isinstance(v, tuple) else v for k, v in record.marks}
+    marks = Marks(**columns)
     marks.keep(set(document.ids.tolist()))
     return SessionState(document, base or document, history, marks), record.follows
-
-
-def _marks_record(marks: Marks) -> MarksRecord:
-    columns = asdict(marks).items()
-    plain = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in columns}
-    return MarksRecord.model_validate(plain)
-
-
-def _marks_of(record: MarksRecord) -> Marks:
-    columns: dict[str, Any] = {k: set(v) if isinstance(v, tuple) else v for k, v in record}
-    return Marks(**columns)
 
 
 def _part(parts: Mapping[str, bytes], path: str) -> bytes:
@@ -263,7 +255,13 @@ class _Parts(Mapping[str, bytes]):
     def __getitem__(self, name: str) -> bytes:
         info = self._infos[name]
         with _refusing():
-            return _read_part(self._archive, info)
+            if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                raise UnfitError("is packed in a way that session files are not")
+            with self._archive.open(info) as part:
+                data = part.read(MOST_PART_BYTES + 1)
+            if len(data) > MOST_PART_BYTES:
+                raise UnfitError(f"holds a part of more than {MOST_PART_BYTES // 1_000_000} MB")
+            return data
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._infos)
@@ -299,13 +297,3 @@ def _check_parts(infos: list[zipfile.ZipInfo], size: int) -> None:
     most = min(MOST_BYTES, max(EASILY_UNPACKED, MOST_FOLD * size))
     if sum(info.file_size for info in infos) > most:
         raise UnfitError(f"unpacks to more than {most // 1_000_000} MB, the most for its size")
-
-
-def _read_part(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:
-    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-        raise UnfitError("is packed in a way that session files are not")
-    with archive.open(info) as part:
-        data = part.read(MOST_PART_BYTES + 1)
-    if len(data) > MOST_PART_BYTES:
-        raise UnfitError(f"holds a part of more than {MOST_PART_BYTES // 1_000_000} MB")
-    return data

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import re
 import zlib
 from collections.abc import Callable
 from dataclasses import fields, replace
@@ -16,7 +15,6 @@ from pydantic import BaseModel, ValidationError
 from packwork.geometry.outline import Outline
 from packwork.live.file.parts import PackedPart, part_of
 from packwork.live.file.records import (
-    HASH,
     BackdropRecord,
     ContainerRecord,
     DatumRecord,
@@ -80,12 +78,7 @@ class Shared:
         return self._outlines[record]
 
     def map(self, key: str) -> bytes:
-        """The map of a hash, which is checked where its parts are looked up.
-
-        Or of its own text, a letter for each byte, which older sessions have in its place.
-        """
-        if not re.fullmatch(HASH, key):
-            return key.encode("latin-1", "replace")
+        """The map of a hash, which is checked where its parts are looked up."""
         if key not in self._maps:
             data = self._read(f"maps/{key}")
             if len(data) > MAX_MAP_BYTES:

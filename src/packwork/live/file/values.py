@@ -1,24 +1,34 @@
 """Arrays, outlines and art as plain values, and back bit for bit.
 
 What comes from a file goes through the gates of its kind.
+
+Lines for a machine are kept where they lie in their part, in and out alike.
 """
 
 from __future__ import annotations
 
 import base64
 import binascii
+import logging
+import re
+from typing import Any
 
 import numpy as np
 from shapely import LinearRing
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
+from packwork.geometry.arcs import ArcLine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
-from packwork.live.file.machine_lines import lines_of, lines_record
 from packwork.live.file.records import (
     FARTHEST,
+    MOST_LINES,
+    MOST_PATH,
+    PATH,
+    ArcLineRecord,
     ArtRecord,
+    EngravedRecord,
     FlatRecord,
     LineRecord,
     Matrix,
@@ -26,16 +36,19 @@ from packwork.live.file.records import (
     PhotoRecord,
     PictureRecord,
     VectorRecord,
+    kept_text,
 )
+from packwork.phrasing import number_of
 from packwork.readers.budget.crossings import Allowance, check_nesting
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.layouts.line_room import LineRoom
 from packwork.readers.pictures.decode import opened
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.scene.colour import css_colour
 from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
-from packwork.scene.line_art import LineArt
+from packwork.scene.line_art import EngravedLine, LineArt
 from packwork.uses.cutting import cropped
 
 SAME = 1e-9
@@ -113,7 +126,7 @@ def art_record(art: Art, outline: Outline, name: str) -> ArtRecord:
     if isinstance(art, FlatArt):
         return FlatRecord(fill=art.fill)
     if isinstance(art, LineArt):
-        return lines_record(art, _vector_record(art), outline, name, text_of)
+        return _lines_record(art, outline, name)
     if isinstance(art, VectorArt):
         return _vector_record(art)
     if isinstance(art, PhotoArt):
@@ -146,7 +159,7 @@ def art_of(record: ArtRecord, outline: Outline) -> Art:
     if isinstance(record, FlatRecord):
         return FlatArt(colour_of(record.fill))
     if isinstance(record, LineRecord):
-        return lines_of(record, _vector_of(record), outline, points_of)
+        return _lines_of(record, outline)
     if isinstance(record, VectorRecord):
         return _vector_of(record)
     if isinstance(record, PhotoRecord):
@@ -193,3 +206,63 @@ def colour_of(text: str) -> str:
     except ValueError:
         raise UnfitError(f"holds {text[:40]!r}, which is no colour") from None
     return text
+
+
+_LOG = logging.getLogger("packwork")
+
+
+def _lines_record(art: LineArt, outline: Outline, name: str) -> VectorRecord:
+    """An art of lines as plain values; what would be refused when it is read is left out and told.
+
+    ``outline`` and ``name``: of its item.
+    """
+
+    def fields(line: ArcLine) -> dict[str, Any]:
+        bulges = tuple(line.bulges.tolist())
+        return {"points": text_of(line.points), "bulges": bulges, "is_closed": line.is_closed}
+
+    drawn, room = _vector_record(art), LineRoom(outline.region, outline.extent)
+    if len(art.cut) > MOST_LINES or not room.holds(*art.cut, matrix=art.matrix):
+        _LOG.warning(
+            "%s: its lines to cut leave its outline, or are too many; the session keeps the "
+            "outline in their place, without arcs and engraved lines", name,
+        )  # fmt: skip
+        return drawn
+    engraved = art.engraved[:MOST_LINES]
+    if not room.holds(*engraved, matrix=art.matrix):
+        engraved = tuple(one for one in engraved if room.holds(one, matrix=art.matrix))
+    if lost := len(art.engraved) - len(engraved):
+        _LOG.warning("%s: the session is written without %s that would leave the part, or are too "
+                     "many", name, number_of(lost, "engraved line"))  # fmt: skip
+    is_kept = len(art.path) <= MOST_PATH and re.fullmatch(PATH, art.path) is not None
+    return LineRecord(
+        **drawn.model_dump(exclude={"kind"}), is_painted=art.is_painted,
+        cut=tuple(ArcLineRecord(**fields(line)) for line in art.cut),
+        engraved=tuple(
+            EngravedRecord(**fields(line), colour=line.colour, layer=kept_text(line.layer))
+            for line in engraved
+        ),
+        path=art.path if art.path and is_kept and room.holds_path(art.path, art.matrix) else None,
+    )  # fmt: skip
+
+
+def _lines_of(record: LineRecord, outline: Outline) -> LineArt:
+    """Art of a record; UnfitError of lines that leave their outline."""
+
+    def arcs(one: ArcLineRecord) -> tuple[FloatArray, FloatArray, bool]:
+        points, bulges = points_of(one.points), np.array(one.bulges, dtype=np.float64)
+        if len(points) != len(bulges) or len(points) < 2:
+            raise UnfitError("holds a line whose arcs do not fit its points")
+        return points, bulges, one.is_closed
+
+    cut = tuple(ArcLine(*arcs(one)) for one in record.cut)
+    engraved = tuple(EngravedLine(*arcs(one), one.colour, one.layer) for one in record.engraved)
+    art, path = _vector_of(record), record.path or ""
+    room = LineRoom(outline.region, outline.extent)
+    # What would be cut or engraved there is beyond what is certified.
+    is_in = room.holds(*cut, *engraved, matrix=art.matrix)
+    if not is_in or (path and not room.holds_path(path, art.matrix)):
+        raise UnfitError("holds lines for a machine that leave their part, or too many of them")
+    return LineArt(
+        art.markup, art.matrix, art.is_traced, cut, engraved, path, is_painted=record.is_painted
+    )

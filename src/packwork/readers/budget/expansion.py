@@ -218,23 +218,20 @@ class _Counter:
         """Size of ``element``, itself included, ``depth`` levels below the root."""
         known = self._known.get(element)
         if known is None:
-            self._enter(element, depth)
+            if element in self._open:
+                raise UnfitError(
+                    f"refers to itself in a circle (at id {element.get('id', '')[:40]!r}); "
+                    "remove that reference"
+                )
+            if depth > MAX_DEPTH:
+                raise UnfitError(f"nests its references more than {MAX_DEPTH} deep; flatten it")
+            self._open.add(element)
             known = self._sum(element, depth)
             self._open.remove(element)
             self._known[element] = known
         if depth + known.levels > MAX_DEPTH:
             raise UnfitError(f"nests its references more than {MAX_DEPTH} deep; flatten it")
         return known
-
-    def _enter(self, element: ET.Element, depth: int) -> None:
-        if element in self._open:
-            raise UnfitError(
-                f"refers to itself in a circle (at id {element.get('id', '')[:40]!r}); "
-                "remove that reference"
-            )
-        if depth > MAX_DEPTH:
-            raise UnfitError(f"nests its references more than {MAX_DEPTH} deep; flatten it")
-        self._open.add(element)
 
     def _sum(self, element: ET.Element, depth: int) -> _Size:
         inside = [self.measure(child, depth + 1) for child in element]

@@ -139,7 +139,13 @@ def cad_parts(
 
     Their regions lie around what the lines enclose, or ``within`` it.
     """
-    px = _px_of(drawing)
+    # Pixels of one unit of a drawing; where it states none, that is said.
+    millimetres = drawing.millimetres
+    if millimetres is None:
+        is_inch = drawing.is_metric is False
+        unit, millimetres = ("inches", 25.4) if is_inch else ("mm", 1.0)
+        notice(f"states no unit; it is taken for {unit}")
+    px = millimetres * convert(1.0, "mm", "px")
     left_out, engraving = Counter(drawing.left_out), engraving or Engraving()
     cut, engraved = list[CadLine](), list[CadLine]()
     for piece in drawing.pieces:
@@ -202,16 +208,6 @@ def tell_left_out(left_out: Counter[str]) -> None:
         is_text = not _TEXTS.isdisjoint(left_out)
         hint = "; text and hatches have to be made curves to be engraved" if is_text else ""
         notice(f"left out: {told}{hint}")
-
-
-def _px_of(drawing: CadDrawing) -> float:
-    """Pixels of one unit of a drawing; where it states none, that is said."""
-    millimetres = drawing.millimetres
-    if millimetres is None:
-        is_inch = drawing.is_metric is False
-        unit, millimetres = ("inches", 25.4) if is_inch else ("mm", 1.0)
-        notice(f"states no unit; it is taken for {unit}")
-    return millimetres * convert(1.0, "mm", "px")
 
 
 def _why_none(

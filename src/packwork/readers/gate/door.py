@@ -167,24 +167,20 @@ def unpacked(data: bytes) -> bytes:
     if not data.strip():
         raise UnfitError("is empty; give a drawing with at least one shape")
     if data.startswith(_GZIP):
-        data = _unpacked(data)
+        # Content of a compressed SVG, no more of it than is read.
+        unpacking = zlib.decompressobj(wbits=_GZIP_BITS)
+        try:
+            plain = unpacking.decompress(data, MAX_BYTES + 1)
+        except zlib.error:
+            raise UnfitError("is a broken compressed SVG (.svgz); save it again") from None
+        if not unpacking.eof and len(plain) <= MAX_BYTES:
+            raise UnfitError("is a compressed SVG (.svgz) that is cut short; save it again")
+        data = plain
     if len(data) > MAX_BYTES:
         raise UnfitError(
             f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
         )
     return data
-
-
-def _unpacked(data: bytes) -> bytes:
-    """Content of a compressed SVG, no more of it than is read."""
-    unpacking = zlib.decompressobj(wbits=_GZIP_BITS)
-    try:
-        plain = unpacking.decompress(data, MAX_BYTES + 1)
-    except zlib.error:
-        raise UnfitError("is a broken compressed SVG (.svgz); save it again") from None
-    if not unpacking.eof and len(plain) <= MAX_BYTES:
-        raise UnfitError("is a compressed SVG (.svgz) that is cut short; save it again")
-    return plain
 
 
 def serialised(element: ET.Element) -> str:

@@ -116,11 +116,10 @@ MAX_LETTERS = 20_000
 is read. Chosen."""
 
 LOST = {
-    "animate": "its animation: it is drawn as it stands before that begins",
-    "animateTransform": "its animation: it is drawn as it stands before that begins",
-    "animateMotion": "its animation: it is drawn as it stands before that begins",
-    "animateColor": "its animation: it is drawn as it stands before that begins",
-    "set": "its animation: it is drawn as it stands before that begins",
+    **dict.fromkeys(
+        ("animate", "animateTransform", "animateMotion", "animateColor", "set"),
+        "its animation: it is drawn as it stands before that begins",
+    ),
     "filter": "a filter: it fetches or makes pictures, or is slow by design",
     "foreignObject": "text or pictures in HTML; turn them into shapes",
     "video": "a film or a sound",

@@ -145,22 +145,17 @@ class LetteringOutlines:
         for group in groups:
             members = [contours[k] for k in group]
             origin = members[0].points[0]
-            glyph = self._glyph(members, origin, rule, finest)
+            shifted = [(one.commands, one.points - origin) for one in members]
+            key = (rule, finest, *((names, points.tobytes()) for names, points in shifted))
+            if key not in self._glyphs:
+                self._glyphs[key] = _followed(shifted, rule, finest)
+            glyph = self._glyphs[key]
             if glyph is None:
                 return None
             area, speck = area + glyph.ink.area, min(speck, glyph.speck)
             shape = glyph.ink if keeps_holes else glyph.silhouette
             parts.append(Outline(shape.points + origin, shape.starts))
         return Outline(*joined(parts)) if speck > self._speck * area else None
-
-    def _glyph(
-        self, contours: Sequence[_Contour], origin: FloatArray, rule: FillRule, tolerance: float
-    ) -> _Glyph | None:
-        shifted = [(one.commands, one.points - origin) for one in contours]
-        key = (rule, tolerance, *((names, points.tobytes()) for names, points in shifted))
-        if key not in self._glyphs:
-            self._glyphs[key] = _followed(shifted, rule, tolerance)
-        return self._glyphs[key]
 
 
 @final

@@ -44,7 +44,7 @@ from packwork.readers.layouts.foreign_svg import (
     tag,
 )
 from packwork.readers.layouts.lettering import LetteringOutlines, bare, lettering_path
-from packwork.readers.layouts.lines import LineParts
+from packwork.readers.layouts.marks import LineParts
 from packwork.readers.layouts.paths import is_placed_exactly, is_straight, polygon_of
 from packwork.readers.layouts.sheet import (
     backdrop_of,

@@ -34,6 +34,13 @@ class CoverageArray:
     name: str
     shares: FloatArray
 
+    @property
+    def region(self) -> Region:
+        """What is inside, in pixels; UnfitError if nothing is."""
+        if self.shares.max() < 0.5:
+            raise UnfitError("is False, or 0, all over; True, or 1, is inside")
+        return clean_union(outline_of_coverage(self.shares), speck=SPECK)
+
 
 def coverage_of_array(array: Any, name: str) -> CoverageArray | bytes:
     r"""Coverage of an array of bools or floats; of one of whole numbers, a picture file.
@@ -46,12 +53,8 @@ def coverage_of_array(array: Any, name: str) -> CoverageArray | bytes:
     >>> coverage_of_array(np.full((9, 9, 3), 99, np.uint8), "grey")[:4]
     b'\x89PNG'
     """
-    values = np.asarray(array)
-    if values.ndim == 3 and values.shape[2] == 1:
-        values = values[:, :, 0]
-    _check_array(values)
+    values, low, high = _checked(array)
     is_whole = values.dtype.kind in "iu"
-    low, high = values.min(), values.max()
     if is_whole and high > 1 and 0 <= low <= high <= 255:
         return png_of_picture(Image.fromarray(values.astype(np.uint8)))
     if not (0 <= low <= high <= 1):
@@ -70,11 +73,7 @@ def picture_of_array(array: Any) -> Image.Image:
     >>> picture_of_array(np.ones((2, 3))).size
     (3, 2)
     """
-    values = np.asarray(array)
-    if values.ndim == 3 and values.shape[2] == 1:
-        values = values[:, :, 0]
-    _check_array(values)
-    low, high = values.min(), values.max()
+    values, low, high = _checked(array)
     most = 255 if values.dtype.kind in "iu" else 1
     if not (0 <= low <= high <= most):
         raise UnfitError(
@@ -102,7 +101,11 @@ def png_of_picture(picture: Image.Image) -> bytes:
     return file.getvalue()
 
 
-def _check_array(values: np.ndarray[Any, Any]) -> None:
+def _checked(array: Any) -> tuple[np.ndarray[Any, Any], Any, Any]:
+    """Values of grey or colours, the smallest and the largest."""
+    values = np.asarray(array)
+    if values.ndim == 3 and values.shape[2] == 1:
+        values = values[:, :, 0]
     if values.ndim not in {2, 3} or (values.ndim == 3 and values.shape[2] not in {3, 4}):
         raise UnfitError(f"is an array of shape {values.shape}; {_FORMS}")
     if values.dtype.kind not in "biuf":
@@ -110,6 +113,7 @@ def _check_array(values: np.ndarray[Any, Any]) -> None:
     _check_size(*values.shape[:2])
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise UnfitError("holds numbers that are NaN or infinite; replace them by 0 or 1")
+    return values, values.min(), values.max()
 
 
 def _check_size(rows: int, columns: int) -> None:
@@ -135,10 +139,7 @@ def container_in_memory(
         if isinstance(value, GivenShapes):
             return _boxed(value.name, source, united(s.region for s in value.shapes), side)
         if isinstance(value, CoverageArray):
-            rows, columns = value.shares.shape
-            if value.shares.max() < 0.5:
-                raise UnfitError("is False, or 0, all over; True, or 1, is inside")
-            region = clean_union(outline_of_coverage(value.shares), speck=SPECK)
+            (rows, columns), region = value.shares.shape, value.region
             page = float(columns), float(rows)
             canvas = canvas_box(region.bounds, page, reading.trim, None)
             return placed_container(value.name, source, region, canvas, side)
@@ -166,10 +167,7 @@ def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | No
         if isinstance(value, GivenShapes):
             return [_item_of_shape(shape, source, holes) for shape in value.shapes]
         if isinstance(value, CoverageArray):
-            if value.shares.max() < 0.5:
-                raise UnfitError("is False, or 0, all over; True, or 1, is inside")
-            region = clean_union(outline_of_coverage(value.shares), speck=SPECK)
-            return [_item_of_shape(GivenShape(value.name, region), source, holes)]
+            return [_item_of_shape(GivenShape(value.name, value.region), source, holes)]
         if isinstance(value, Container):
             return [_item_of_shape(GivenShape(value.name, value.outline.region), source, holes)]
     return None

@@ -145,7 +145,7 @@ def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
             f"{SMALLEST_SIDE_PX} on each side, better some hundreds"
         )
     solid = solidity(pixels)
-    inside = solid * _darkness(pixels)
+    inside = solid * np.asarray(1.0 - pixels[:, :, :3] @ np.array(_LUMINANCE) / 255.0)
     by_alpha = decides(solid, LEAST_CLEAR_OF_MASK)
     if by_alpha or (inside.max() < 0.5 and solid.min() < 0.5):
         inside, by_alpha = raised(without_enclosed_white(pixels, solid), alpha_threshold), True
@@ -169,10 +169,6 @@ def mask_of_shares(inside: FloatArray) -> TracedMask:
     rows, columns = inside.shape
     region = clean_union(outline_of_coverage(inside), speck=SPECK)
     return TracedMask(region, float(columns), float(rows))
-
-
-def _darkness(pixels: Pixels) -> FloatArray:
-    return np.asarray(1.0 - pixels[:, :, :3] @ np.array(_LUMINANCE) / 255.0)
 
 
 def _tell(inside: FloatArray, share: float, *, by_alpha: bool) -> None:

@@ -11,7 +11,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import no_column
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written, figure, is_blank, written_numbers
-from packwork.readers.tables.decoding import read_json
+from packwork.readers.tables.decoding import TableFormat, read_json
 from packwork.readers.tables.delimited import (
     ENDINGS,
     MOST_ROWS,
@@ -20,7 +20,6 @@ from packwork.readers.tables.delimited import (
     check_size,
     sheet_of_file,
 )
-from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.parquet import rows_of_parquet
 from packwork.readers.tables.workbook import ending_of
 

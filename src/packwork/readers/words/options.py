@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
 from packwork.options import NOT_OFFERED, Group, Offer, Options, Verbs, number_or_auto
-from packwork.readers.options import check_colour
+from packwork.readers.options import colour_of, texts_of
 from packwork.readers.words.word import Word
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
@@ -121,6 +121,7 @@ class WordOptions(Options):
 
     fonts: Annotated[
         tuple[str, ...],
+        texts_of("font"),
         Offer(group=Group.TYPE, flags="--font", takes=str | Path | tuple[str | Path, ...]),
     ] = ()
     """Font file or installed family; the next ones set what the first cannot. Default: a
@@ -168,7 +169,7 @@ class WordOptions(Options):
     """weight (the palette from small to large), a column of the table, or a picture under
     the words; in Python also a function of a word. Default: neighbours unlike."""
 
-    background: Annotated[str | None, NOT_OFFERED] = None
+    background: Annotated[str | None, colour_of("background"), NOT_OFFERED] = None
     """Colour behind the words: theirs are made to be read on it. Default: white."""
 
     contrast: Annotated[float, Field(ge=1, le=21), _TYPE] = 3.0
@@ -200,16 +201,6 @@ class WordOptions(Options):
             check_weight(str(word), weight)
         return {str(word): float(weight) for word, weight in source.items()}
 
-    @field_validator("fonts", mode="before")
-    @classmethod
-    def _one_font_is_enough(cls, fonts: Any) -> Any:
-        if fonts is None:
-            return ()
-        several = [fonts] if isinstance(fonts, str | Path) else fonts
-        if not isinstance(several, Iterable):
-            raise ValueError(f"use a font or a list of them, not {fonts!r}")
-        return [str(font) for font in several]
-
     @field_validator("regexp")
     @classmethod
     def _regexp_compiles(cls, pattern: str | None) -> str | None:
@@ -218,11 +209,6 @@ class WordOptions(Options):
         except (re.error, RecursionError, OverflowError) as error:
             raise RecipeError("regexp", f"is no regular expression: {error}") from None
         return pattern
-
-    @field_validator("background")
-    @classmethod
-    def _background_is_a_colour(cls, text: str | None) -> str | None:
-        return None if text is None else check_colour("background", text)
 
 
 def check_weight(word: str, weight: object) -> None:
