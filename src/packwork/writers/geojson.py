@@ -111,6 +111,8 @@ def _container_feature(layout: Layout, digits: int) -> dict[str, Any]:
     if container.walls is not None:
         # Seen are the walls; the outline is what items lie in, and is measured.
         properties["walls"] = [np.round(line, digits).tolist() for line in container.walls]
+    if container.pen is not None:
+        properties["pen"] = list(container.pen)
     if container.lattice is not None:
         properties["tile"] = container.lattice.kind
     return _feature(properties, container.outline, digits)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -106,6 +107,29 @@ def test_walls_of_opened_containers_come_back(
     assert len(found.walls) == len(container.walls)
     for got, expected in zip(found.walls, container.walls, strict=True):
         assert got == pytest.approx(expected, abs=1e-3)
+
+
+@pytest.mark.parametrize("ending", ["svg", "geojson"])
+def test_the_line_of_a_container_keeps_its_pen(ending: str, tmp_path: Path) -> None:
+    jar = replace(opened(square_container(), ["top"], None, 50.0).container, pen=("#22304f", 1.5))
+    layout = Layout(jar, (flat_item("tile", square()),), poses([50.0], [50.0]), np.ones(1))
+    file = tmp_path / f"a.{ending}"
+    write(layout, file)
+    assert read_written(file).container.pen == ("#22304f", pytest.approx(1.5))
+    write(replace(layout, container=replace(jar, pen=None)), file)
+    assert read_written(file).container.pen is None
+
+
+def test_pens_that_are_none_are_refused(tmp_path: Path) -> None:
+    jar = replace(square_container(), pen=("#22304f", 1.5))
+    write(Layout(jar, (), poses([], []), np.ones(0)), tmp_path / "a.geojson")
+    text = (tmp_path / "a.geojson").read_text(encoding="utf-8")
+    begin = text.index('"pen":') + len('"pen":')
+    end = text.index("]", begin) + 1
+    for bad in ("7", "[]", '["#22304f"]', '["ink",1]', '["#22304f",-1]', '["#22304f",1e99]'):
+        (tmp_path / "b.geojson").write_text(text[:begin] + bad + text[end:], encoding="utf-8")
+        with pytest.raises(ReadError, match="pen: must be a colour"):
+            read_written(tmp_path / "b.geojson")
 
 
 def test_walls_that_are_none_are_refused(tmp_path: Path) -> None:

@@ -67,6 +67,7 @@ class FoundSheet:
     items: Sequence[FoundItem] = field(default_factory=tuple)
     on_trust: tuple[str, ...] = ()
     walls: tuple[FloatArray, ...] | None = None
+    pen: tuple[str, float] | None = None
     backdrop: Backdrop | None = None
     tile: str | None = None
     notes: tuple[Note, ...] = ()
@@ -89,8 +90,9 @@ def assembled(sheet: FoundSheet, name: str) -> Layout:
     """
     outline = sound_outline(sheet.container, "the container")
     container = Container(
-        name, name, outline, sheet.width, sheet.height, sheet.unit, sheet.backdrop, sheet.walls
-    )
+        name, name, outline, sheet.width, sheet.height, sheet.unit, sheet.backdrop, sheet.walls,
+        pen=sheet.pen,
+    )  # fmt: skip
     if sheet.tile is not None:
         container = repeating(container, sheet.tile)
     placed = [

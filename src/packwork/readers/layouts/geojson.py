@@ -25,7 +25,7 @@ from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container, repeating
 from packwork.scene.item import Datum, FlatArt, Item, Label
-from packwork.scene.layout import Layout, ground_in
+from packwork.scene.layout import Layout, ground_in, is_hex
 from packwork.scene.pose import Poses
 from packwork.units import UNITS, Unit
 
@@ -52,6 +52,7 @@ _MUST = {
     "height": f"must be positive, up to {MAX_COORDINATE:g}",
     "unit": f"must be one of {', '.join(UNITS)}",
     "walls": f"must be lines of [x, y] pairs up to {MAX_COORDINATE:g}",
+    "pen": "must be a colour such as #4a5568 and a width",
     "scale": f"must be positive, {SMALLEST_SCALE:g} to {LARGEST_SCALE:g}",
     "stretch": f"must be {1 / WIDEST_STRETCH:g} to {WIDEST_STRETCH:g}",
     "weight": f"must not be negative, and up to {MAX_COORDINATE:g}",
@@ -70,6 +71,15 @@ def _lines(said: Any) -> tuple[FloatArray, ...] | None:
     if any(len(line) < 2 or _reach(line) > MAX_COORDINATE for line in lines or ()):
         raise ValueError
     return lines
+
+
+def _pen(said: Any) -> tuple[str, float]:
+    if not isinstance(said, list) or len(said) != 2:
+        raise ValueError
+    colour, width = map(str, said)
+    if not is_hex(colour) or not 0 < float(width) <= MAX_COORDINATE:
+        raise ValueError
+    return colour, float(width)
 
 
 def _colour(said: Any) -> str:
@@ -104,6 +114,7 @@ class _ContainerMembers(_Saved):
     name: Any = "container"
     source: Any = None
     walls: Annotated[tuple[FloatArray, ...] | None, PlainValidator(_lines)] = None
+    pen: Annotated[tuple[str, float] | None, PlainValidator(_pen)] = None
     tile: Literal["square", "half-drop"] | None = None
 
 
@@ -242,7 +253,7 @@ def _container(outline: Outline, of: _ContainerMembers, canvas: _Canvas | None) 
     name = str(of.name)
     source = name if of.source is None else str(of.source)
     size = canvas.width, canvas.height, canvas.unit
-    container = Container(name, source, outline, *size, walls=of.walls)
+    container = Container(name, source, outline, *size, walls=of.walls, pen=of.pen)
     return container if of.tile is None else repeating(container, of.tile)
 
 

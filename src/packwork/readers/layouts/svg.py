@@ -56,6 +56,7 @@ from packwork.readers.layouts.sheet import (
     with_halos,
 )
 from packwork.readers.layouts.tampering import examined
+from packwork.readers.layouts.walls import pen_of, walls_of
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.reading import UnfitError
@@ -63,7 +64,6 @@ from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg_syntax.coordinates import parse_length, parse_transform, view_box
-from packwork.readers.svg_syntax.shapes import points_of
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert
@@ -116,8 +116,8 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
     to_items = affine.compose(to_canvas, place)
     said = items.attrib if items is not None and walls is not None else {}
     gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
-    page = shapely.box(0, 0, width, height)
     walled = to_canvas if walls is None else affine.compose(to_canvas, _place(walls))
+    page = shapely.box(0, 0, width, height)
     container = page if walls is None else _placed(drawings.wall(walls), walled)
     found = [
         _outline_of(drawings, one, to_items, is_kept)
@@ -141,7 +141,8 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         areas_in_shares=said.get("data-in-shares") == "true",
         items=found,
         on_trust=(*drawings.on_trust, *unseen, *([] if parts is None else parts.on_trust)),
-        walls=None if walls is None else _walls(walls, walled),
+        walls=None if walls is None else walls_of(walls, walled),
+        pen=None if walls is None else pen_of(walls, _size(walled)),
         tile=tile_of(root),
         backdrop=None if outlines_only else backdrop_of(root, arts, to_canvas),
         notes=notes_of(root, to_canvas),
@@ -154,8 +155,7 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
             "not_kept": _not_kept(root, items, arts.texts),
         },
     )
-    known = None if walls is None else walls.get("data-name")
-    layout = assembled(sheet, known or name)
+    layout = assembled(sheet, (walls is not None and walls.get("data-name")) or name)
     return layout if outlines_only else with_halos(root, layout)
 
 
@@ -339,15 +339,6 @@ def _not_kept(root: ET.Element, items: ET.Element | None, texts: int) -> list[st
     others = 0 if items is None else strange(root, OWN | {"cut"})
     many = number_of(others, "drawing beside its items is", "drawings beside its items are")
     return [*([f"{many} not kept"] if others else []), *curves]
-
-
-def _walls(group: ET.Element, place: FloatArray) -> tuple[FloatArray, ...] | None:
-    """Lines that are seen of a container with openings; None if its outline is."""
-    lines = [np.array(points_of(e)) for e in group if tag(e) == "polyline"]
-    seen = tuple(affine.apply(place, line) for line in lines if len(line) > 1)
-    # An outline that is not drawn has its walls beside it, be it none at all.
-    is_drawn = any(e.get("stroke") != "none" for e in group if tag(e) == "path")
-    return None if is_drawn and not seen else seen
 
 
 def _place(element: ET.Element) -> FloatArray:
