@@ -16,8 +16,8 @@ from packwork.cli import app
 
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A layout of eight in a file."""
-    layout = pw.fill("circle", ["star", "heart"], count=8, epochs=80, levels="50,100")
+    """A layout of eight in a file, of which each item may be held where a padding of 1 is asked."""
+    layout = pw.fill("circle", ["star", "heart"], count=8, epochs=80, levels="50,100", padding=1)
     path = tmp_path_factory.mktemp("edit") / "eight.geojson"
     layout.save(path)
     layout.save(path.with_suffix(".svg"))
