@@ -130,7 +130,7 @@ class Desk:
 
 
 class OfSession:
-    """What Python reads from a widget."""
+    """Properties of a widget that Python reads."""
 
     _desk: Desk
 

@@ -36,7 +36,7 @@ class CoverageArray:
 
     @property
     def region(self) -> Region:
-        """What is inside, in pixels; UnfitError if nothing is."""
+        """Shape of the inside, in pixels; UnfitError if nothing is."""
         if self.shares.max() < 0.5:
             raise UnfitError("is False, or 0, all over; True, or 1, is inside")
         return clean_union(outline_of_coverage(self.shares), speck=SPECK)

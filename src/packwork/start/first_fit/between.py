@@ -11,7 +11,7 @@ from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.start.first_fit.graded import AHEAD, Graded, sizes_down
-from packwork.start.first_fit.greedy_board import Candidate, GreedyBoard, Place, PoseRow
+from packwork.start.first_fit.greedy_board import BoardPlace, Candidate, GreedyBoard, PoseRow
 
 
 def fit_between(
@@ -54,7 +54,7 @@ def fit_between(
     ]
     while left and len(placed) < most and not stop():
         # The first that stands beside no other of its kind, or else the first.
-        found: tuple[int, Place] | None = None
+        found: tuple[int, BoardPlace] | None = None
         for k in left[:AHEAD]:
             place = board.find(candidates[k], sizes[k])
             if place is None:

@@ -22,7 +22,7 @@ from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit.greedy_board import Candidate, GreedyBoard, Place, PoseRow
+from packwork.start.first_fit.greedy_board import BoardPlace, Candidate, GreedyBoard, PoseRow
 
 STEP = 1.01
 """Factor between sizes tried, which are sought by halves. Larger leaves room: with 1.04 a word of
@@ -220,8 +220,8 @@ class GreedyPlacement:
         waiting: deque[tuple[int, Candidate]],
         coming: Iterator[tuple[int, Candidate]],
         sizes: Sequence[float],
-    ) -> tuple[int, Place | None]:
-        """Which of those that wait is put next, and where; of some that wait for this, more come.
+    ) -> tuple[int, BoardPlace | None]:
+        """Next of those that wait, and its place; of some that wait for this, more come.
 
         The first, unless it would stand beside another of its kind and one of equal rank would not.
         """

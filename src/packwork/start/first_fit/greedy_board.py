@@ -101,8 +101,8 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Place:
-    """Where a candidate may be put.
+class BoardPlace:
+    """A place on the board for a candidate.
 
     ``mask``, ``row``, ``column``: pixels that it takes, and where the first of them lies.
     ``pose``: canvas units.
@@ -208,7 +208,7 @@ class GreedyBoard:
         mask, origin = covered(posed, self._reach, is_quick=True)
         self._take(mask, -origin[0], -origin[1], kind)
 
-    def find(self, candidate: Candidate, sizes: Sequence[float]) -> Place | None:
+    def find(self, candidate: Candidate, sizes: Sequence[float]) -> BoardPlace | None:
         """Place of an item at the largest size at which it finds one; None if at none.
 
         Steps down the sizes double until one fits; the one between is sought by halves.
@@ -230,12 +230,12 @@ class GreedyBoard:
                 found, high = larger, middle
         return found
 
-    def put(self, place: Place) -> None:
+    def put(self, place: BoardPlace) -> None:
         """Take a place that was found."""
         self._take(place.mask, place.row, place.column, place.kind)
         self._first = self._first or place.pose[3]
 
-    def _place(self, candidate: Candidate, scale: float) -> Place | None:
+    def _place(self, candidate: Candidate, scale: float) -> BoardPlace | None:
         """Best place of an item of that scale, at the first of its angles that has one."""
         field, pull, is_everywhere = self._drawn(scale)
         for angle in candidate.angles:
@@ -255,11 +255,11 @@ class GreedyBoard:
                 pose = column / self._px_per_cu, row / self._px_per_cu, angle, scale
                 is_beside = any(a <= top < b and c <= left < d for a, b, c, d in beside)
                 at = row - origin[0], column - origin[1]
-                return Place(mask, *at, pose, candidate.kind, is_beside)
+                return BoardPlace(mask, *at, pose, candidate.kind, is_beside)
         return None
 
     def _beside(self, kind: Hashable, stencil: Stencil) -> list[_Span]:
-        """Where the corner of its box may not come to, so that a line fits between its kind."""
+        """Spans that the corner of its box keeps out of, so that a line fits between its kind."""
         height, width = stencil.mask.shape
         gap = min(height, width)
         return [
