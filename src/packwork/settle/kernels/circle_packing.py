@@ -89,7 +89,9 @@ def front_chain(radii, order, shift, aside):
             reach = radii[i] + radii[j] + widest
             if dx * dx + dy * dy < reach * reach:
                 if count == pairs.shape[0]:
-                    pairs = np.concatenate((pairs, pairs))
+                    fewer, pairs = pairs, np.empty((2 * count, 2), np.int64)
+                    for p in range(count):
+                        pairs[p, 0], pairs[p, 1] = fewer[p, 0], fewer[p, 1]
                 pairs[count, 0] = pairs[count, 2] = pairs[count, 3] = j
                 pairs[count, 1] = i
                 count += 1
@@ -155,7 +157,9 @@ def _near(z, radii, skin):
             reach = radii[i] + radii[j] + skin
             if dx * dx + dy * dy < reach * reach:
                 if count == pairs.shape[0]:
-                    pairs = np.concatenate((pairs, pairs))
+                    fewer, pairs = pairs, np.empty((2 * count, 2), np.int64)
+                    for p in range(count):
+                        pairs[p, 0], pairs[p, 1] = fewer[p, 0], fewer[p, 1]
                 pairs[count, 0], pairs[count, 1] = i, j
                 count += 1
     return pairs[:count]
@@ -198,48 +202,73 @@ def _energy(z, radii, pairs, pressure, slope):
 
 
 @helper
+def _dot(a, b):
+    """Scalar product. Loops, here and below: array expressions take LLVM four times as long."""
+    total = 0.0
+    for k in range(a.shape[0]):
+        total += a[k] * b[k]
+    return total
+
+
+@helper
+def _farthest(a, b, count):
+    """Largest difference of the first numbers."""
+    most = 0.0
+    for k in range(count):
+        most = max(most, abs(a[k] - b[k]))
+    return most
+
+
+@helper
+def _combine(a, share, b, out):
+    """Write ``a + share * b``."""
+    for k in range(a.shape[0]):
+        out[k] = a[k] + share * b[k]
+
+
+@helper
 def _way_down(slope, steps, bends, count, way):
     """Write the direction of L-BFGS: two loops over the last steps and changes of slope."""
     shares = np.empty(MEMORY)
-    way[:] = -slope
+    _combine(slope, -2.0, slope, way)
     latest = min(count, MEMORY)
     for back in range(latest):
         k = (count - 1 - back) % MEMORY
-        shares[k] = np.dot(steps[k], way) / np.dot(steps[k], bends[k])
-        way -= shares[k] * bends[k]
+        shares[k] = _dot(steps[k], way) / _dot(steps[k], bends[k])
+        _combine(way, -shares[k], bends[k], way)
+    scale = 0.1
     if count > 0:
         k = (count - 1) % MEMORY
-        way *= np.dot(steps[k], bends[k]) / np.dot(bends[k], bends[k])
-    else:
-        way *= 0.1
+        scale = _dot(steps[k], bends[k]) / _dot(bends[k], bends[k])
+    _combine(way, scale - 1.0, way, way)
     for back in range(latest - 1, -1, -1):
         k = (count - 1 - back) % MEMORY
-        way += (shares[k] - np.dot(bends[k], way) / np.dot(steps[k], bends[k])) * steps[k]
+        _combine(way, shares[k] - _dot(bends[k], way) / _dot(steps[k], bends[k]), steps[k], way)
 
 
 @helper
 def _descend(z, radii, pressure, most):
     """Go down the energy, in place."""
     n = z.shape[0]
-    steps, bends = np.empty((MEMORY, n)), np.empty((MEMORY, n))
-    slope, new_slope, way = np.empty(n), np.empty(n), np.empty(n)
+    steps, bends, still = np.empty((MEMORY, n)), np.empty((MEMORY, n)), np.zeros(n)
+    slope, new_slope, way, new = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     skin = SKIN * radii.mean()
     pairs, seen = _near(z, radii, skin), z.copy()
     value = _energy(z, radii, pairs, pressure, slope)
     count = 0
     least = STILL * 2.0 * pressure * z[n - 1]
     for _ in range(most):
-        if np.max(np.abs(slope)) < least:
+        if _farthest(slope, still, n) < least:
             break
         _way_down(slope, steps, bends, count, way)
-        promised = np.dot(way, slope)
+        promised = _dot(way, slope)
         if promised >= 0.0:
             count = 0
-            way[:] = -0.1 * slope
-            promised = np.dot(way, slope)
-        share, found = min(1.0, 0.125 * skin / np.max(np.abs(way[: n - 1]))), False
+            _combine(still, -0.1, slope, way)
+            promised = _dot(way, slope)
+        share, found = min(1.0, 0.125 * skin / _farthest(way, still, n - 1)), False
         for _ in range(HALVINGS):
-            new = z + share * way
+            _combine(z, share, way, new)
             now = _energy(new, radii, pairs, pressure, new_slope)
             if now <= value + ENOUGH * share * promised:
                 found = True
@@ -248,13 +277,14 @@ def _descend(z, radii, pressure, most):
         if not found:
             break
         k = count % MEMORY
-        steps[k], bends[k] = new - z, new_slope - slope
-        if np.dot(steps[k], bends[k]) > CURVED:
+        _combine(new, -1.0, z, steps[k])
+        _combine(new_slope, -1.0, slope, bends[k])
+        if _dot(steps[k], bends[k]) > CURVED:
             count += 1
-        z[:] = new
-        slope[:] = new_slope
+        _combine(new, 0.0, still, z)
+        _combine(new_slope, 0.0, still, slope)
         value = now
-        if np.max(np.abs(z[: n - 1] - seen[: n - 1])) > 0.125 * skin:
+        if _farthest(z, seen, n - 1) > 0.125 * skin:
             pairs, seen = _near(z, radii, skin), z.copy()
 
 
