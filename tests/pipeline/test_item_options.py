@@ -351,3 +351,12 @@ def test_pinned_items_leave_the_rest_the_room_that_is_left() -> None:
     # Of the items' area: nine that lie anyhow share several times as much.
     assert met.metrics.exact.overlap < 1 / 20
     assert not met.unplaced
+
+
+@pytest.mark.parametrize(("sizes", "told"), [("free", True), ("shared", False)])
+def test_areas_far_from_the_weights_are_told(sizes: str, told: bool) -> None:
+    made = run(count=3, weights={"star": 30, "circle": 2, "heart": 1}, sizes=sizes, finish="exact",
+               size_ratio=3 if told else None)  # fmt: skip
+    shares = made.layout.areas / made.layout.weights
+    assert (shares.max() > 1.5 * shares.min()) == told
+    assert any("for their weights" in line for line in made.advice) == told

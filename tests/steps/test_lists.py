@@ -54,6 +54,7 @@ def test_few_icons_are_begun_upright_and_alike_first(options: dict[str, Any]) ->
         ({"stroke_width": "even"}, {"FinishThinner", "EvenLines"}),
         ({"count": "auto", "apart": True}, {"KindsApart", "CountBeside", "RemarkCount"}),
         ({"least_dpi": 90}, {"TellCoarse"}),
+        ({"items": ["star", "moon"], "weights": {"star": 9, "moon": 1}}, {"TellLooseWeights"}),
         ({"sizes": "shared", "count": 8}, {"Separate"}),
         ({"sizes": "shared", "count": 8, "effort": "draft"}, set()),
         ({"sizes": "shared", "count": 41}, set()),

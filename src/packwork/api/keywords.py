@@ -180,7 +180,7 @@ class _FillPhotosPile(TypedDict, total=False):
     these also several in turn. Default: a bundled bold sans, others for what it lacks."""
 
     weights: str | Path | Mapping[str, float] | Cells | None
-    """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
+    """Shares of area, which shared sizes hold: a CSV file of name,weight (in Python a dict too)."""
 
     strict: bool
     """Refuse a folder with an unusable file instead of leaving that file out. Default: False."""

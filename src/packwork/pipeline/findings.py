@@ -99,6 +99,11 @@ class Sentence(Enum):
         "drawings have lines up to {times:.0f} times as wide as others; --stroke-width even makes "
         "them alike",
     )
+    LOOSE_WEIGHTS = (
+        Told.ADVICE,
+        "for their weights some areas are {times:.1f} times as large as others, as sizes are free; "
+        "--sizes shared holds the shares",
+    )
     FEW_TILES = Told.ADVICE, "the picture is hard to recognise with {tiles}; {remedy} would do"
 
     SHOWN_TO = Told.REMARK, "{tiles} can show the picture to {percent:.0f} %{then}"

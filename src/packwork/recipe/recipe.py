@@ -171,7 +171,7 @@ class Recipe(
     weights: Annotated[
         str | dict[str, float] | None, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)
     ] = None
-    """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
+    """Shares of area, which shared sizes hold: a CSV file of name,weight (in Python a dict too)."""
 
     hero: Annotated[str | None, parsed_by(hero_rule), _HERO] = None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or

@@ -91,6 +91,23 @@ class TellShortfalls(RunStep):
         return _with_dwarfs(state, dwarfs, scales / nominal) if dwarfs else state
 
 
+LOOSE = 1.5
+"""Times as large as others, for their weights, that areas have to be to be told. Larger passes
+pictures that seem to say the opposite of the weights, smaller blames what nobody sees. By eye."""
+
+
+@final
+class TellLooseWeights(RunStep):
+    """Advice on areas of free sizes that are far from the shares of the weights given."""
+
+    def run(self, state: RunState, context: RunContext) -> RunState:
+        """State with the advice."""
+        asked = state.job.weights > 0
+        sizes = (state.poses.scale / state.nominal)[asked] ** 2
+        times = float(sizes.max() / sizes.min()) if asked.any() else 1.0
+        return state.with_finding(Sentence.LOOSE_WEIGHTS, times=times) if times > LOOSE else state
+
+
 def _with_dwarfs(state: RunState, items: Sequence[int], sizes: FloatArray) -> RunState:
     """State with a finding of items that are far smaller than free sizes go."""
     order = sorted(items, key=lambda k: sizes[k])

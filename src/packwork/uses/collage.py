@@ -27,7 +27,7 @@ from packwork.steps.line_weights import EvenLines, FinishThinner, TellLineWeight
 from packwork.steps.measure import Measure, RemarkCount, TellCoarse
 from packwork.steps.mosaic import Judge, ShowPicture, unrecognised
 from packwork.steps.place import Place
-from packwork.steps.shortfalls import Advise, TellOneColour, TellShortfalls
+from packwork.steps.shortfalls import Advise, TellLooseWeights, TellOneColour, TellShortfalls
 from packwork.steps.starts import new_starts
 from packwork.steps.track import KeepTrack, StartRecording
 from packwork.steps.voids import FillerScales, FillVoids, as_planned
@@ -152,6 +152,8 @@ def reporting(
         steps.insert(0, EvenLines())
     elif job.plan.sizes == "free" and are_lines(job.items):
         steps.append(TellLineWeights())
+    if job.plan.sizes == "free" and job.recipe.weights is not None and job.target is None:
+        steps.append(TellLooseWeights())
     if job.plan.least_dpi is not None:
         steps.append(TellCoarse())
     if job.plan.keeps_apart:
