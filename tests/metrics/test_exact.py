@@ -10,11 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.errors import ShapeError
+from packwork.forces.field import Inward
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.metrics import exact
 from packwork.metrics.exact import exact_coverage, exact_metrics
 from packwork.metrics.violations import ViolationSet, violations
+from packwork.separation.shapes import poles_of
 
 Box = tuple[int, int, int, int]
 
@@ -211,16 +213,20 @@ def test_smallest_gap_of_more_than_one_portion_is_found_wherever_it_is() -> None
         assert found == pytest.approx(1 - sides.max(), abs=1e-12)
 
 
-def test_what_outlines_keep_is_prepared_for_nobody() -> None:
+@pytest.mark.parametrize("points", [4, 1200])
+def test_what_outlines_keep_is_prepared_for_nobody(points: int) -> None:
     # Threads share it, and GEOS lets one at a time ask a prepared region.
-    tiles = [Outline.box(k, 0, k + 1, 1) for k in range(3)]
-    container = Outline.box(0, 0, 9, 9)
+    edges = [shapely.box(k, 0, k + 0.9, 1).segmentize(4 / points) for k in range(3)]
+    tiles = [Outline.of(edge) for edge in edges]
+    container = Outline.of(shapely.box(0, 0, 9, 9).segmentize(36 / points))
     kept = [one.region for one in (*tiles, container)]
     assert exact_metrics(tiles, container).is_clean
     assert violations(tiles, container, 0.5)
     found = ViolationSet(container, 0.5)
     found.change(dict(enumerate(tiles)))
     assert found.violations
+    poles_of(kept[-1])
+    Inward(container)(np.array([[1.0, 1.0]]))
     assert not shapely.is_prepared(kept).any()
 
 

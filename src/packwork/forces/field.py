@@ -15,6 +15,7 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import prepared
 
 
 class Field(Protocol):
@@ -222,6 +223,6 @@ class Inward:
         begins = np.concatenate(self.outline.rings)
         ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in self.outline.rings])
         heights, slopes = np.zeros(len(points)), np.zeros((len(points), 2))
-        outside = ~shapely.contains_xy(self.outline.region, points[:, 0], points[:, 1])
+        outside = ~shapely.contains_xy(prepared(self.outline.region), *points.T)
         heights[outside], slopes[outside] = Distance(begins, ends)(points[outside])
         return heights, slopes

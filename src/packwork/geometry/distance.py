@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from packwork.arrays import IntArray
 from packwork.geometry import _kernels
 from packwork.geometry.bezier import FLATTENING
-from packwork.geometry.overlay import Region, buffered, polygon_parts, quiet, union, valid
+from packwork.geometry.overlay import Region, buffered, polygon_parts, prepared, quiet, union, valid
 from packwork.geometry.polygon import FEW_PAIRS
 
 FEW_VERTICES = 20_000
@@ -40,8 +40,8 @@ def distance(first: Region, second: Region) -> float:
         found = float(shapely.distance(first, second))
         return np.inf if np.isnan(found) else found
     larger, smaller = (first, second) if counts[0] >= counts[1] else (second, first)
-    # Prepared, as both that ask may go on asking: its index is built once.
-    shapely.prepare(larger)
+    # A copy, as others may ask the region itself: only one may ask what is prepared.
+    larger = larger if shapely.is_prepared(larger) else prepared(larger)
     if shapely.intersects(larger, smaller):
         return 0.0
     return float(shapely.shortest_line(larger, smaller).length)

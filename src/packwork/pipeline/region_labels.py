@@ -19,7 +19,7 @@ from packwork.assignment.graph import unit_rows
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered
+from packwork.geometry.overlay import buffered, prepared
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
@@ -243,9 +243,9 @@ def _place(plate: _Plate, region: Region, side: float) -> tuple[float, float, fl
     x, y = (one.ravel() for one in np.meshgrid(
         np.linspace(left, right, PLACES), np.linspace(top, bottom, PLACES)
     ))  # fmt: skip
+    region = prepared(region)
     is_inside = shapely.contains_xy(region, x, y)
     x, y = x[is_inside], y[is_inside]
-    shapely.prepare(region)
     for em in np.geomspace(LARGEST, SMALLEST, SIZES) * side:
         wide, high = plate.wide * em / 2, plate.high * em / 2
         boxes = shapely.box(x - wide, y - high, x + wide, y + high)

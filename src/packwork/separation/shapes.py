@@ -14,7 +14,7 @@ import shapely
 
 from packwork.compaction.kernels.outer_simplify import simplify_outward
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered
+from packwork.geometry.overlay import buffered, prepared
 from packwork.geometry.polygon import Region
 from packwork.separation.kernels.collision import POLES
 
@@ -162,7 +162,7 @@ def poles_of(region: Region) -> Floats:
     cell = max(x1 - x0, y1 - y0) / POLE_CELLS
     x, y = (one.ravel() for one in np.meshgrid(np.arange(x0 + cell / 2, x1, cell),
                                                np.arange(y0 + cell / 2, y1, cell)))  # fmt: skip
-    inside = shapely.contains_xy(region, x, y)
+    inside = shapely.contains_xy(prepared(region), x, y)
     x, y = x[inside], y[inside]
     room = shapely.distance(region.boundary, shapely.points(x, y))
     poles: list[tuple[float, float, float]] = []

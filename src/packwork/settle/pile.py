@@ -17,6 +17,7 @@ from packwork.compaction.options import HAIR, MoveOptions
 from packwork.forces.field import Distance
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import prepared
 from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -332,7 +333,7 @@ class _Pile:
             return dict.fromkeys(range(len(self._kinds)), middle)
         across, down = np.meshgrid(*np.linspace((left, top), (right, bottom), GRID).T)
         points = np.column_stack([across.ravel(), down.ravel()])
-        points = points[shapely.contains_xy(arrangement.container.region, *points.T)]
+        points = points[shapely.contains_xy(prepared(arrangement.container.region), *points.T)]
         found = {}
         for kind, item in zip(*np.unique(self._kinds, return_index=True), strict=True):
             heights = self._forces.heights(points, int(item))

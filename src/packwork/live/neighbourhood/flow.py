@@ -14,7 +14,7 @@ import shapely
 
 from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import valid
+from packwork.geometry.overlay import prepared, valid
 from packwork.live.document import Document
 from packwork.live.neighbourhood.allowance import ranges
 from packwork.live.neighbourhood.caches import LevelCache
@@ -206,7 +206,7 @@ class Flow:
 
     def project_inside(self, items: IntArray) -> None:
         """Put those of items ``(m,)`` whose middles lie outside to the nearest place inside."""
-        region = valid(self._region.outline.region)
+        region = prepared(valid(self._region.outline.region))
         poses = self.document.poses
         x, y = poses.x.copy(), poses.y.copy()
         for k in items:

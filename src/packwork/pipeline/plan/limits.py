@@ -13,7 +13,7 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Conflict
 from packwork.errors import RecipeError
-from packwork.geometry.overlay import difference, intersection
+from packwork.geometry.overlay import difference, intersection, prepared
 from packwork.geometry.polygon import Region
 from packwork.geometry.simplify import grown
 from packwork.phrasing import number_of
@@ -156,7 +156,7 @@ def _check_place(job: Job, k: int, home: Region, words: str, limits: Limits) -> 
     """The point or the line that an item is pinned to, against the room it has."""
     one, name = job.asked[k], job.items[k].name
     x, y = float(limits.x[k]), float(limits.y[k])
-    if one.is_placed and not shapely.intersects_xy(home, x, y):
+    if one.is_placed and not shapely.intersects_xy(prepared(home), x, y):
         raise one.sources["pin.x"].error(f"pins {name} at {x:g}, {y:g}, outside {words}")
     low, high = -job.container.side, 2 * job.container.side
     for axis, ends in (("x", [(x, low), (x, high)]), ("y", [(low, y), (high, y)])):

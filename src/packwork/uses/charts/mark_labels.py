@@ -12,6 +12,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import Region, prepared
 from packwork.phrasing import number_of
 from packwork.readers.tables.cells import MISSING
 from packwork.scene.contrast import contrast
@@ -115,10 +116,10 @@ def _label(item: Item, ink: Outline, ems: FloatArray) -> list[Note]:
     if colour is None:
         return []
     blocks = [block for block in _blocks(item.label.name) if block.width * least < right - left]
-    shapely.prepare(ink.region)
+    region = prepared(ink.region)
     for em in ems.tolist() if blocks else []:
         for block in blocks:
-            middle = _place(block, em, ink)
+            middle = _place(block, em, ink, region)
             if middle is not None:
                 return _drawn(block, em, middle, colour)
     return []
@@ -166,7 +167,7 @@ def _block(lines: tuple[str, ...]) -> _Block:
     return _Block(lines, float(width), float(bounds[0][1]), float(bounds[-1][3]) + last)
 
 
-def _place(block: _Block, em: float, ink: Outline) -> FloatArray | None:
+def _place(block: _Block, em: float, ink: Outline, region: Region) -> FloatArray | None:
     """Middle ``(2,)`` of a block on an ink, as near to the ink's own as goes; None for nowhere."""
     wide = (block.width / 2 + FREE_EM) * em
     high = ((block.bottom - block.top) / 2 + FREE_EM) * em
@@ -181,7 +182,7 @@ def _place(block: _Block, em: float, ink: Outline) -> FloatArray | None:
     boxes = shapely.box(
         points[:, 0] - wide, points[:, 1] - high, points[:, 0] + wide, points[:, 1] + high
     )
-    fitting = points[shapely.contains(ink.region, boxes)]
+    fitting = points[shapely.contains(region, boxes)]
     if len(fitting) == 0:
         return None
     away = np.hypot(*(fitting - ink.centroid).T)

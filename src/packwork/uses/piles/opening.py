@@ -13,7 +13,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.geometry.distance import snap_rounded
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import buffered, difference, intersection, union
+from packwork.geometry.overlay import buffered, difference, intersection, prepared, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
 from packwork.pipeline.plan.forces import point_at
 from packwork.readers.container import read_container
@@ -231,7 +231,7 @@ def source_of(
     else:
         points = _places(emitter, container)
         ranks = np.zeros(len(points), dtype=np.int64)
-    inside = shapely.contains_xy(room.region, points[:, 0], points[:, 1])
+    inside = shapely.contains_xy(prepared(room.region), points[:, 0], points[:, 1])
     if not inside.any():
         raise RecipeError(
             "emit",
@@ -284,4 +284,4 @@ def _within(region: Outline) -> FloatArray:
         np.arange(left + step / 2, right, step), np.arange(top + step / 2, bottom, step)
     )
     points = np.column_stack([x.ravel(), y.ravel()])
-    return np.asarray(points[shapely.contains_xy(region.region, points[:, 0], points[:, 1])])
+    return np.asarray(points[shapely.contains_xy(prepared(region.region), *points.T)])
