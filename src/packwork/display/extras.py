@@ -15,7 +15,7 @@ import numpy as np
 from packwork.errors import PackworkError
 from packwork.geometry.outline import Outline
 from packwork.installed import command_to_install
-from packwork.readers.tables.cells import as_number, is_missing, is_numeric
+from packwork.readers.tables.cells import as_number, is_missing, is_numeric, is_time
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import representative_colour
 
@@ -133,7 +133,7 @@ def _cells(cells: Sequence[Any]) -> list[Any]:
     """
     held = [None if is_missing(cell) else cell for cell in cells]
     texts = [cell for cell in held if isinstance(cell, str)]
-    if any(_CODE.match(text) or np.isnan(as_number(text)) for text in texts):
+    if any(_CODE.match(text) or is_time(text) or np.isnan(as_number(text)) for text in texts):
         return held
     return [_number(cell) if isinstance(cell, str) else cell for cell in held]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 import math
-from datetime import timedelta
 from pathlib import Path
 
 import pytest
@@ -501,26 +500,3 @@ def test_any_cells_are_numbers_or_refused(cells: list[str]) -> None:
 def test_what_is_written_with_groups_is_read_back(number: float, decimal: str, group: str) -> None:
     text = f"{number:,.4f}".replace(",", "g").replace(".", decimal).replace("g", group)
     assert written_numbers([text], "t", "n", asked=decimal) == [float(f"{number:.4f}")]
-
-
-@pytest.mark.parametrize(
-    ("cells", "hours"),
-    [
-        (["8:00", "0:45", ""], [8.0, 0.75, math.nan]),
-        (["1:30:00", "0:00:36"], [1.5, 0.01]),
-        ([timedelta(minutes=90), timedelta(days=1)], [1.5, 24.0]),
-        (["1:02:00", "57:00"], [math.nan, math.nan]),
-        (["8:00", "3"], [math.nan, 3.0]),
-        (["8:60"], [math.nan]),
-    ],
-)
-def test_lengths_of_time_are_hours(cells: list[object], hours: list[float]) -> None:
-    assert written_numbers(cells, "t.csv", "time") == pytest.approx(hours, nan_ok=True)
-
-
-def test_lengths_of_time_are_weights_and_sizes(tmp_path: Path) -> None:
-    file = tmp_path / "t.csv"
-    file.write_text("task,time\nSleep,8:00\nSport,0:45\n", encoding="utf-8")
-    assert read_weights(str(file), TableFormat()) == {"Sleep": 8.0, "Sport": 0.75}
-    table = read_table(str(file)).with_numbers("time", None, whole=True)
-    assert [row["time"].number for row in table.rows] == [8.0, 0.75]

@@ -171,7 +171,7 @@ def columns_of(path: str, container: Container | None = None) -> dict[str, Any]:
     table, named = read_table(path), part_names(container) if container else []
     columns, rows = list[dict[str, Any]](), list[list[str]]()
     for name in table.columns[:MOST_COLUMNS]:
-        cells = [row.get(name) for row in table.with_numbers(name, None, whole=False).rows]
+        cells = [row.get(name) for row in table.with_numbers(name, None, whole=True).rows]
         held = [cell for cell in cells if not is_missing(cell)]
         numbers = sum(not math.isnan(any_number(cell)) for cell in held)
         values = {cell_text(cell) for cell in held}

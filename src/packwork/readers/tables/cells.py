@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import timedelta
 from typing import Any
 
 from packwork.errors import ReadError
@@ -210,11 +209,8 @@ def written_numbers(
     if figures and all(_MONTH.fullmatch(text.strip()) for text in texts if text.strip()):
         # Months of years, as 03.2024.
         figures = {}
-    if not figures and (hours := durations(text for text in texts if not is_blank(text))):
-        return [
-            hours.get(cell, math.nan) if isinstance(cell, str) else _as_it_is(cell)
-            for cell in cells
-        ]
+    if hours := durations(cell for cell in cells if not is_blank(cell)):
+        return [hours.get(cell, math.nan) for cell in cells]
     _check_units(cells, figures, file, column)
     decimal = asked or _decimal(texts, figures, file, column, usual)
     numbers = {
@@ -227,8 +223,6 @@ def written_numbers(
 
 
 def _as_it_is(cell: object) -> float:
-    if isinstance(cell, timedelta):
-        return cell / timedelta(hours=1)
     if isinstance(cell, bool) or not isinstance(cell, int | float):
         return math.nan
     try:
@@ -339,8 +333,13 @@ def any_number(cell: Any) -> float:
         return math.nan
 
 
+def is_time(cell: Any) -> bool:
+    """Whether a cell that knows its number is written as a length of time."""
+    return isinstance(cell, Written) and ":" in cell
+
+
 def is_numeric(rows: Sequence[Mapping[str, Any]], column: str) -> bool:
-    """Whether all cells of a column that hold something are numbers.
+    """Whether all cells of a column that hold something are numbers: not so times, as ``8:00``.
 
     Examples
     --------
@@ -349,7 +348,7 @@ def is_numeric(rows: Sequence[Mapping[str, Any]], column: str) -> bool:
     """
     cells = [row.get(column) for row in rows]
     held = [cell for cell in cells if not is_missing(cell)]
-    return bool(held) and not any(math.isnan(as_number(cell)) for cell in held)
+    return bool(held) and not any(math.isnan(as_number(cell)) or is_time(cell) for cell in held)
 
 
 def cell_text(cell: Any) -> str:

@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import MOST_COLUMNS, enumerated, no_column
-from packwork.readers.tables.cells import is_number_like, written_numbers
+from packwork.readers.tables.cells import is_blank, is_number_like, written_numbers
 from packwork.readers.tables.decoding import TableFormat, read_json
 from packwork.readers.tables.delimited import TextTable, check_size, sheet_of_file
+from packwork.readers.tables.durations import check_durations
 
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""
@@ -162,6 +163,7 @@ def _pairs(
     columns = [_columns(row, wanted) for _, row in rows]
     cells = [row.get(second) for (_, row), (_, second) in zip(rows, columns, strict=True)]
     name = next((second for _, second in columns), "weight")
+    check_durations([cell for cell in cells if not is_blank(cell)], file, name)
     numbers = written_numbers(cells, file, name, usual=usual, asked=asked.decimal)
     return Pairs(
         tuple(

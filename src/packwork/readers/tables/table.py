@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
+from datetime import timedelta
 from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
@@ -20,6 +21,7 @@ from packwork.readers.tables.delimited import (
     check_size,
     sheet_of_file,
 )
+from packwork.readers.tables.durations import check_durations, written_duration
 from packwork.readers.tables.parquet import rows_of_parquet
 from packwork.readers.tables.workbook import ending_of
 
@@ -79,6 +81,8 @@ class Table:
         cells = [row.get(column) for row in self.rows]
         if not any(isinstance(cell, str) for cell in cells):
             return self
+        if not whole:
+            check_durations([cell for cell in cells if not is_blank(cell)], self.name, column)
         try:
             numbers = written_numbers(
                 cells, self.name, column, usual=self.usual_decimal, asked=decimal
@@ -294,6 +298,8 @@ def _is_column(cells: Any) -> bool:
 def plain_row(row: Mapping[Any, Any]) -> dict[str, Any]:
     """Cells that files can hold: numbers and truth as they are, all else as its text.
 
+    Lengths of time as ``h:mm:ss``.
+
     Examples
     --------
     >>> import datetime
@@ -306,10 +312,14 @@ def plain_row(row: Mapping[Any, Any]) -> dict[str, Any]:
 def _cell(cell: Any) -> Any:
     # Scalars of NumPy alone: cells may hold whole arrays.
     value = cell.item() if getattr(cell, "shape", None) == () else cell
+    if isinstance(value, int) and getattr(cell, "dtype", None) is not None:
+        kind = cell.dtype.kind
+        # Days and lengths of time in nanoseconds, of which NumPy makes whole numbers.
+        value = cell.astype(f"{kind}8[us]").item() if kind in {"m", "M"} else value
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):
         # What is not there is not a number in frames.
         return None if value != value else value
-    text = str(value)
+    text = written_duration(value) if isinstance(value, timedelta) else str(value)
     return None if text in {"NaT", "<NA>"} else text

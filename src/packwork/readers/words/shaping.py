@@ -67,7 +67,8 @@ class ShapedWord:
         drawn, text = self.drawn, None
         if drawn.runs and not drawn.pictures:
             text = LiveText(drawn.runs, drawn.path, self.language)
-        label = Label(name=self.name, title=f"{self.name}: {self.word.weight:.6g}")
+        weight = self.word.written or f"{self.word.weight:.6g}"
+        label = Label(name=self.name, title=f"{self.name}: {weight}")
         art = _art(drawn, self.place)
         return Item(
             self.name, self.word.text, self.outline, self.ink, art, label, text,

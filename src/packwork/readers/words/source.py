@@ -366,8 +366,9 @@ def _merged(words: Iterable[Word]) -> list[Word]:
     for word in words:
         text = sound(word.text)
         before = found.get(text)
-        total = word.weight + (before.weight if before else 0.0)
-        found[text] = replace(before or word, text=text, weight=total)
+        if before:
+            word = replace(before, weight=before.weight + word.weight, written="")
+        found[text] = replace(word, text=text)
     return list(found.values())
 
 

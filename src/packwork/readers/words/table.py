@@ -12,6 +12,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.cells import is_blank, is_number_like
 from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.durations import durations
 from packwork.readers.tables.pairs import (
     MOST_NAMED,
     USUAL,
@@ -81,10 +82,15 @@ def words_of(table: Pairs, file: str, *, keeps_totals: bool = False) -> TableRea
     if sound and all(is_number_like(pair.name) for pair in sound):
         told.append("has numbers for words; --label-by names the column that has them")
     return TableRead(
-        tuple(Word(pair.name, pair.number, dict(pair.others)) for pair in sound),
+        tuple(Word(pair.name, pair.number, dict(pair.others), _time(pair)) for pair in sound),
         (*table.notices, *told),
         tuple(text for why, text in notices.items() if why not in _EMPTY),
     )
+
+
+def _time(pair: Pair) -> str:
+    """Weight of a pair as a length of time; empty if it is none."""
+    return str(pair.written).strip() if durations([pair.written]) else ""
 
 
 _EMPTY = frozenset({"without a weight", "whose weight is 0"})

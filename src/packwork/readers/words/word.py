@@ -17,11 +17,16 @@ class Word:
         As it is to be written; ``|`` begins a new line.
     weight
         Positive.
+    columns
+        Other cells of its row.
+    written
+        Weight as its table has it, if that is a length of time; else empty.
     """
 
     text: str
     weight: float
     columns: Mapping[str, str] = field(default_factory=dict)
+    written: str = ""
 
 
 def lines_of(text: str) -> list[str]:

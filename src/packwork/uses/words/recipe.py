@@ -6,6 +6,7 @@ import logging
 import os
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from datetime import timedelta
 from typing import Any
 
 from packwork.errors import RecipeError
@@ -105,7 +106,8 @@ def _plain_source(source: object, own: dict[str, Any]) -> object:
     if entries and all(isinstance(one, tuple | list) and len(one) == 2 for one in entries):
         return weights_by_word(entries)
     words = [word for one in entries if (word := _word(one)) is not None]
-    if words and all(isinstance(word, str) for word in words):
+    are_words = not any(isinstance(one, timedelta) for one in entries)
+    if are_words and words and all(isinstance(word, str) for word in words):
         return dict(Counter(words))
     if words and hasattr(source, "items"):
         return weights_by_word(source.items())
