@@ -132,6 +132,26 @@ def test_pens_that_are_none_are_refused(tmp_path: Path) -> None:
             read_written(tmp_path / "b.geojson")
 
 
+def test_numbers_of_a_drawing_that_mean_nothing_are_not_written_on(tmp_path: Path) -> None:
+    jar = replace(square_container(), pen=("#22304f", 1.5))
+    layout = Layout(jar, (flat_item("tile", square()),), poses([50.0], [50.0]), np.ones(1))
+    write(layout, tmp_path / "a.svg")
+    text = (tmp_path / "a.svg").read_text(encoding="utf-8")
+    assert 'stroke-width="1.5"' in text
+    for bad in ("-5", "0"):
+        file = tmp_path / "b.svg"
+        file.write_text(text.replace('stroke-width="1.5"', f'stroke-width="{bad}"'), "utf-8")
+        assert read_written(file).container.pen is None
+    ground = '<rect id="background" fill="#ff0000" fill-opacity="nan"/>'
+    file.write_text(text.replace('<g id="container"', f'{ground}<g id="container"'), "utf-8")
+    assert read_written(file).ground == ""
+    file.write_text(
+        text.replace('data-name="tile"', 'data-name="tile" data-weight="1e99"'), "utf-8"
+    )
+    with pytest.raises(ReadError, match="no number from 0 to 1e"):
+        read_written(file)
+
+
 def test_walls_that_are_none_are_refused(tmp_path: Path) -> None:
     layout = Layout(
         opened(square_container(), ["top"], None, 50.0).container, (), poses([], []), np.ones(0)

@@ -18,6 +18,7 @@ from packwork.geometry.polygon import Region
 from packwork.geometry.rectangles import exact_boxes
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
+from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE
 from packwork.scene.container import Backdrop, Container, repeating
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout, Note, ground_in
@@ -119,7 +120,7 @@ def sound_weight(text: str) -> float:
     >>> sound_weight("2.5")
     2.5
     """
-    return _sound_number(text, "weight", "no number from 0")
+    return _sound_number(text, "weight", f"no number from 0 to {MAX_COORDINATE:g}")
 
 
 def sound_gap(text: str) -> float:
@@ -138,7 +139,7 @@ def _sound_number(text: str, what: str, instead: str) -> float:
         number = float(text)
     except ValueError:
         number = math.nan
-    if not (math.isfinite(number) and number >= 0):
+    if not 0 <= number <= MAX_COORDINATE:
         raise UnfitError(f"states the {what} {text[:20]!r}, which is {instead}")
     return number
 

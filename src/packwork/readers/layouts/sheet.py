@@ -100,9 +100,9 @@ def ground_of(root: ET.Element) -> str:
     try:
         channels = css_colour(rect.get("fill", ""))
         opacity = min(max(float(rect.get("fill-opacity", "1")), 0.0), 1.0)
+        return hex_colour((*channels[:3], round(channels[3] * opacity)))
     except ValueError:
         return ""
-    return hex_colour((*channels[:3], round(channels[3] * opacity)))
 
 
 def backdrop_of(root: ET.Element, arts: Arts, to_canvas: FloatArray) -> Backdrop | None:

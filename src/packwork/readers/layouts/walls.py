@@ -9,7 +9,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.layouts.foreign_svg import tag
-from packwork.readers.svg_syntax.coordinates import parse_length
+from packwork.readers.svg_syntax.coordinates import MAX_COORDINATE, parse_length
 from packwork.readers.svg_syntax.shapes import points_of
 from packwork.scene.layout import is_hex
 
@@ -25,6 +25,7 @@ def walls_of(group: ET.Element, place: FloatArray) -> tuple[FloatArray, ...] | N
 
 def pen_of(group: ET.Element, scale: float) -> tuple[str, float] | None:
     """Colour and width of a container's line; None where none is seen."""
-    colour, width = group.get("stroke", "").lower(), parse_length(group.get("stroke-width"), 0.0)
+    colour = group.get("stroke", "").lower()
+    width = scale * (parse_length(group.get("stroke-width"), 0.0) or 0.0)
     is_seen = group.get("display") != "none" and is_hex(colour)
-    return (colour, width * scale) if is_seen and width else None
+    return (colour, width) if is_seen and 0 < width <= MAX_COORDINATE else None
