@@ -141,9 +141,6 @@ def _address(folder: Path, process: subprocess.Popen[bytes]) -> str:
     raise AssertionError("JupyterLab has not started")
 
 
-PICTURES = "[...document.querySelectorAll('.jp-OutputArea img')].map((one) => one.offsetWidth > 99)"
-
-
 def test_two_widgets_of_a_notebook_are_worked_on_and_saved(lab: Lab) -> None:
     lab.run("notebook:run-all-cells")
     for number in range(2):

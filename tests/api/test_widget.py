@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 import packwork as pw
+from packwork.api import widget
 from packwork.api.widget import STYLE, Desk, module_text, page_modules
+from packwork.display.picture import still_html
 from studio.browsing import browser_path, chromium
 
 pytestmark = pytest.mark.xdist_group("browser")
@@ -184,9 +189,9 @@ def test_several_gestures_leave_nothing_behind(notebook: Notebook) -> None:
 def test_a_widget_has_the_present_layout() -> None:
     pytest.importorskip("anywidget")
     layout = pw.fill("circle", "star", count=4, effort="draft", levels="16")
-    widget = layout.widget()
-    assert widget.layout == layout
-    item = int(widget.session.document.ids[0])
+    one = layout.widget()
+    assert one.layout == layout
+    item = int(one.session.document.ids[0])
     for n, command in enumerate(
         [
             {"kind": "grab", "items": [item]},
@@ -194,10 +199,80 @@ def test_a_widget_has_the_present_layout() -> None:
             {"kind": "drop"},
         ]
     ):
-        widget._handle_custom_msg({"type": "do", "n": n, "command": command}, [])
-    assert widget.layout.poses.x[0] == 300.0
-    assert json.loads(widget.state)["is"] == "certified"
-    assert len(widget.frame) == 16 + 4 * 4 * 4
+        one._handle_custom_msg({"type": "do", "n": n, "command": command}, [])
+    assert one.layout.poses.x[0] == 300.0
+    assert json.loads(one.state)["is"] == "certified"
+    assert len(one.frame) == 16 + 4 * 4 * 4
+
+
+class FakeWidget:
+    """What a widget of anywidget does without a page."""
+
+    def __init__(self, **values: Any) -> None:
+        self.__dict__ |= values
+        self.answer: Any = ({"text/plain": "widget"}, {})
+
+    def on_msg(self, hear: Callable[..., object]) -> None:
+        self.hear = hear
+
+    def hold_sync(self) -> AbstractContextManager[None]:
+        return nullcontext()
+
+    def _repr_mimebundle_(self) -> Any:
+        return self.answer
+
+    def close(self) -> None:
+        self._repr_mimebundle_ = None  # type: ignore[assignment,method-assign]
+
+
+@pytest.fixture
+def shown(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[tuple[str, dict[str, str]]]]:
+    """What a notebook, which is not there, is shown: how, and the data by their types."""
+    found: list[tuple[str, dict[str, str]]] = []
+    trait = SimpleNamespace(tag=lambda **_: "")
+    fakes = {
+        "anywidget": {"AnyWidget": FakeWidget},
+        "traitlets": {"Unicode": lambda: trait, "Bytes": lambda: trait},
+        "IPython": {},
+        "IPython.display": {
+            "display": lambda data, **_: found.append(("new", data)),
+            "update_display": lambda data, **_: found.append(("again", data)),
+        },
+    }
+    for name, values in fakes.items():
+        monkeypatch.setitem(sys.modules, name, SimpleNamespace(**values))  # type: ignore[arg-type]
+    widget._widgets.cache_clear()
+    yield found
+    widget._widgets.cache_clear()
+
+
+def test_the_picture_that_is_saved_is_of_the_layout_as_it_is(
+    shown: list[tuple[str, dict[str, str]]], dozen: pw.Layout
+) -> None:
+    one = dozen.widget()
+    one.show()
+    assert not shown
+    one._ipython_display_()
+    assert shown[0] == ("new", {"text/plain": "widget"})
+    assert shown[1] == ("new", {"text/html": still_html(dozen, one.still)})
+    one.session.move(0, 300, 300)
+    one.show()
+    one.show()
+    assert shown[2:] == [("again", {"text/html": still_html(one.layout, one.still)})]
+    assert shown[2] != shown[1]
+
+
+@pytest.mark.parametrize("answer", [None, {"text/plain": "widget"}, "closed"])
+def test_a_widget_without_a_view_shows_its_picture(
+    shown: list[tuple[str, dict[str, str]]], dozen: pw.Layout, answer: Any
+) -> None:
+    one = dozen.widget()
+    one.answer = answer
+    if answer == "closed":
+        one.close()
+    one._ipython_display_()
+    pictures = [("new", {"text/html": still_html(dozen, one.still)})]
+    assert shown == [("new", answer)] * isinstance(answer, dict) + pictures
 
 
 def test_the_notebook_among_the_examples_runs() -> None:

@@ -206,8 +206,11 @@ def _widgets() -> Any:
             put({"text/html": still_html(self.layout, self.still)}, raw=True, display_id=self.still)
 
         def _ipython_display_(self) -> None:
-            data, metadata = self._repr_mimebundle_()
-            display.display(data, metadata=metadata, raw=True)
+            # A widget that is closed has no such method, and one without a view no answer.
+            shown = self._repr_mimebundle_() if self._repr_mimebundle_ else None
+            data, metadata = shown if isinstance(shown, tuple) else (shown, None)
+            if data:
+                display.display(data, metadata=metadata, raw=True)
             self._draw(display.display)
 
     return Widget
