@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 import shapely
 import shapely.affinity
@@ -148,7 +149,12 @@ def test_parts_that_leave_room_for_no_other_have_a_sheet_each() -> None:
     [
         (100, "star", "sheet: use a size such as '600x400mm', not 100"),
         ((100, 50), "star", "sheet: use a size such as '600x400mm', not (100, 50)"),
+        (np.array([100, 50]), "star", "sheet: use a size such as '600x400mm', not [100, 50]"),
+        ([100, "50mm"], "star", "sheet: use a size such as '600x400mm', not [100, '50mm']"),
         ("100mm", {"star": -3}, "parts: a count is -3; use 0 or more"),
+        ("100mm", {"star": 2.5}, "parts: a count is 2.5; use a whole number such as 3"),
+        ("100mm", {"star": "3"}, "parts: a count is '3'; use a whole number such as 3"),
+        ("100mm", [(TILE, 2.5)], "parts: a count is 2.5; use a whole number such as 3"),
     ],
 )
 def test_numbers_that_mean_nothing_are_refused(sheet: object, parts: object, said: str) -> None:

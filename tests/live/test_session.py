@@ -379,6 +379,10 @@ def test_sizes_in_proportion_stay_so() -> None:
         (lambda s: s.flow(), r"give epochs or milliseconds"),
         (lambda s: s.rename(0, ""), r"name"),
         (lambda s: s.turn(77, 5), r"there is no item 77"),
+        (lambda s: s.hold(np.array(77)), r"there is no item 77"),
+        (lambda s: s.hold(b"ab"), r"list of these, not a bytes"),
+        (lambda s: s.hold({"star": 1}), r"list of these, not a dict"),
+        (lambda s: s.hold(np.array([True, False])), r"list of these, not a bool"),
     ],
 )
 def test_what_has_no_meaning_is_one_line_and_changes_nothing(

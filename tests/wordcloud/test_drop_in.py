@@ -44,6 +44,11 @@ def fresh_warnings() -> Iterator[None]:
     cloud_module._warned.update(before)
 
 
+def test_a_cloud_says_what_it_is(cloud: WordCloud) -> None:
+    assert repr(cloud) == "<WordCloud: 4 words>"
+    assert repr(WordCloud()) == "<WordCloud: 0 words>"
+
+
 def test_frequencies_are_relative_to_the_first_and_all_words_are_there(cloud: WordCloud) -> None:
     assert cloud.words_ == {"honey": 1.0, "bear": 0.5, "bee": 0.25, "wood": 0.125}
     assert [entry[0] for entry in cloud.layout_] == list(cloud.words_.items())

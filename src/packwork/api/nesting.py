@@ -11,6 +11,8 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
+import numpy as np
+
 from packwork import writers
 from packwork.api.layout import Layout, public
 from packwork.errors import RecipeError
@@ -206,25 +208,27 @@ def _pairs(parts: Parts) -> Iterator[tuple[Part, int]]:
     """Parts, each with its count."""
     if isinstance(parts, Mapping):
         yield from parts.items()
-    elif isinstance(parts, str | os.PathLike | Item | Outline) or hasattr(parts, "geom_type"):
+    elif isinstance(parts, str | os.PathLike | Item | Outline) or not isinstance(parts, Iterable):
         yield parts, 1
     else:
         several: Iterable[Any] = [parts] if _is_pair(parts) else parts
         for one in several:
-            yield (one[0], int(one[1])) if _is_pair(one) else (one, 1)
+            yield one if _is_pair(one) else (one, 1)
 
 
 def _is_pair(value: Any) -> bool:
-    return isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], Integral)
+    is_two = isinstance(value, tuple) and len(value) == 2
+    return is_two and isinstance(value[1], Real) and not isinstance(value[0], Real)
 
 
 def _sheets(sheet: Any) -> list[nested.Sheet]:
     if isinstance(sheet, str | os.PathLike):
         return read_sheets(os.fspath(sheet))
-    if isinstance(sheet, Real) or (
-        isinstance(sheet, Sequence) and all(isinstance(side, Real) for side in sheet)
+    sides = sheet.tolist() if isinstance(sheet, np.ndarray) else sheet
+    if isinstance(sides, Real | bytes) or (
+        isinstance(sides, Sequence) and all(isinstance(side, Real | str) for side in sides)
     ):
-        raise RecipeError("sheet", f"use a size such as '600x400mm', not {sheet!r:.40}")
+        raise RecipeError("sheet", f"use a size such as '600x400mm', not {sides!r:.40}")
     ground = sheet if isinstance(sheet, Container) else Container("sheet", outline=sheet)
     return [
         nested.Sheet(height=ground.height, length=ground.width, unit=ground.unit,
@@ -236,8 +240,9 @@ def _parts(
     part: Part, count: int, unit: Unit, *, rotate: str, mirror: bool, holes: Any,
     engraving: Engraving, optional: bool,
 ) -> Iterator[nested.SheetPart]:  # fmt: skip
-    if count < 0:
-        raise RecipeError("parts", f"a count is {count}; use 0 or more")
+    if not isinstance(count, Integral) or count < 0:
+        whole = "0 or more" if isinstance(count, Integral) else "a whole number such as 3"
+        raise RecipeError("parts", f"a count is {count!r:.40}; use {whole}")
     if isinstance(part, str | os.PathLike):
         text = os.fspath(part) if count == 1 else f"{os.fspath(part)}*{count}"
         yield from read_parts(

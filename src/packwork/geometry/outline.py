@@ -115,7 +115,9 @@ class Outline:
             return cls.from_region(valid(shapely.force_2d(shape)))
         try:
             rings = [as_points(shape)]
-        except (ShapeError, TypeError, ValueError):
+        except (TypeError, ValueError) as error:
+            if isinstance(error, ShapeError) and np.shape(shape)[1:] == (2,):
+                raise
             rings = _several_rings(shape)
         return cls.from_region(region(rings, "evenodd"))
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import fnmatch
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from numbers import Integral
 from typing import TypeAlias
+
+import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.live.document import Document
@@ -24,9 +26,15 @@ _COPY = re.compile(r"(?P<name>.+)#(?P<copy>[1-9][0-9]{0,5})")
 
 def find_items(document: Document, which: Which) -> tuple[int, ...]:
     """Numbers of the items that a name means, in their order."""
+    if isinstance(which, np.ndarray) and which.ndim == 0:
+        return find_items(document, which.item())
+    is_frame = isinstance(which, bytes | Mapping) or hasattr(which, "columns")
+    if is_frame or isinstance(which, bool | np.bool_):
+        kind = type(which).__name__
+        raise RecipeError("item", f"give a name, a number or a list of these, not a {kind}")
     if isinstance(which, Iterable) and not isinstance(which, str):
         return tuple(dict.fromkeys(k for one in which for k in find_items(document, one)))
-    if isinstance(which, Integral) and not isinstance(which, bool):
+    if isinstance(which, Integral):
         if document.index(int(which)) is None:
             numbers = f"{document.ids.min()} to {document.ids.max()}"
             raise RecipeError("item", f"there is no item {which}; numbers go from {numbers}")

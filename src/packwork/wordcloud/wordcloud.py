@@ -18,6 +18,7 @@ from PIL import Image, ImageDraw
 
 from packwork import writers
 from packwork.fonts import bundled_file
+from packwork.phrasing import number_of
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.words.shaping import EM_PX
 from packwork.scene.layout import Layout
@@ -352,10 +353,11 @@ class WordCloud:
             _LOG.warning("not placed: %s: %s", word[:40], reason)
         small = asked - len(found.entries) - len(found.undrawn)
         if small:
-            _LOG.warning(
-                "%d of %d words are left out: they would be smaller than min_font_size, %s",
-                small, asked, self.min_font_size,
-            )  # fmt: skip
+            told = "%d of %d words are left out: they would be smaller than min_font_size, %s"
+            _LOG.warning(told, small, asked, self.min_font_size)
+
+    def __repr__(self) -> str:
+        return f"<WordCloud: {number_of(len(getattr(self, 'layout_', ())), 'word')}>"
 
     def _check_generated(self) -> None:
         if not hasattr(self, "_placed"):
