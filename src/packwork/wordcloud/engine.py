@@ -274,13 +274,14 @@ class _ReadCloud:
         # Powers of two, as words are remembered by them.
         most = np.maximum(np.cumprod(self._steps) * largest, 1.0)
         ems = np.exp2(np.ceil(np.log2(most / SHOWN_PX)))
+        has_kinds = len(set(self._words)) > 1
         for number in range(len(self._words)):
             step *= self._steps[number]
             word = self._word(number, float(ems[number]))
             if word is None:
                 continue
             self.numbers.append(number)
-            kind = self._words[number]
+            kind = self._words[number] if has_kinds else None
             yield Candidate(word.outline, step, self._angles_of(number), WORD_SPACE, kind)
             step = 1.0
 

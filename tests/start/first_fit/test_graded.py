@@ -248,6 +248,16 @@ def test_copies_of_a_word_stand_apart() -> None:
     assert 4 * met(has_kinds=True) < met(has_kinds=False)
 
 
+def test_an_item_that_another_comes_before_takes_its_step_once() -> None:
+    """The first of a rank stands beside its copy wherever it goes, the next does not."""
+    container, tile = Container("", "", box(0, 0, 54, 54), 54.0, 54.0), box(-1, -1, 1, 1)
+    steps, kinds = (10.0, 0.8, 1.0), "aab"
+    asked = [Candidate(tile, step, kind=kind) for step, kind in zip(steps, kinds, strict=True)]
+    found = graded_fit(container, asked, 3, np.random.default_rng(0))
+    assert found.placed.tolist() == [0, 2, 1]
+    assert found.poses.scale == pytest.approx([10.0, 8.0, 8.0])
+
+
 def test_copies_between_others_stand_apart_from_those_too() -> None:
     container, tile = builtin_container("circle"), box(-3, -1, 3, 1)
     middle = 0.5 * container.side

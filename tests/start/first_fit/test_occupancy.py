@@ -151,6 +151,25 @@ def test_smeared_rows_tell_of_any_pixel_within_their_box(seed: int, width: int) 
 
 
 @given(st.integers(0, 2**32))
+def test_places_beside_spans_are_kept_only_where_there_are_no_others(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    free = rng.random((40, 192)) < rng.choice([0.01, 0.3, 1.0])
+    height, width = map(int, rng.integers(1, 30, size=2))
+    gap = min(height, width)
+    first = rng.integers(-5, (40, 192), size=(rng.integers(5), 2))
+    end = first + rng.integers(1, 70, size=first.shape)
+    apart = free.copy()
+    for (top, left), (bottom, right) in zip(first, end, strict=True):
+        rows = slice(max(top - height - gap, 0), bottom + gap)
+        apart[rows, max(left - width - gap, 0) : right + gap] = False
+    bits = np.packbits(free, axis=1, bitorder="little").view("<u8")
+    spans = np.stack([first[:, 0], end[:, 0], first[:, 1], end[:, 1]], axis=1)
+    assert row_bits.keep_off(spans, height, width, bits) == apart.any()
+    found = np.unpackbits(bits.view(np.uint8), axis=1, bitorder="little").astype(bool)
+    assert (found == (apart if apart.any() else free)).all()
+
+
+@given(st.integers(0, 2**32))
 def test_boxes_cover_a_mask_and_nothing_else(seed: int) -> None:
     rng = np.random.default_rng(seed)
     mask = rng.random(rng.integers(1, 40, size=2)) < rng.choice([0.5, 0.95, 1.0])

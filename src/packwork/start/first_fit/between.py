@@ -59,11 +59,13 @@ def fit_between(
             place = board.find(candidates[k], sizes[k])
             if place is None:
                 left.remove(k)
-            elif not place.is_beside:
+                continue
+            # What finds no place now finds none later.
+            sizes[k] = [size for size in sizes[k] if size <= place.pose[3]]
+            if not place.is_beside:
                 found = k, place
                 break
-            else:
-                found = found or (k, place)
+            found = found or (k, place)
         if found is not None:
             k, place = found
             board.put(place)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate, islice
 
@@ -156,6 +156,8 @@ class GreedyPlacement:
         self._number = self._missed = 0
         self._most = 0.0
         self._is_held = True
+        # Sizes from which on a kind has no place but beside a copy: others only take room.
+        self._met = dict[Hashable, float]()
         self.least_share = 1.0
         """Smallest size over the one that an item might have had."""
 
@@ -198,6 +200,8 @@ class GreedyPlacement:
         downwards = sizes_down(most, max(least, self.grid), self.grid, self._drop)
         sizes = [size for size in downwards if size <= held]
         turn, place = self._next(waiting, coming, sizes)
+        # Its step is taken, though another may come before it.
+        waiting[0] = waiting[0][0], replace(first, step=1.0)
         number, candidate = waiting[turn]
         del waiting[turn]
         if self._number < LEADING:
@@ -228,19 +232,20 @@ class GreedyPlacement:
         first = self._board.find(waiting[0][1], sizes)
         if first is None or not first.is_beside:
             return 0, first
-        tried = {waiting[0][1].kind}
+        self._met[waiting[0][1].kind] = first.pose[3]
+        near = [size for size in sizes if size >= NEARLY * first.pose[3]]
         for turn in range(1, AHEAD):
             if turn == len(waiting):
                 waiting.extend(islice(coming, 1))
             if turn == len(waiting) or waiting[turn][1].step != 1.0:
                 break
             candidate = waiting[turn][1]
-            if candidate.kind in tried:
+            if self._met.get(candidate.kind, math.inf) <= sizes[0]:
                 continue
-            tried.add(candidate.kind)
-            place = self._board.find(candidate, [s for s in sizes if s >= NEARLY * first.pose[3]])
+            place = self._board.find(candidate, near)
             if place is not None and not place.is_beside:
                 return turn, place
+            self._met[candidate.kind] = place.pose[3] if place else near[-1]
         return 0, first
 
     def _again(self, size: float, wanted: float) -> float:

@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import copy
 import math
-from collections import defaultdict
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
-from packwork.arrays import BoolArray, FloatArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.distance_transform import distance_inside, distance_to
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
@@ -37,9 +35,6 @@ from packwork.start.first_poses import container_image
 
 PoseRow: TypeAlias = tuple[float, float, float, float]
 """x, y, angle, scale."""
-
-_Span: TypeAlias = tuple[int, int, int, int]
-"""First row and end, first column and end of pixels."""
 
 PIXELS_EACH = 45
 """Pixels of the image's side for each item of a row of them. More waste less room between items and
@@ -128,6 +123,24 @@ def image_side(count: int, least: int = LEAST_PX, most: int = MOST_PX) -> int:
     return min(max(round(PIXELS_EACH * math.sqrt(count)), least), most)
 
 
+NONE: IntArray = np.empty((0, 4), dtype=np.int64)
+
+
+class _Kin:
+    """Copies of one kind, ``spans`` ``(n, 4)``: first row and end, first column and end."""
+
+    is_met = False
+    """Whether there were only places beside one of them."""
+
+    def __init__(self, spans: IntArray) -> None:
+        self._spans = spans
+
+    def keep_off(self, stencil: Stencil, free: Bits) -> None:
+        """Clear places that leave no room for a line before a copy, unless there are no others."""
+        if len(self._spans):
+            self.is_met = not row_bits.keep_off(self._spans, *stencil.mask.shape, free)
+
+
 def _inwards(clearance: FloatArray) -> FloatArray:
     """Depth of each pixel, 0 to 1: 1 in the middle of where the container is widest.
 
@@ -141,16 +154,6 @@ def _inwards(clearance: FloatArray) -> FloatArray:
     away = np.hypot(rows - middle[0], columns - middle[1])
     farthest = max(float(away[clearance > 0].max(initial=0.0)), 1.0)
     return np.asarray((clearance / widest + 1 - away / farthest) / 2)
-
-
-def _not_in(spans: Sequence[_Span], stencil: Stencil, free: Bits) -> None:
-    """Clear places within the spans, unless there are no others."""
-    kept, column = free.copy(), np.arange(64 * free.shape[1])
-    for top, bottom, left, right in spans:
-        outside = np.packbits((column < left) | (column >= right), bitorder="little").view("<u8")
-        kept[top:bottom] &= outside
-    if kept.any():
-        free[:] = kept
 
 
 class GreedyBoard:
@@ -184,7 +187,7 @@ class GreedyBoard:
         self._occupancy = Occupancy(self._free, REACH)
         self._room = self._left = int(self._free.sum())
         self._first = 0.0
-        self._kinds = defaultdict[Hashable, list[_Span]](list)
+        self._kinds = dict[Hashable, IntArray]()
         far_px = FAR * container.outline.extent * self._px_per_cu
         self._bareness = Bareness(self._free, far_px)
 
@@ -199,7 +202,7 @@ class GreedyBoard:
         other._occupancy = Occupancy(self._free, REACH)
         other._left, other._first, other.is_loose = self._room, 0.0, False
         other._bareness = self._bareness.emptied()
-        other._kinds = defaultdict(list)
+        other._kinds = {}
         return other
 
     def lay(self, outline: Outline, kind: Hashable = None) -> None:
@@ -244,28 +247,17 @@ class GreedyBoard:
                 continue
             mask, origin = covered(posed, self._reach, is_quick=True)
             wide = self._with_room(mask, origin, candidate.apart, scale, angle)
-            beside = self._beside(candidate.kind, wide)
-            keep = partial(_not_in, beside) if beside else None
+            kin = _Kin(self._kinds.get(candidate.kind, NONE))
             found = self._occupancy.best_place(
-                wide, self._noise, is_everywhere, field, pull, keep=keep
+                wide, self._noise, is_everywhere, field, pull, keep=kin.keep_off
             )
             if found is not None:
                 _, top, left = found
                 row, column = top + wide.origin[0], left + wide.origin[1]
                 pose = column / self._px_per_cu, row / self._px_per_cu, angle, scale
-                is_beside = any(a <= top < b and c <= left < d for a, b, c, d in beside)
                 at = row - origin[0], column - origin[1]
-                return BoardPlace(mask, *at, pose, candidate.kind, is_beside)
+                return BoardPlace(mask, *at, pose, candidate.kind, kin.is_met)
         return None
-
-    def _beside(self, kind: Hashable, stencil: Stencil) -> list[_Span]:
-        """Spans that the corner of its box keeps out of, so that a line fits between its kind."""
-        height, width = stencil.mask.shape
-        gap = min(height, width)
-        return [
-            (max(top - height - gap, 0), bottom + gap, max(left - width - gap, 0), right + gap)
-            for top, bottom, left, right in self._kinds[kind]
-        ]
 
     def _with_room(
         self,
@@ -304,7 +296,8 @@ class GreedyBoard:
 
     def _take(self, mask: BoolArray, row: int, column: int, kind: Hashable) -> None:
         if kind is not None:
-            self._kinds[kind].append((row, row + mask.shape[0], column, column + mask.shape[1]))
+            span = [row, row + mask.shape[0], column, column + mask.shape[1]]
+            self._kinds[kind] = np.append(self._kinds.get(kind, NONE), [span], axis=0)
         self._occupancy.take(mask, row, column)
         self._bareness.cover(mask, row, column)
         self._left -= int(mask.sum())

@@ -275,11 +275,13 @@ def _candidates(job: Job, words: _Ranked, first: float, share: float) -> Iterato
     rng = np.random.default_rng(job.plan.seed)
     steps = words.steps(share)
     steps[0] = first
+    has_kinds = len(set(job.items)) > 1
     for k, unit, step in zip(words.order, words.unit, steps, strict=True):
         outline = job.items[k].outline
         if unit != 1:
             outline = outline.mapped(similarity(0.0, 0.0, 0.0, float(unit)))
-        yield Candidate(outline, float(step), angles_of(job.plan.rotation, rng), kind=job.items[k])
+        kind = job.items[k] if has_kinds else None
+        yield Candidate(outline, float(step), angles_of(job.plan.rotation, rng), kind=kind)
 
 
 def angles_of(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:

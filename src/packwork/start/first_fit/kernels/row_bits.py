@@ -159,6 +159,32 @@ def _without(rows, at, j, k, first, last, before, free, y, begin, end):
 
 
 @kernel
+def keep_off(spans, height, width, free):
+    """Clear bits for the corner of a box whose lesser side does not fit between it and any span.
+
+    ``spans``: ``(n, 4)`` first row and end, first column and end. Returns whether any bit is left;
+    where none is, all stay as they were.
+    """
+    kept = free.copy()
+    gap = min(height, width)
+    for s in range(len(spans)):
+        left = max(spans[s, 2] - width - gap, 0)
+        right = min(spans[s, 3] + gap, 64 * free.shape[1])
+        for i in range(left >> 6, -(-right // 64)):
+            outside = ~(ALL << np.uint64(max(left - 64 * i, 0)))
+            if right < 64 * i + 64:
+                outside |= ALL << np.uint64(right - 64 * i)
+            for y in range(
+                max(spans[s, 0] - height - gap, 0), min(spans[s, 1] + gap, free.shape[0])
+            ):
+                kept[y, i] &= outside
+    is_left = kept.any()
+    if is_left:
+        free[:] = kept
+    return is_left
+
+
+@kernel
 def spread(mask, down, across):
     """Return a mask, so many pixels larger on each side, of the pixels in a box about one of it.
 
