@@ -11,6 +11,7 @@ from packwork.errors import PackworkError, ReadError
 from packwork.readers.charts import ChartOptions
 from packwork.readers.cut_list import read_cut_list
 from packwork.readers.tables import workbook
+from packwork.readers.tables.durations import durations
 from packwork.readers.tables.pairs import read_weights
 from packwork.readers.tables.shown import BUILT_IN, shown_by, written
 from packwork.readers.tables.table import read_table
@@ -146,7 +147,9 @@ def test_days_and_shares_are_as_they_are_shown(tmp_path: Path, properties: str, 
         ("[$-409][Red]d mmm", "45352", "2024-03-01"),
         ("0\\ h", "1.75", "1.75"),
         ('0" d;"', "1.75", "1.75"),
-        ("h:mm:ss.00", "0.5", "12:00"),
+        ("h:mm:ss.00", "0.5", "12:00:00"),
+        ("h:mm:ss AM/PM", "0.16736111111111", "04:01:00"),
+        ("h:mm AM/PM", "0.16736111111111", "04:01"),
         ("yyyy-mm-dd", "1", "1900-01-01"),
         ("yyyy-mm-dd", "59", "1900-02-28"),
         ("yyyy-mm-dd", "61", "1900-03-01"),
@@ -167,7 +170,13 @@ def test_days_past_the_last_one_of_1904_are_numbers() -> None:
 
 
 def test_built_in_formats_of_lengths_of_time() -> None:
-    assert [BUILT_IN[k] for k in (20, 21, 45, 46, 47)] == ["time"] * 2 + ["seconds"] * 3
+    assert [BUILT_IN[k] for k in range(18, 22)] == ["time", "clock"] * 2
+    assert [BUILT_IN[k] for k in (45, 46, 47)] == ["seconds"] * 3
+
+
+def test_one_time_of_full_minutes_is_alike_those_of_its_column() -> None:
+    cells = [written(number, BUILT_IN[21]) for number in ("0.13339120370370", "0.16736111111111")]
+    assert list(durations(cells)) == ["03:12:05", "04:01:00"]
 
 
 @pytest.mark.parametrize(

@@ -13,12 +13,15 @@ from typing import Literal, TypeAlias
 LONGEST_FORMAT = 255
 """Letters of a number format, as Excel has it."""
 
-Shown: TypeAlias = Literal["number", "share", "date", "time", "duration", "seconds", "year"]
+Shown: TypeAlias = Literal[
+    "number", "share", "date", "time", "clock", "duration", "seconds", "year"
+]
 
 BUILT_IN: dict[int, Shown] = {
     **dict.fromkeys((9, 10), "share"),
     **dict.fromkeys((*range(14, 18), 22, *range(27, 37), *range(50, 59)), "date"),
-    **dict.fromkeys(range(18, 22), "time"),
+    **dict.fromkeys((18, 20), "time"),
+    **dict.fromkeys((19, 21), "clock"),
     **dict.fromkeys(range(45, 48), "seconds"),
 }
 """Number formats that files name by their numbers alone."""
@@ -53,7 +56,7 @@ def shown_by(code: str) -> Shown:
         return "number"
     if letters & set("yd") or not letters & set("hs"):
         return "date"
-    return "time" if "h" in letters else "seconds"
+    return ("clock" if "s" in letters else "time") if "h" in letters else "seconds"
 
 
 def _plain(number: float) -> str:
@@ -106,7 +109,11 @@ def written(text: str, shown: Shown, *, since_1904: bool = False) -> str:
     when = begin + timedelta(seconds=seconds)
     if shown == "year":
         return str(when.year)
-    clock = when.strftime("%H:%M:%S").removesuffix(":00")
+    clock = f"{when:%H:%M:%S}"
+    # Lengths of time of one column need as many figures in all its cells.
+    if shown == "clock":
+        return clock
+    clock = clock.removesuffix(":00")
     if shown == "time":
         return clock
     return f"{when:%Y-%m-%d}" + (f" {clock}" if seconds % 86_400 else "")
