@@ -18,7 +18,7 @@ from packwork.readers.tables.pairs import pairs_of_rows, read_weights
 from packwork.readers.tables.table import plain_row, read_table, rows_of_frame
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.shaping import word_item
-from packwork.readers.words.source import ranked_words
+from packwork.readers.words.source import ranked_words, read_words
 from packwork.uses.charts.groups import read_groups
 from packwork.uses.words.recipe import words_recipe
 
@@ -99,3 +99,36 @@ def test_a_series_of_lengths_of_time_is_no_list_of_words() -> None:
     series = pandas.Series(pandas.to_timedelta(["1:30:00", "0:30:00"]), index=["ox", "yak"])
     with pytest.raises(RecipeError, match="weight of 'ox' must be a positive number, not 1:30:00"):
         words_recipe("heart", series)
+
+
+@pytest.mark.parametrize(
+    "title", ["Time sheet\n", "Time sheet\n\n", "Time sheet\n\n;;\n", "Printed at;14:30\n\n"]
+)
+def test_a_title_stands_above_lengths_of_time(title: str, tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text(f"{title}task;person;took\nA;Ann;36:30\nB;Bo;12:15\n", encoding="utf-8")
+    table = read_table(str(file))
+    assert (table.columns, len(table.rows)) == (("task", "person", "took"), 2)
+    assert "above the table" in table.notices[-1]
+
+
+@pytest.mark.parametrize(
+    ("text", "hours"),
+    [
+        ("sleep,8:00\nsport,0:45\n", {"sleep": 8.0, "sport": 0.75}),
+        ("my day\nsleep,8:00\nsport,0:45\n", {"sleep": 8.0, "sport": 0.75}),
+        ("a;8:00:00,5\nb;0:45:00,5\n", {"a": 8 + 0.5 / 3600, "b": 0.75 + 0.5 / 3600}),
+    ],
+)
+def test_a_first_row_with_a_length_of_time_is_a_row(
+    text: str, hours: dict[str, float], tmp_path: Path
+) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text(text, encoding="utf-8")
+    assert {word.text: word.weight for word in read_words(WordOptions(source=str(file)))} == hours
+
+
+def test_times_name_columns_below_a_title(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Seats\n\nroom,8:00,9:00\nA,30,12\nB,5,6\n", encoding="utf-8")
+    assert read_table(str(file)).columns == ("room", "8:00", "9:00")

@@ -163,6 +163,17 @@ def is_number_like(text: str) -> bool:
     return True
 
 
+def is_amount(text: str) -> bool:
+    """Whether a text is a number in some way of writing, or a length of time.
+
+    Examples
+    --------
+    >>> [is_amount(text) for text in ("1.234,5", "36:30", "kg")]
+    [True, True, False]
+    """
+    return is_number_like(text) or bool(durations([text]))
+
+
 def shown_decimal(cells: Iterable[object]) -> str:
     """Sign that parts fractions in cells that know their numbers; a point where none tells.
 

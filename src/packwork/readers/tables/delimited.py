@@ -12,7 +12,7 @@ from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables import workbook
-from packwork.readers.tables.cells import is_number_like
+from packwork.readers.tables.cells import is_amount, is_number_like
 from packwork.readers.tables.decoding import TableFormat, decoded
 
 ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t", **dict.fromkeys(workbook.ENDINGS, "\t")}
@@ -179,7 +179,7 @@ def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:
     if len(rows) < 2 or not _is_even(rows):
         return False
     columns = ([cell for cell in column if cell] for column in zip(*rows[1:], strict=False))
-    return any(column and all(map(is_number_like, column)) for column in columns)
+    return any(column and all(map(is_amount, column)) for column in columns)
 
 
 def _sample(text: str) -> str:
@@ -235,21 +235,21 @@ def _titles_end(lines: Sequence[tuple[int, list[str]]]) -> int:
         rows = 2 if k + 1 in there else 1
         below = (cell for other in there[at + 1 :][:rows] for cell in filled[other])
         is_wider = len(filled[k]) > widest and _are_names(filled[k])
-        if is_parted and is_wider and any(map(is_number_like, below)):
+        if is_parted and is_wider and any(map(is_amount, below)):
             return lines[k][0] - 1
     return 0
 
 
 def _are_names(cells: Sequence[str]) -> bool:
-    """Whether cells may name columns: none is a number, or several are years, but not the first.
+    """Whether cells may name columns: no numbers, or several years or times, but not the first.
 
     Examples
     --------
     >>> [_are_names(row.split()) for row in ("Land kg", "Land 2023 2024", "Bear 2000", "Fox 2 3")]
     [True, True, False, False]
     """
-    numbers = [cell for cell in cells if is_number_like(cell)]
-    are_years = all(_YEAR.fullmatch(cell) for cell in numbers)
+    numbers = [cell for cell in cells if is_amount(cell)]
+    are_years = all(_YEAR.fullmatch(cell) or ":" in cell for cell in numbers)
     return not numbers or (are_years and len(set(numbers)) > 1 and cells[0] not in numbers)
 
 
@@ -271,7 +271,7 @@ def _joined(rows: Sequence[Sequence[str]]) -> tuple[str, ...]:
         over = upper[k] or over
         names.append(f"{over} {lower[k]}".strip())
     is_over = bool(gaps) and not lower[0] and all(lower[1:])
-    has_numbers = any(map(is_number_like, rows[2][1:]))
+    has_numbers = any(map(is_amount, rows[2][1:]))
     return tuple(names) if is_over and has_numbers and len(set(names)) == width else ()
 
 
@@ -294,7 +294,7 @@ def _explains(rows: Sequence[Sequence[str]], delimiter: str) -> bool:
     """Whether other delimiters stand only in the first line and within numbers."""
     others = [mark for mark in NAMES if mark != delimiter]
     return all(
-        is_number_like(cell)
+        is_amount(cell)
         for row in rows[1:] or rows
         for cell in row
         if any(mark in cell for mark in others)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import MOST_COLUMNS, enumerated, no_column
-from packwork.readers.tables.cells import is_blank, is_number_like, written_numbers
+from packwork.readers.tables.cells import is_amount, is_blank, written_numbers
 from packwork.readers.tables.decoding import TableFormat, read_json
 from packwork.readers.tables.delimited import TextTable, check_size, sheet_of_file
 from packwork.readers.tables.durations import check_durations
@@ -122,7 +122,7 @@ def _rows(sheet: TextTable, is_named: bool) -> list[tuple[str, Mapping[str, Any]
     if not lines:
         return []
     first = lines[0][1]
-    named = is_named or (len(first) > 1 and not any(map(is_number_like, first)))
+    named = is_named or (len(first) > 1 and not any(map(is_amount, first)))
     names = [" ".join(name.split()) for name in first] if named else ["word", "weight"]
     rows: list[tuple[str, Mapping[str, Any]]] = []
     for line, cells in lines[1:] if named else lines:
@@ -201,7 +201,7 @@ def _told_of_columns(
         f"{first} and {second} are taken of the columns {enumerated(there, MOST_COLUMNS)}; "
         "--label-by and --size-by take others"
     )
-    numeric = [key for key in rows[0] if all(is_number_like(str(row.get(key, ""))) for row in rows)]
+    numeric = [key for key in rows[0] if all(is_amount(str(row.get(key, ""))) for row in rows)]
     texts = [key for key in rows[0] if key not in numeric]
     if not numeric or not texts:
         return taken, ""
