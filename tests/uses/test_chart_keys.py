@@ -135,3 +135,24 @@ def test_size_keys_are_within_the_numbers_of_the_table(tmp_path: Path) -> None:
     assert [note.says for note in layout.notes if note.says] == ["lb", "5,000", "2,000"]
     layout.save(tmp_path / "cars.svg")
     assert len(read_written(tmp_path / "cars.svg").items) == len(rows)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({}, "took: 2:10 – 41:00"),
+        ({"unit": 1.5}, "= 1:30 took"),
+        ({"by": "who"}, "43:10"),
+    ],
+)
+def test_sizes_that_are_lengths_of_time_are_said_as_such(asked: Any, said: str) -> None:
+    times = [("Ann", "2:10"), ("Ann", "41:00"), ("Bo", "6:05")]
+    rows = [{"who": who, "took": took} for who, took in times]
+    layout = pw.chart("circle", rows, size_by="took", legend=True, **asked, **QUICK)
+    assert said in [note.says for note in layout.notes]
+
+
+def test_a_text_with_a_colon_makes_no_hours_of_numbers() -> None:
+    rows = [{"n": "3"}, {"n": "1.5"}, {"n": "see: B"}]
+    layout = pw.chart("circle", rows, size_by="n", legend=True, **QUICK)
+    assert "n: 1.5 – 3" in [note.says for note in layout.notes]

@@ -346,7 +346,7 @@ def any_number(cell: Any) -> float:
 
 def is_time(cell: Any) -> bool:
     """Whether a cell that knows its number is written as a length of time."""
-    return isinstance(cell, Written) and ":" in cell
+    return isinstance(cell, Written) and ":" in cell and not math.isnan(cell.number)
 
 
 def is_numeric(rows: Sequence[Mapping[str, Any]], column: str) -> bool:

@@ -100,11 +100,10 @@ def legend_notes(chart: Chart, layout: Layout) -> tuple[Note, ...]:
 def _groups(pen: Pen, chart: Chart, layout: Layout) -> None:
     frame, options, cells = chart.frame, chart.options, chart.cells
     sums, places = _sums(chart.read, layout), _places(chart.read)
+    decimal = chart.read.size_decimal
     if places is not None:
         places = places_of(round(number, places) for number in sums.values())
-    written = {
-        cell.name: spoken(sums.get(cell.name, 0.0), chart.read.decimal, places) for cell in cells
-    }
+    written = {cell.name: spoken(sums.get(cell.name, 0.0), decimal, places) for cell in cells}
     pale = readable(between((pen.ink, options.paper), PALE), options.paper, PALE_CONTRAST)
     if chart.regions:
         draw_regions(pen, chart.regions, layout.container.side, pale)
@@ -242,7 +241,7 @@ def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
     line = y + 0.85 * em + max(0.35 * em, (bottom - top) * scale / 2)
     middle = line - 0.35 * em - (top + bottom) / 2 * scale
     pen.shape(mark, frame.left - left * scale, middle, scale, UNKNOWN)
-    stands_for = f"= {spoken(options.unit or 1.0, read.decimal)} {options.size_by or 'rows'}"
+    stands_for = f"= {spoken(options.unit or 1.0, read.size_decimal)} {options.size_by or 'rows'}"
     pen.write(stands_for, frame.left + (right - left) * scale + 0.5 * em, line, em)
 
 
@@ -254,7 +253,7 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
     heading = options.size_by or "rows"
     if not frame.keys:
         # Marks are larger than a key may be, or specks.
-        ends = _ends(dict.fromkeys(read.ends), read.decimal, _places(read))
+        ends = _ends(dict.fromkeys(read.ends), read.size_decimal, _places(read))
         heading += ": " + " – ".join(ends)
     pen.write(heading, frame.left, y + 1.2 * em, em)
     tallest = (mark.bounds[3] - mark.bounds[1]) * max(scales, default=0.0)
@@ -264,7 +263,7 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> None:
         left, top, right, bottom = (v * scale for v in mark.bounds)
         pen.shape(mark, x - left, middle - (top + bottom) / 2, scale, UNKNOWN)
         begin = x + right - left + 0.4 * em
-        x = pen.write(spoken(number, read.decimal), begin, line, KEY_EM * em) + 1.6 * em
+        x = pen.write(spoken(number, read.size_decimal), begin, line, KEY_EM * em) + 1.6 * em
 
 
 def _scale(options: ChartOptions, layout: Layout, mark: Outline, number: float) -> float:

@@ -20,6 +20,7 @@ from packwork.readers.tables.cells import (
     MISSING,
     cell_text,
     is_numeric,
+    is_time,
     shown_decimal,
 )
 from packwork.readers.tables.decoding import TableFormat
@@ -75,6 +76,13 @@ class ChartRead:
     lost: tuple[str, ...]
     ends: tuple[float, float]
     decimal: str = "."
+
+    @property
+    def size_decimal(self) -> str:
+        """What parts the fraction of sizes; the colons of one that is a length of time."""
+        cells = (row.get(self.options.size_by or "") for row in self.table.rows)
+        time = next(filter(is_time, cells), None)
+        return self.decimal if time is None else ":" * time.count(":")
 
     @property
     def told(self) -> tuple[ReadError, ...]:

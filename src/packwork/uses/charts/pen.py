@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterable
+from datetime import timedelta
 from functools import lru_cache
 
 import numpy as np
@@ -13,6 +14,7 @@ from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.lettering import MOST_WORDS, Lettering
 from packwork.readers.reading import UnfitError
+from packwork.readers.tables.durations import written_duration
 from packwork.scene.layout import Note
 from packwork.scene.notation import path_data
 
@@ -25,6 +27,9 @@ slowly, and at last more glyphs than one word may have; smaller cuts long titles
 WEIGHT = 500
 DIGITS = 6
 ROUNDING = 1e-9
+SHORTEST, LONGEST = 1e-5, 1e9
+"""Hours that are said as lengths of time: others have too few digits, or too many. Chosen."""
+
 MIDDLE_EM = 0.35
 """From the line that letters stand on to the middle of theirs."""
 
@@ -162,15 +167,23 @@ def spoken(number: float, decimal: str = ".", places: int | None = None) -> str:
     """Number as people say it, or as the table that it comes from would write it.
 
     With a decimal comma points group thousands, and no English names stand for large numbers.
-    With ``places``, it has so many decimals; else four to six digits are said.
+    With ``places``, it has so many decimals; else four to six digits are said. Hours are said as
+    lengths of time where the sign is ``:``, or ``::`` with seconds at all.
 
     Examples
     --------
     >>> spoken(5e8), spoken(2000), spoken(0.5), spoken(2e-5), spoken(3e20)
     ('500 million', '2,000', '0.5', '0.00002', '3e20')
+    >>> spoken(2.5, ":"), spoken(2.5, "::"), spoken(0.51, ":"), spoken(1e-6, ":")
+    ('2:30', '2:30:00', '0:30:36', '0.000001 h')
     >>> spoken(5e8, ","), spoken(2000, ","), spoken(0.5, ","), spoken(24456.2, ",", 2)
     ('500.000.000', '2.000', '0,5', '24.456,20')
     """
+    if ":" in decimal and SHORTEST <= number < LONGEST:
+        text = written_duration(timedelta(hours=number))
+        return text.removesuffix(":00") if decimal == ":" else text
+    if ":" in decimal:
+        return f"{_english(number, is_named=True, places=None)} h"
     text = _english(number, is_named=decimal == ".", places=places)
     return text if decimal == "." else text.translate(str.maketrans(".,", ",."))
 
