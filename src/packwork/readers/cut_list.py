@@ -11,8 +11,8 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.phrasing import MOST_NAMED, enumerated
 from packwork.readers.reading import exists
-from packwork.readers.tables.decoding import TableFormat
 from packwork.readers.tables.delimited import ENDINGS, UNICODE_TEXT, TextTable, sheet_of_file
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import SPREADSHEETS
 from packwork.readers.tables.workbook import ending_of
 from packwork.sources import here_of

@@ -16,7 +16,7 @@ from packwork.phrasing import enumerated
 from packwork.readers.memory.values import GivenVectors
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table
 from packwork.sources import stored
 

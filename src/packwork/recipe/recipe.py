@@ -19,7 +19,7 @@ from pydantic import (
 from packwork.errors import RecipeError
 from packwork.options import NOT_OFFERED, Group, Offer, Verbs
 from packwork.readers.charts import ChartOptions
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.recipe.order import EmbeddingOptions, OrderOptions
 from packwork.recipe.pictures import MosaicOptions, PictureOptions, check_no_names, known_palette

@@ -13,7 +13,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.readers.charts import ChartOptions
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.tables.cells import is_numeric, written_numbers
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import pairs_of_rows, read_weights
 from packwork.readers.tables.table import plain_row, read_table, rows_of_frame
 from packwork.readers.words.options import WordOptions

@@ -15,8 +15,9 @@ from PIL import Image
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.cells import is_number_like, written_numbers
-from packwork.readers.tables.decoding import TableFormat, decoded
+from packwork.readers.tables.decoding import decoded
 from packwork.readers.tables.delimited import delimiter_of
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.readers.tables.table import read_table
 from packwork.readers.tables.totals import total_rows

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.phrasing import MOST_NAMED, meant, number_of
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.recipe import Recipe
 from packwork.recipe.rules import MAX_COUNT, Pin, Rotation, Rule, hero_rule

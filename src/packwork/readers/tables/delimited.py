@@ -13,7 +13,8 @@ from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables import workbook
 from packwork.readers.tables.cells import is_amount, is_number_like
-from packwork.readers.tables.decoding import TableFormat, decoded
+from packwork.readers.tables.decoding import decoded
+from packwork.readers.tables.format import TableFormat
 
 ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t", **dict.fromkeys(workbook.ENDINGS, "\t")}
 """What parts the cells of a line, by the file's ending, where the lines do not show it."""

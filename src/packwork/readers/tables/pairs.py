@@ -13,9 +13,10 @@ from typing import Any, NamedTuple
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import MOST_COLUMNS, enumerated, no_column
 from packwork.readers.tables.cells import is_amount, is_blank, written_numbers
-from packwork.readers.tables.decoding import TableFormat, read_json
+from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import TextTable, check_size, sheet_of_file
 from packwork.readers.tables.durations import check_durations
+from packwork.readers.tables.format import TableFormat
 
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""

@@ -12,7 +12,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import no_column
 from packwork.readers.reading import read_bytes
 from packwork.readers.tables.cells import Written, figure, is_blank, written_numbers
-from packwork.readers.tables.decoding import TableFormat, read_json
+from packwork.readers.tables.decoding import read_json
 from packwork.readers.tables.delimited import (
     ENDINGS,
     MOST_ROWS,
@@ -22,6 +22,7 @@ from packwork.readers.tables.delimited import (
     sheet_of_file,
 )
 from packwork.readers.tables.durations import check_durations, written_duration
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.parquet import rows_of_parquet
 from packwork.readers.tables.workbook import ending_of
 

@@ -14,7 +14,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.reading import UnfitError
 from packwork.readers.regions import Holes
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.cooccurrence import cooccurrence_vectors
 from packwork.readers.words.options import WeightIs, WordOptions
 from packwork.readers.words.shaping import shaped_word

@@ -12,8 +12,9 @@ from pathlib import Path
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.reading import exists, read_bytes
-from packwork.readers.tables.decoding import Decoded, TableFormat, check_no_document, decoded
+from packwork.readers.tables.decoding import Decoded, check_no_document, decoded
 from packwork.readers.tables.delimited import ENDINGS, NAMES, UNICODE_TEXT, is_parted_by
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import PairColumns
 from packwork.readers.tables.workbook import ending_of
 from packwork.readers.words.lists import listed_names, told_of

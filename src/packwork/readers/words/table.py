@@ -11,8 +11,8 @@ from typing import Any
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.cells import is_blank, is_number_like
-from packwork.readers.tables.decoding import TableFormat
 from packwork.readers.tables.durations import durations
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import (
     MOST_NAMED,
     USUAL,

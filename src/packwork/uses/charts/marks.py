@@ -23,7 +23,7 @@ from packwork.readers.tables.cells import (
     is_time,
     shown_decimal,
 )
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
 from packwork.scene.item import MAX_LENGTH, Datum, Item, Label
 from packwork.uses.charts.groups import Groups, read_groups

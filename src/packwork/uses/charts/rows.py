@@ -22,7 +22,7 @@ from packwork.readers.tables.cells import (
     is_missing,
     is_numeric,
 )
-from packwork.readers.tables.decoding import TableFormat
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import MOST_NAMED
 from packwork.readers.tables.table import Row, Table, read_table
 from packwork.readers.tables.totals import (
