@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 73_473,
-    "lines of docstrings": 20_403,
-    "files": 612,
+    "lines of code": 73_612,
+    "lines of docstrings": 20_447,
+    "files": 613,
     "functions of the road in one plain fill": 94,
     "files of the road in one plain fill": 19,
     "calls of id()": 0,
     "context variables": 3,
     "docstrings that begin with a question word": 0,
     "class names that occur twice": 3,
-    "constants chosen by hand": 804,
+    "constants chosen by hand": 806,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

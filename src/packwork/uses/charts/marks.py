@@ -79,7 +79,7 @@ class ChartRead:
 
     @property
     def size_decimal(self) -> str:
-        """What parts the fraction of sizes; the colons of one that is a length of time."""
+        """Mark before the fraction of sizes, or the colons of one that is a length of time."""
         cells = (row.get(self.options.size_by or "") for row in self.table.rows)
         time = next(filter(is_time, cells), None)
         return self.decimal if time is None else ":" * time.count(":")
