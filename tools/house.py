@@ -61,7 +61,7 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 73_612,
+    "lines of code": 73_614,
     "lines of docstrings": 20_447,
     "files": 613,
     "functions of the road in one plain fill": 94,

@@ -22,10 +22,6 @@ Image: TypeAlias = npt.NDArray[np.floating[Any]]
 """A picture of one number per pixel, float32 or float64, ``[row, col]``."""
 
 
-LARGEST = 1e50
-"""Largest number of a point. Products of several differences must not overflow. Chosen."""
-
-
 def as_points(points: npt.ArrayLike) -> FloatArray:
     """Contiguous float64 copy (or view) of an (n, 2) array of finite points.
 
@@ -37,8 +33,8 @@ def as_points(points: npt.ArrayLike) -> FloatArray:
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 2:
         raise ShapeError(f"points must have shape (n, 2), not {array.shape}")
-    if not np.abs(array).max(initial=0.0) <= LARGEST:
-        raise ShapeError(f"points must be finite numbers up to {LARGEST:g}")
+    if not np.isfinite(array).all():
+        raise ShapeError("points must be finite numbers; some are NaN or infinite")
     return array
 
 

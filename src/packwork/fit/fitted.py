@@ -28,6 +28,9 @@ from packwork.geometry.simplify import simplified
 MOST_CURVES = 100
 """Curves that may be asked for: more is no simpler than the outline itself. Chosen."""
 
+LARGEST = 1e50
+"""Largest number of a point. Products of several differences must not overflow. Chosen."""
+
 FLATNESS = 2e-4
 """Tolerance, as a share of the extent, to which the result is flattened. Chosen."""
 
@@ -117,6 +120,8 @@ def fit_outline(outline: OutlineLike, curves: int = 20) -> FittedOutline:
     if not FEWEST <= curves <= MOST_CURVES:
         raise RecipeError("curves", f"must be {FEWEST} to {MOST_CURVES}, not {curves}")
     outline = Outline.of(outline)
+    if np.abs(outline.points).max(initial=0.0) > LARGEST:
+        raise ShapeError(f"points must be at most {LARGEST:g} from the origin to be fitted")
     _check_simple(outline)
     return _remembered(outline.points.tobytes(), outline.starts.tobytes(), int(curves))
 
